@@ -85,6 +85,7 @@ LawValues complete_values(const LawDescription& law, LawValues values) {
     const auto given = values.find(parameter.name);
     if (given == values.end() && parameter.required())
       fail(law, parameter.name, " is missing; the law takes " + names_text(law));
+    if (given == values.end() && parameter.may_lack) continue;
     if (given == values.end() && parameter.fallback)
       values.emplace(parameter.name, *parameter.fallback);
     else if (given == values.end())

@@ -11,7 +11,11 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-RigidLaw::RigidLaw(double gap) : gap_(gap) { detail::require_finite("RigidLaw", "gap", gap); }
+RigidLaw::RigidLaw(double gap, std::optional<double> restitution) : gap_(gap), restitution_(restitution) {
+  detail::require_finite("RigidLaw", "gap", gap);
+  if (restitution && !zero_to_one.contains(*restitution))
+    detail::reject("RigidLaw", "restitution", *restitution, zero_to_one.text());
+}
 
 double RigidLaw::force(double displacement) const { return displacement > gap_ ? unbounded : 0.0; }
 double RigidLaw::tangent(double displacement) const { return displacement >= gap_ ? unbounded : 0.0; }
@@ -23,9 +27,19 @@ ForceAndTangent RigidLaw::resolvent(double v, double flexibility) const {
 }
 
 LawDescription RigidLaw::description() {
-  return {.name = "rigid", .force = "whatever keeps u <= gap", .parameters = {gap_parameter}, .rigid = true};
+  return {.name = "rigid",
+          .force = "whatever keeps u <= gap; with a restitution, impacts of a contact with mass",
+          .parameters = {may_lack({"restitution", "",
+                                   "velocity after an impact over that before, of contacts with mass",
+                                   zero_to_one}),
+                         gap_parameter},
+          .rigid = true};
 }
 
-RigidLaw RigidLaw::of(const LawValues& values) { return RigidLaw(number_of(values, "gap")); }
+RigidLaw RigidLaw::of(const LawValues& values) {
+  const bool rebounds = values.contains("restitution");
+  return RigidLaw(number_of(values, "gap"),
+                  rebounds ? std::optional(number_of(values, "restitution")) : std::nullopt);
+}
 
 }  // namespace wavebalance::contact

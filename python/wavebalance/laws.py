@@ -111,14 +111,19 @@ class Exponential(Law):
 class Rigid(Law):
     """A rigid obstacle at a gap: u <= g, f >= 0, f (u - g) = 0.
 
-    It needs a ``Structure(..., contact_mass="redistribute")``, whose contacts have no mass: with mass and without a law of
-    impact a continuum of motions satisfies it, and solving raises ValueError. Parameter: `gap` g, m.
+    Without a restitution it needs a ``Structure(..., contact_mass="redistribute")``, whose contacts have no mass: with mass
+    and without a law of impact a continuum of motions satisfies it, and solving raises ValueError. With one, contacts have
+    mass, and impacts leave the obstacle with `restitution` times the velocity before them; ``structure.scene(law, ...)``
+    solves for their motions with :func:`wavebalance.run`. Parameters: `gap` g, m; `restitution` e in 0..1, or None.
     """
 
     _row = "rigid"
 
-    def __init__(self, gap: float = 0.0) -> None:
-        self._make(gap=gap)
+    def __init__(self, gap: float = 0.0, restitution: float | None = None) -> None:
+        if restitution is None:
+            self._make(gap=gap)
+        else:
+            self._make(gap=gap, restitution=restitution)
 
 
 class Bilinear(Law):

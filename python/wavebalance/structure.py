@@ -115,7 +115,8 @@ class Structure(_core.Structure):
         frequency:
             Of the load, Hz.
         pair:
-            Trial and weight functions; 63 Fourier functions with 256 points by default.
+            Trial and weight functions; 63 Fourier functions with 256 points by default. None with ``Rigid(gap,
+            restitution)``, whose motions with impacts have no functions.
         analysis:
             Keys of ``[analysis]``, such as ``type="frequency_sweep"``.
 
@@ -138,7 +139,10 @@ class Structure(_core.Structure):
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
         if self.contact_mass != "keep":
             result["contact"]["mass"] = self.contact_mass
-        result["time"] = (default_pair() if pair is None else pair).scene_keys()
+        if "restitution" not in result["contact"]:
+            result["time"] = (default_pair() if pair is None else pair).scene_keys()
+        elif pair is not None:
+            raise ValueError("motions with impacts have no functions; expected no pair beside a law with restitution")
         if analysis:
             result["analysis"] = analysis
         return result
@@ -150,7 +154,7 @@ class Structure(_core.Structure):
             raise ValueError(f"laws are {len(each)}; expected one law, or one for each of {self.contacts} contacts")
         first = each[0].scene_keys()
         # No contact and a rigid obstacle are those of all contacts of a scene.
-        kept = {"none": (), "rigid": ("gap",)}.get(first["law"])
+        kept = {"none": (), "rigid": tuple(key for key in ("gap", "restitution") if key in first)}.get(first["law"])
         pairs = []
         for contact, law in enumerate(each):
             row, keys = self.S[contact], law.scene_keys()

@@ -24,7 +24,10 @@ const std::vector<report::Step>& figures() {
        small_gap_bar},
       {"lightly_damped_bar",
        identity("Bar, light damping", "case 2 of JL14 with a tenth of its damping", "lightly_damped_bar"),
-       lightly_damped_bar}};
+       lightly_damped_bar},
+      {"impact_oscillator",
+       identity("Impacts", "the oscillator with restitution of Recipes for Continuation", "impact_oscillator"),
+       impact_oscillator}};
   return all;
 }
 

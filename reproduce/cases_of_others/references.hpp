@@ -74,6 +74,11 @@ inline const std::vector<KnownMotion> oscillator_motions{{2.0, {-0.25616405, 0.8
                                                          {2.5, {-2.55458961, 0.0}, 0.1863299386},
                                                          {2.8, {-2.56680525, 0.0}, 0.1330697175}};
 
+/// Recipes for Continuation [H. Dankowicz, F. Schilder, SIAM 2013], example 15.2, and where a motion without
+/// contact reaches a gap.
+inline constexpr const char* coco = "Recipes for Continuation, example 15.2";
+inline constexpr const char* closed_form = "closed form";
+
 /// The bars, Hz.
 inline constexpr const char* modal_shooting = "shooting with exact modal pieces";
 inline const std::vector<KnownPoint> small_gap_points{

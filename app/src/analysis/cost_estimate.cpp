@@ -49,7 +49,7 @@ bool is_sweep(const Analysis& analysis) {
 
 bool is_balance(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  return !integrates_in_time(type) && type != AnalysisType::nonlinear_mode;
+  return !integrates_in_time(type) && type != AnalysisType::nonlinear_mode && !has_impacts(scene.contact);
 }
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {

@@ -1,8 +1,10 @@
 #include "wavebalance/app/analysis/motions.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <utility>
 
+#include "analysis/impact_parts.hpp"
 #include "analysis/phases_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -23,15 +25,69 @@ FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& pr
                            .structure_motion(scene.forcing.frequency, found.motion,
                                              scene.analysis.motion_points, {.tolerance = left_out})
                            .motion.displacement;
+  result.iterations = found.motion.iterations;
+  result.unknowns = found.motion.unknowns;
+  result.residual = found.motion.residual;
   result.found = std::move(found);
   return result;
 }
 
-}  // namespace
+solvers::MotionSource source_of(const solvers::CoexistingImpacts& one) {
+  if (!one.settled) return solvers::MotionSource::newton;
+  return one.from_random ? solvers::MotionSource::random : solvers::MotionSource::rest;
+}
 
-Motions coexisting_motions(const Scene& scene, const StructureModel& model,
-                           const solvers::Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+FoundMotion sampled(solvers::CoexistingImpacts one, int starts, solvers::ContactProblem& problem,
+                    const Scene& scene, const StructureModel& model) {
+  constexpr double left_out = 1e-4;
+  constexpr int most_harmonics = 2048;
+  FoundMotion result;
+  solvers::ImpactResponse& response = one.response;
+  result.contacts = contacts_of(response.motion, scene.analysis.output_points);
+  result.contact = leading_contact(result.contacts, model.gaps);
+  if (scene.analysis.motion_points > 0)
+    result.structure =
+        problem.over_periods(response.load_periods)
+            .structure_motion(scene.forcing.frequency, response.motion, scene.analysis.motion_points,
+                              {.tolerance = left_out, .max_harmonics = most_harmonics})
+            .motion.displacement;
+  result.iterations = response.motion.iterations;
+  result.unknowns = 2 * static_cast<int>(response.motion.impacts.size());
+  result.residual = response.motion.residual;
+  result.found.periods = response.load_periods;
+  result.found.stability = solvers::stability_of_multipliers(response.multipliers);
+  result.found.found_by = source_of(one);
+  result.found.arrivals = one.arrivals;
+  if (starts > 0) {
+    const double share = double(one.arrivals) / starts;
+    result.found.share = share;
+    result.found.share_error = std::sqrt(share * (1.0 - share) / starts);
+  }
+  result.impacts = std::move(response.motion);
+  return result;
+}
+
+Motions impact_motions(const Scene& scene, const StructureModel& model, const solvers::Observer& observer) {
+  Motions result;
+  result.status = "no_modes";
+  if (model.contact_dynamics() == nullptr) return result;
+  solvers::ContactProblem problem = impacts_problem(scene, model);
+  const Analysis& analysis = scene.analysis;
+  solvers::ImpactMotions all = problem.coexisting_impacts(scene.forcing.frequency,
+                                                          {.random_starts = analysis.random_starts,
+                                                           .seed = static_cast<unsigned>(analysis.seed),
+                                                           .longest = analysis.longest_period,
+                                                           .observer = observer});
+  const bool none = all.status == solvers::ImpactStatus::not_settled;
+  result.status = none ? "no_motion" : std::string(to_string(all.status));
+  result.starts = all.starts;
+  result.none = all.none;
+  for (solvers::CoexistingImpacts& one : all.motions)
+    result.motions.push_back(sampled(std::move(one), all.starts, problem, scene, model));
+  return result;
+}
+
+Motions phase_motions(const Scene& scene, const StructureModel& model, const solvers::Observer& observer) {
   solvers::ContactProblem problem = compose_problem(balance_of(scene, least_start_functions(scene)), model);
   const Analysis& analysis = scene.analysis;
   solvers::CoexistingMotions all = solvers::coexisting_motions(problem, scene.forcing.frequency,
@@ -40,9 +96,19 @@ Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                                                                 .longest = analysis.longest_period,
                                                                 .tolerance = scene.time.tolerance,
                                                                 .observer = observer});
-  Motions result{all.status, {}, all.starts, all.none};
+  Motions result{std::string(to_string(all.status)), {}, all.starts, all.none};
   for (solvers::CoexistingMotion& one : all.motions)
     result.motions.push_back(sampled(std::move(one), problem, scene, model));
+  return result;
+}
+
+}  // namespace
+
+Motions coexisting_motions(const Scene& scene, const StructureModel& model,
+                           const solvers::Observer& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  Motions result = has_impacts(scene.contact) ? impact_motions(scene, model, observer)
+                                              : phase_motions(scene, model, observer);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

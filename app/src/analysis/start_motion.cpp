@@ -147,6 +147,9 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
   if (!balanced)
     throw std::invalid_argument("--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
                                 "\" has no start; expected forced_response or frequency_sweep");
+  if (has_impacts(scene.contact))
+    throw std::invalid_argument(
+        "--start-from: not with contact.restitution, whose motions start from what the structure settles to");
   if (solves_by_phases(scene))
     throw std::invalid_argument(
         "--start-from: not with time.method = \"phases\", which starts from a coarse balance of its own; expected "

@@ -30,6 +30,9 @@ const Remedies& of_responses() {
       {"structural_damping", balance},
       {"no_modes", balance},
       {"resonant", "another forcing.frequency, or damping such as structure.stiffness_damping"},
+      {"chattering", "a stiff \"linear\" law, or a larger contact.restitution"},
+      {"lasting_contact", "a stiff \"linear\" law, or a larger contact.restitution"},
+      {"not_settled", "analysis.type = \"motions\", more damping, or another forcing.frequency"},
       {"not_converged",
        "time.functions and time.quadrature_points in place of time.tolerance, or more damping"}};
   return all;

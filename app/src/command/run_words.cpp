@@ -53,6 +53,17 @@ std::string phases_sentence(const std::string& status) {
       {"structural_damping",
        "A loss factor has no equation in time, by which phases are solved: time.method = \"balance\" takes it, and "
        "modal_damping = loss_factor / 2 in its place gives phases."},
+      {"chattering",
+       "Impacts follow each other ever faster until the contact stays closed, which is not solved for with a "
+       "restitution: a stiff \"linear\" law takes it."},
+      {"lasting_contact",
+       "An impact without rebound leaves the contact closed, which is not solved for with a restitution: a stiff "
+       "\"linear\" law takes it."},
+      {"not_settled",
+       "The structure settles to no motion with impacts of up to 16 periods of the load: it is aperiodic, or has not "
+       "settled yet."},
+      {"grazing", "A contact touches its obstacle so slightly that it cannot be told whether it does."},
+      {"effort_limit", "There are more than 2000 impacts in a period of the load."},
       {"no_modes",
        "The modes of the structure, by which phases are solved, could not be computed: time.method = \"balance\" needs "
        "none."}};

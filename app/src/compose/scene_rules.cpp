@@ -116,7 +116,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
 
 /// Settling and phases of contact are those of structures with an equation in time and not too many modes.
 void check_coexisting(const Document& document, const Scene& scene) {
-  if (scene.analysis.type != AnalysisType::motions) return;
+  if (scene.analysis.type != AnalysisType::motions || has_impacts(scene.contact)) return;
   const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
   if (scene.structure.loss_factor > 0.0)
     fail_rule(
@@ -154,7 +154,7 @@ void check_exact(const Document& document, const Scene& scene) {
 /// Branches begin where multipliers pass the unit circle.
 void check_branches(const Document& document, const Scene& scene) {
   if (!scene.analysis.branches) return;
-  if (is_rigid(scene.contact.law))
+  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"analysis.branches", "contact.law"},
         "not with contact.law = \"rigid\", whose perturbations have no finite stiffness; expected false, "
@@ -192,7 +192,7 @@ void check_motions(const Document& document, const Scene& scene) {
 
 /// Each series has what its file and the functions can hold.
 void check_series(const Document& document, const Scene& scene) {
-  const bool phases = solves_by_phases(scene);
+  const bool phases = solves_by_phases(scene) || has_impacts(scene.contact);
   const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
   const int functions = phases ? phases_starts.back() : scene.time.functions;
   const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
@@ -294,15 +294,45 @@ void check_mode(const Document& document, const Scene& scene) {
   if (is_elastic_mode(scene)) check_elastic_mode(document, scene);
 }
 
+/// Impacts are those of contacts with mass in an equation in time, and leave no functions to choose.
+void check_impacts(const Document& document, const Scene& scene) {
+  const auto refuse = [&](bool given, const char* key, const std::string& why) {
+    if (given) fail_rule(document, {key, "contact.restitution"}, why);
+  };
+  refuse(scene.contact.mass == ContactMass::redistribute, "contact.mass",
+         "a contact without mass has no impacts, and contact.restitution says what impacts do; expected one or the "
+         "other");
+  refuse(scene.structure.massless_tip, "structure.massless_tip",
+         "a contact without mass has no impacts; expected false, or no contact.restitution");
+  refuse(scene.structure.matrices.free, "structure.free",
+         "not with contact.restitution: impacts of a structure that is free to move have no periodic Green function; "
+         "expected false");
+  refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
+         "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
+  refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",
+         "not with contact.restitution: impacts take energy from a free motion; expected another analysis");
+  refuse(scene.analysis.exact, "analysis.exact",
+         "not with contact.restitution, with which curves are exact as they are; expected false");
+  refuse(!scene.analysis.motion_at.empty(), "analysis.motion_at",
+         "not with contact.restitution; expected none, or analysis.type = \"forced_response\" at one place");
+}
+
 void check_rigid(const Document& document, const Scene& scene) {
   if (!is_rigid(scene.contact.law)) return;
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    if (scene.contact.pairs[i].values.contains("restitution") && !has_impacts(scene.contact))
+      fail_rule(document, {pair_section(i) + ".restitution", "contact.restitution"},
+                "where one contact has impacts, all have; expected contact.restitution, which holds for pairs "
+                "without one of their own");
+  if (has_impacts(scene.contact)) return check_impacts(document, scene);
   const bool balanced =
       !integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::nonlinear_mode;
   if (balanced && scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
     fail_rule(
         document, {"contact.mass"},
         "not with contact.law = \"rigid\": a continuum of motions satisfies a rigid obstacle and a contact "
-        "with mass without a law of impact; expected \"redistribute\", or a stiff \"linear\" law");
+        "with mass without a law of impact; expected \"redistribute\", contact.restitution, or a stiff \"linear\" "
+        "law");
   if (balanced && scene.contact.form == ContactForm::displacement)
     fail_rule(document, {"contact.form"},
               "not with contact.law = \"rigid\", whose force is no function of the displacement; expected "
@@ -311,8 +341,8 @@ void check_rigid(const Document& document, const Scene& scene) {
     fail_rule(
         document, {"contact.law", "analysis.type"},
         "not with time stepping: at a rigid obstacle the motion of a structure cut into elements goes "
-        "on only with a law of impact, which the scene does not have; expected a stiff \"linear\" law, or "
-        "analysis.type = \"forced_response\"");
+        "on only with a law of impact, which the scene does not have; expected contact.restitution, a stiff "
+        "\"linear\" law, or analysis.type = \"forced_response\"");
 }
 
 /// Each number may be in range and their products not.
@@ -342,9 +372,10 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
-  const bool phases = solves_by_phases(scene);
+  const bool impacts = has_impacts(scene.contact), phases = solves_by_phases(scene);
+  const bool balanced = !stepping && !mode && !phases && !impacts;
   if (phases) check_least_tolerance(document, scene);
-  if (!stepping && !mode && !phases) check_time(document, scene);
+  if (balanced) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
@@ -353,7 +384,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
     check_motions(document, scene);
   if (!mode) check_series(document, scene);
-  if (!stepping && !mode && !phases) check_subharmonic(document, scene);
+  if (balanced) check_subharmonic(document, scene);
   check_branches(document, scene);
   check_exact(document, scene);
   check_coexisting(document, scene);

@@ -39,7 +39,7 @@ void check_damping(const Document& document, const Scene& scene) {
 /// Contacts with mass alone hold a structure that is free to move.
 void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
-  if (is_rigid(scene.contact.law))
+  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"structure.free", "contact.law"},
         "not with contact.law = \"rigid\", which takes the mass from the contacts; expected a stiff \"linear\" "

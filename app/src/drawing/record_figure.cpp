@@ -8,6 +8,7 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_axis.hpp"
 #include "drawing/friction_figure.hpp"
+#include "drawing/impact_figure.hpp"
 #include "plot/thin_curve.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
@@ -44,6 +45,7 @@ std::string method_title(const Scene& scene) {
            ", N = " + std::to_string(scene.analysis.harmonics) +
            ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
+  if (has_impacts(scene.contact)) return "impacts, " + structure_title(scene);
   if (solves_by_phases(scene)) return "contact phases";
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
@@ -203,8 +205,13 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   figure.panel_height = 240;
   figure.panel_width = 600;
   add_motion(figure, "Displacement", "m", response.displacement(), response);
-  add_motion(figure, "Velocity", "m/s", response.velocity(), response);
-  add_motion(figure, "Contact force", "N", response.force(), response);
+  if (response.impacts) {
+    add_velocity_with_jumps(figure, *response.impacts, response.contact, response.velocity());
+    add_impulses(figure, *response.impacts, response.contact);
+  } else {
+    add_motion(figure, "Velocity", "m/s", response.velocity(), response);
+    add_motion(figure, "Contact force", "N", response.force(), response);
+  }
   const SceneContact contact = contacts_of(scene).at(static_cast<std::size_t>(response.contact));
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());

@@ -101,7 +101,8 @@ std::string gap_text(const std::vector<SceneContact>& contacts) {
 }
 
 std::string law_text(const std::vector<SceneContact>& contacts) {
-  if (is_rigid(contacts.front().law)) return "rigid obstacle";
+  if (is_rigid(contacts.front().law))
+    return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle" : "rigid obstacle";
   std::vector<std::string> names;
   for (const SceneContact& one : contacts)
     if (std::find(names.begin(), names.end(), one.law) == names.end()) names.push_back(one.law);
@@ -207,14 +208,24 @@ std::string time_lines(const Time& time) {
 std::string starts_line(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   return fmt::format(
-      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by phases of contact to "
-      "a relative error of {}\n",
-      analysis.longest_period, analysis.random_starts, analysis.seed, number_text(scene.time.tolerance));
+      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
+      analysis.longest_period, analysis.random_starts, analysis.seed,
+      has_impacts(scene.contact)
+          ? "instants and impulses of impacts"
+          : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
+}
+
+std::string impacts_line(const Scene& scene) {
+  const bool sweep = scene.analysis.type != AnalysisType::forced_response &&
+                     scene.analysis.type != AnalysisType::shooting;
+  return fmt::format("time       instants and impulses of impacts{}\n",
+                     sweep ? ", followed by arc length" : ", from the motion that the structure settles to");
 }
 
 std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
   if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
+  if (has_impacts(scene.contact)) return impacts_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
 
@@ -226,7 +237,7 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
-  if (solves_by_phases(scene) || scene.time.tolerance > 0.0) return "";
+  if (solves_by_phases(scene) || has_impacts(scene.contact) || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
                      contact_count(scene) * functions, reduced_size(scene) * functions);

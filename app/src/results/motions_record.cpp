@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "files/missing.hpp"
+#include "results/impacts_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
@@ -17,6 +18,9 @@ namespace {
 
 std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}", number); }
 
+/// Missing of a motion with impacts, which pass on impulses.
+double largest_force(const FoundMotion& one) { return one.impacts ? missing : one.contacts.force.maxCoeff(); }
+
 Table motions_table(const Motions& all) {
   Table table({"file", "number", "period", "stability", "unstable_multipliers", "leading_multiplier_real",
                "leading_multiplier_imag", "max_displacement_m", "max_contact_force_N", "share", "share_error",
@@ -27,7 +31,7 @@ Table motions_table(const Motions& all) {
     table.append_row({name_of_motion(i + 1) + ".csv", std::int64_t(i + 1), std::int64_t{one.found.periods},
                       stability.status, stability.unstable < 0 ? missing : double(stability.unstable),
                       stability.leading.real(), stability.leading.imag(),
-                      one.contacts.displacement.maxCoeff(), one.contacts.force.maxCoeff(), one.found.share,
+                      one.contacts.displacement.maxCoeff(), largest_force(one), one.found.share,
                       one.found.share_error, std::string(to_string(one.found.found_by))});
   }
   return table;
@@ -48,6 +52,8 @@ void append_files(Record& record, const StructureModel& model, const FoundMotion
   if (several)
     record.files.push_back(
         {name + "_contacts.csv", csv_text(contacts_table(motion.contacts)), about + ": every contact"});
+  if (motion.impacts)
+    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(*motion.impacts)), about + ": its impacts"});
   for (RecordFile& file : motion_files(model, motion.structure, name)) {
     file.about = about + ": the whole structure";
     record.files.push_back(std::move(file));
@@ -75,17 +81,17 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   const Motions all = coexisting_motions(scene, model, observer);
   int iterations = 0, unknowns = 0;
   for (const FoundMotion& one : all.motions) {
-    iterations += one.found.motion.iterations;
-    unknowns = std::max(unknowns, one.found.motion.unknowns);
+    iterations += one.iterations;
+    unknowns = std::max(unknowns, one.unknowns);
   }
   Record record;
   record.warnings = model.warnings;
-  record.converged = all.status == solvers::MotionsStatus::converged;
-  record.interrupted = all.status == solvers::MotionsStatus::cancelled;
-  record.status = to_string(all.status);
+  record.converged = all.status == "converged";
+  record.interrupted = all.status == "cancelled";
+  record.status = all.status;
   record.summary =
       solution_entries(record.converged, record.status,
-                       largest(all, [](const FoundMotion& one) { return one.found.motion.residual; }),
+                       largest(all, [](const FoundMotion& one) { return one.residual; }),
                        iterations, unknowns, all.wall_seconds);
   record.summary.emplace_back(quantities::max_displacement, largest(all, [](const FoundMotion& one) {
                                 return one.contacts.displacement.maxCoeff();
@@ -93,12 +99,11 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary.emplace_back(quantities::min_displacement, -largest(all, [](const FoundMotion& one) {
                                 return -one.contacts.displacement.minCoeff();
                               }));
-  record.summary.emplace_back(quantities::max_contact_force, largest(all, [](const FoundMotion& one) {
-                                return one.contacts.force.maxCoeff();
-                              }));
+  record.summary.emplace_back(quantities::max_contact_force, largest(all, largest_force));
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
-  record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
+  const bool impacts = has_impacts(scene.contact);
+  record.summary.emplace_back(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::phases));
   record.summary.emplace_back(quantities::random_starts, std::int64_t{all.starts});
   record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});
   warn_of_scene(record, scene);

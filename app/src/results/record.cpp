@@ -12,6 +12,7 @@
 #include "files/missing.hpp"
 #include "results/curve_motion_files.hpp"
 #include "results/friction_record.hpp"
+#include "results/impacts_record.hpp"
 #include "results/mode_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/motions_record.hpp"
@@ -107,16 +108,18 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
   append_friction(record, scene, response);
+  append_impacts(record, scene, response);
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
-  if (scene.analysis.type == AnalysisType::forced_response || is_by_phases(response))
+  if ((scene.analysis.type == AnalysisType::forced_response || is_by_phases(response)) && !response.impacts)
     record.summary.emplace_back(quantities::strategy, response.strategy);
   if (!response.solved_by.empty()) record.summary.emplace_back(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
-  if (response.moves && scene.contact.law != no_law && !response.contacts.force.any())
+  const bool touches = response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
+  if (response.moves && scene.contact.law != no_law && !touches)
     warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
-  append_period(record, response.periods, response.motion_periods);
-  if (response.periods > 1)
+  if (!response.impacts) append_period(record, response.periods, response.motion_periods);
+  if (response.periods > 1 && !response.impacts)
     record.summary.emplace_back(quantities::change_after_one_period,
                                 response.moves ? response.change_after_one : missing);
   append_attractor(record, response.periods, response);
@@ -132,7 +135,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (response.structure_harmonics > 0)
     record.summary.emplace_back(quantities::structure_left_out, response.structure_left_out);
-  if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response))
+  if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response) && !response.impacts)
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
   if (!response.moves || response.contacts.empty()) return record;
@@ -162,7 +165,7 @@ double least_displacement(const solvers::FrequencySweep& curve) {
 /// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
 /// where contacts differ, and where the displacement alone does not say it.
 double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
-  if (curve.points.empty()) return missing;
+  if (curve.points.empty() || has_impacts(scene.contact)) return missing;
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
     return !other.pair && other.same_law(contacts.front());
@@ -171,6 +174,36 @@ double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, d
   if (one && curve.form != solvers::ContactForm::force && !is_damped(law) && !acts_on_both_sides(law))
     return make_laws(scene)[0].force(displacement);
   return largest(curve, &solvers::SweepPoint::max_force);
+}
+
+/// Whether a contact closes anywhere along the curve.
+bool touches(const Sweep& sweep) {
+  if (sweep.impacts.empty()) return largest(sweep.curve, &solvers::SweepPoint::contact_fraction) > 0.0;
+  return std::any_of(sweep.impacts.front().begin(), sweep.impacts.front().end(),
+                     [](const PointImpacts& point) { return point.count > 0; });
+}
+
+/// Of each point, the most where they differ.
+int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
+  if (sweep.impacts.empty()) return model.contacts() * scene.time.functions;
+  int most = 0;
+  for (const PointImpacts& point : sweep.impacts.front()) most = std::max(most, 2 * point.count + 1);
+  return most;
+}
+
+/// The largest impulse of the curve, over how many periods of the load its motions repeat, and what there is in
+/// place of a first motion.
+void append_impacts(Record& record, const Sweep& sweep) {
+  if (sweep.impacts.empty()) return;
+  Summary& summary = record.summary;
+  if (!sweep.start_status.empty() && !record.interrupted)
+    record.warnings.push_back(fmt::format(
+        "Where the curve was to begin the structure settles to no periodic motion that is solved for: {}.",
+        sweep.start_status));
+  double impulse = sweep.curve.points.empty() ? missing : 0.0;
+  for (const PointImpacts& point : sweep.impacts.front()) impulse = std::max(impulse, point.largest_impulse);
+  summary.emplace_back(quantities::max_impulse, impulse);
+  if (sweep.periods > 1) summary.emplace_back(quantities::period_of_motion, std::int64_t{sweep.periods});
 }
 
 /// Frequency or amplitude of the point with the largest displacement; missing without points.
@@ -191,7 +224,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
       solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual),
-                       points, model.contacts() * scene.time.functions, sweep.wall_seconds);
+                       points, unknowns_of(scene, model, sweep), sweep.wall_seconds);
   record.summary.emplace_back(quantities::max_displacement, highest);
   record.summary.emplace_back(quantities::peak_place(sweep_axis(sweep).unit), place_of_peak(sweep.curve));
   record.summary.emplace_back(quantities::min_displacement, least_displacement(sweep.curve));
@@ -205,15 +238,17 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   record.summary.emplace_back(quantities::points, std::int64_t{points});
   warn_of_scene(record, scene);
-  if (points > 0 && scene.contact.law != no_law &&
-      largest(sweep.curve, &solvers::SweepPoint::contact_fraction) == 0.0)
+  if (points > 0 && scene.contact.law != no_law && !touches(sweep))
     warn_of_open_contacts(record, highest, model.gaps.minCoeff());
-  append_period(record, sweep.periods, sweep.motion_periods);
+  if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
+  append_impacts(record, sweep);
   append_stability(record, sweep);
   append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_motions(record, scene, model, sweep, motions);
-  if (scene.analysis.exact) {
+  if (has_impacts(scene.contact)) {
+    record.summary.emplace_back(quantities::solved_by, "impacts");
+  } else if (scene.analysis.exact) {
     record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
   } else {
     append_discretisation(record.summary, scene.time);
@@ -229,6 +264,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                    const StartMotion& start) {
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
+  if (has_impacts(scene.contact)) return impact_sweep(scene, model, observer);
   if (scene.analysis.exact) return exact_sweep(scene, model, observer, start);
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
                                : frequency_sweep(scene, model, observer, start);
@@ -266,6 +302,7 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
                      ResponseOptions options) {
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases && !has_friction(scene);
+  if (has_impacts(scene.contact)) return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);
@@ -290,10 +327,14 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
     case AnalysisType::nonlinear_mode:
       return mode_record(scene, model, how.observer);
     case AnalysisType::time_stepping:
-      return response_record(scene, model, time_stepping_response(scene, model, options));
+      return response_record(scene, model,
+                             has_impacts(scene.contact) ? impacts_response(scene, model, options)
+                                                        : time_stepping_response(scene, model, options));
     case AnalysisType::shooting:
       options.stability = true;
-      return response_record(scene, model, phases_response(scene, model, options));
+      return response_record(scene, model,
+                             has_impacts(scene.contact) ? impacts_response(scene, model, options)
+                                                        : phases_response(scene, model, options));
     case AnalysisType::motions:
       return motions_record(scene, model, how.observer);
     case AnalysisType::forced_response:

@@ -37,6 +37,9 @@ bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velo
 bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
 bool has_friction(std::string_view law) { return contact::law_entry(law).acts_over_period; }
+bool has_impacts(const Contact& contact) {
+  return is_rigid(contact.law) && contact.values.contains("restitution");
+}
 
 Scene with_longer_period(Scene scene, int times) {
   Time& time = scene.time;
@@ -52,6 +55,7 @@ bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_s
 
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
+  if (has_impacts(scene.contact)) return false;
   return type == AnalysisType::shooting || type == AnalysisType::motions ||
          (type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases);
 }
@@ -78,7 +82,7 @@ std::vector<std::string> input_files(const Scene& scene) {
 
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (integrates_in_time(type)) return false;
+  if (integrates_in_time(type) || has_impacts(scene.contact)) return false;
   const bool rigid = is_rigid(scene.contact.law) && type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||
          (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);

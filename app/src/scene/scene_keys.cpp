@@ -26,20 +26,21 @@ bool Condition::Clause::holds(const Scene& scene) const {
 
 Condition Condition::unless(std::string_view key) const {
   Condition result = *this;
-  result.unless_ = key;
+  result.unless_.push_back(key);
   return result;
 }
 
 bool Condition::holds(const Scene& scene) const { return broken_by(scene).empty(); }
 
 bool Condition::concerns(std::string_view key) const {
-  return key == unless_ || std::any_of(clauses_.begin(), clauses_.end(),
-                                       [&](const Clause& clause) { return clause.key == key; });
+  return std::find(unless_.begin(), unless_.end(), key) != unless_.end() ||
+         std::any_of(clauses_.begin(), clauses_.end(),
+                     [&](const Clause& clause) { return clause.key == key; });
 }
 
 std::string_view Condition::broken_by(const Scene& scene) const {
-  if (const SceneKey* key = find_scene_key(unless_); key && key->get(scene) != key->get(Scene{}))
-    return unless_;
+  for (const std::string_view name : unless_)
+    if (const SceneKey* key = find_scene_key(name); key && key->get(scene) != key->get(Scene{})) return name;
   const auto broken = std::find_if(clauses_.begin(), clauses_.end(),
                                    [&](const Clause& clause) { return !clause.holds(scene); });
   return broken == clauses_.end() ? std::string_view{} : broken->key;
@@ -47,7 +48,9 @@ std::string_view Condition::broken_by(const Scene& scene) const {
 
 Condition operator&&(Condition left, const Condition& right) {
   left.clauses_.insert(left.clauses_.end(), right.clauses_.begin(), right.clauses_.end());
-  if (left.unless_.empty()) left.unless_ = right.unless_;
+  for (const std::string_view name : right.unless_)
+    if (std::find(left.unless_.begin(), left.unless_.end(), name) == left.unless_.end())
+      left.unless_.push_back(name);
   return left;
 }
 

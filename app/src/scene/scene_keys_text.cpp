@@ -166,7 +166,9 @@ std::string Condition::text() const {
   std::string text;
   for (const Clause& clause : clauses_)
     text += (text.empty() ? "" : " and ") + std::string(clause.key) + " = " + alternatives(clause.values);
-  return unless_.empty() ? text : text + " unless " + std::string(unless_) + " is given";
+  std::string keys;
+  for (const std::string_view key : unless_) keys += (keys.empty() ? "" : " or ") + std::string(key);
+  return keys.empty() ? text : text + " unless " + keys + " is given";
 }
 
 std::string SceneKey::expected() const {

@@ -25,7 +25,7 @@ using testing::EventShooting;
 using testing::SpringSystem;
 
 const std::vector<std::string> names{"pyharm_onedofgap", "nlvib_example03", "oscillator_with_stop",
-                                     "small_gap_bar", "lightly_damped_bar"};
+                                     "small_gap_bar", "lightly_damped_bar", "impact_oscillator"};
 
 report::PaperResults& results() {
   static report::PaperResults all(figures());

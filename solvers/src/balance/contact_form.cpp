@@ -57,6 +57,10 @@ void require_massless_rigid_contacts(const LinearStructure& structure, const Con
 
 Eigen::VectorXd contact_series_flexibility(const CondensedProblem& problem, const ContactLaws& laws,
                                            ContactForm form) {
+  if (laws.have_impacts())
+    throw std::invalid_argument(
+        "a law with restitution has impacts, which no balance solves for; take impact_response(), or a rigid law "
+        "without restitution at contacts without mass");
   const bool rigid = !laws.have_finite_force();
   if (form == ContactForm::displacement) {
     if (!rigid) return {};

@@ -54,6 +54,23 @@ std::vector<int> ContactLaws::rigid(int contacts) const {
   return found;
 }
 
+bool ContactLaws::have_impacts() const {
+  return std::any_of(laws_.begin(), laws_.end(),
+                     [](const AnyContactLaw& law) { return law.restitution().has_value(); });
+}
+
+Eigen::VectorXd ContactLaws::restitution(int contacts) const {
+  Eigen::VectorXd all(contacts);
+  for (int c = 0; c < contacts; ++c) {
+    const std::optional<double> one = (*this)[c].restitution();
+    if (!one)
+      throw std::invalid_argument("the law of contact " + std::to_string(c + 1) +
+                                  " has no restitution; where one contact has impacts, all must");
+    all[c] = *one;
+  }
+  return all;
+}
+
 bool ContactLaws::unilateral() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
 }

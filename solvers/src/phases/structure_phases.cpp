@@ -62,12 +62,12 @@ double distance_to_contacts(const Eigen::MatrixXd& values, const Eigen::MatrixXd
 // The amplitudes of all degrees of freedom at one harmonic after the other.
 class Harmonics {
  public:
-  Harmonics(const CondensedProblem& problem, const PhaseMotion& motion)
-      : motion_(motion),
+  Harmonics(const CondensedProblem& problem, const ContactSource& source)
+      : source_(source),
         rate_(2.0 * std::numbers::pi * problem.frequency() * imaginary_unit),
         repeats_(load_periods(problem)),
         loads_(detail::loads_of(problem, repeats_)),
-        structure_(detail::held_by_springs(problem.structure(), motion.parts->model.holding())),
+        structure_(detail::held_by_springs(problem.structure(), source.holding)),
         condensation_(structure_) {}
 
   const LinearStructure& structure() const { return structure_; }
@@ -76,7 +76,7 @@ class Harmonics {
   // Those from the number taken before up to `count` - 1.
   template <class Take>
   void take_up_to(int count, const Take& take) {
-    const Eigen::MatrixXcd forces = motion_.force_harmonics(count);
+    const Eigen::MatrixXcd forces = source_.force_harmonics(count);
     for (; taken_ < count; ++taken_) {
       const std::complex<double> s = rate(taken_);
       take(taken_, condensation_.recover({s * s, s, 1.0}, loads_at(taken_), forces.col(taken_)));
@@ -90,7 +90,7 @@ class Harmonics {
     return loads_.col(harmonic / repeats_);
   }
 
-  const PhaseMotion& motion_;
+  const ContactSource& source_;
   std::complex<double> rate_;
   int repeats_, taken_ = 0;
   Eigen::MatrixXcd loads_;
@@ -134,16 +134,24 @@ void StructurePhasesOptions::validate() const {
 
 StructurePhases structure_phases(const CondensedProblem& problem, const PhaseMotion& motion, int points,
                                  const StructurePhasesOptions& options) {
+  if (motion.parts == nullptr) throw std::invalid_argument("structure_phases: there is no motion");
+  const ContactSource source{[&](int count) { return motion.force_harmonics(count); },
+                             [&](const Eigen::VectorXd& times) { return motion.displacement(times); },
+                             motion.parts->model.holding()};
+  return structure_motion_of(problem, source, points, options);
+}
+
+StructurePhases structure_motion_of(const CondensedProblem& problem, const ContactSource& source, int points,
+                                    const StructurePhasesOptions& options) {
   constexpr int least_points = 256;  // at which contacts are compared
   options.validate();
   detail::require_at_least("structure_phases", "points", points, 1);
-  if (motion.parts == nullptr) throw std::invalid_argument("structure_phases: there is no motion");
-  Harmonics harmonics(problem, motion);
+  Harmonics harmonics(problem, source);
   const ContactDirections& directions = problem.structure().contact_directions;
   FoldedSpectrum displacement(problem.structure().size(), points),
       velocity(problem.structure().size(), points), contacts(directions.rows(), least_points);
   const Eigen::MatrixXd exact =
-      motion.displacement(Eigen::VectorXd::LinSpaced(least_points, 0.0, 1.0 - 1.0 / least_points));
+      source.displacement(Eigen::VectorXd::LinSpaced(least_points, 0.0, 1.0 - 1.0 / least_points));
   StructurePhases result;
   for (int count = options.first_harmonics;; count = std::min(2 * count, options.max_harmonics)) {
     harmonics.take_up_to(count, [&](int n, const Eigen::VectorXcd& amplitudes) {

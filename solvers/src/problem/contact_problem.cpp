@@ -49,6 +49,10 @@ ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
 
 void ContactProblem::require_well_posed() const {
   laws_.require(contacts());
+  if (laws_.have_impacts()) {
+    laws_.restitution(contacts());
+    return;
+  }
   require_massless_rigid_contacts(structure(), laws_);
 }
 

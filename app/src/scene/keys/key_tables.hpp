@@ -19,8 +19,10 @@ inline Condition law_is(std::vector<std::string_view> laws) { return {"contact.l
 inline Condition analysis_is(std::vector<std::string_view> types) {
   return {"analysis.type", std::move(types)};
 }
-/// Not of responses by phases of contact, which have no functions.
-inline Condition by_balance() { return {"time.method", {"balance"}}; }
+/// Not of motions by phases of contact or with impacts, which have no functions.
+inline Condition by_balance() {
+  return Condition("time.method", {"balance"}).unless("contact.restitution");
+}
 
 /// Each appends the keys of its section.
 void add_structure_keys(std::vector<SceneKey>& keys);

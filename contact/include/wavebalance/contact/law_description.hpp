@@ -26,9 +26,10 @@ struct LawRange {
 
 inline constexpr LawRange above_zero{.lower = 0.0, .lower_excluded = true};
 inline constexpr LawRange at_least_zero{.lower = 0.0};
+inline constexpr LawRange zero_to_one{.lower = 0.0, .upper = 1.0};
 inline constexpr LawRange other_than_zero{.zero_excluded = true};
 
-/// One parameter of a law. One that has neither `fallback` nor `same_as` must be given. Parameters of one
+/// One parameter of a law. One that has neither `fallback` nor `same_as` must be given unless it `may_lack`. Parameters of one
 /// name have the same unit, kind and default in all laws.
 struct LawParameter {
   enum class Kind { number, list, file };
@@ -41,8 +42,9 @@ struct LawParameter {
   int length = 0;                       ///< number of entries of a list; 0: any from 1 on
   std::optional<double> fallback = {};  ///< the value where none is given
   std::string_view same_as = {};        ///< or the parameter whose value it then has
+  bool may_lack = false;                ///< the law is another one without it
 
-  bool required() const { return !fallback && same_as.empty(); }
+  bool required() const { return !fallback && same_as.empty() && !may_lack; }
 };
 
 /// What a law says of itself: static texts, so that the description may be copied freely.
@@ -91,6 +93,11 @@ constexpr LawParameter with_default(LawParameter parameter, double value) {
 /// A parameter that has the value of another where none is given.
 constexpr LawParameter same_as(std::string_view other, LawParameter parameter) {
   parameter.same_as = other;
+  return parameter;
+}
+/// A parameter that need not be given.
+constexpr LawParameter may_lack(LawParameter parameter) {
+  parameter.may_lack = true;
   return parameter;
 }
 /// A list of `length` numbers, or of any from 1 on.

@@ -1,6 +1,11 @@
 #pragma once
 #include <vector>
 
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/problem/coexisting_motions.hpp"
@@ -9,7 +14,10 @@ namespace wavebalance::app {
 
 /// One of the motions of a frequency, as it is written.
 struct FoundMotion {
-  solvers::CoexistingMotion found;
+  solvers::CoexistingMotion found;  ///< of scenes with impacts without its motion by phases
+  std::optional<solvers::ImpactMotion> impacts = {};  ///< of scenes with impacts
+  int iterations = 0, unknowns = 0;                   ///< of Newton's method
+  double residual = std::numeric_limits<double>::quiet_NaN();
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points of its whole period
   int contact = 0;            ///< the leading one, see leading_contact()
   Eigen::MatrixXd structure;  ///< of the reduced structure at analysis.motion_points instants, m; or empty
@@ -17,13 +25,14 @@ struct FoundMotion {
 
 /// The motions at forcing.frequency.
 struct Motions {
-  solvers::MotionsStatus status = solvers::MotionsStatus::no_motion;
+  std::string status = "no_motion";  ///< solvers::MotionsStatus
   std::vector<FoundMotion> motions;
   int starts = 0, none = 0;   ///< as of solvers::CoexistingMotions
   double wall_seconds = 0.0;  ///< composition, search and samples
 };
 
-/// solvers::coexisting_motions() of a scene with analysis.type = "motions".
+/// solvers::coexisting_motions() of a scene with analysis.type = "motions", with contact.restitution
+/// solvers::impact_motions().
 Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                            const solvers::Observer& observer = {});
 

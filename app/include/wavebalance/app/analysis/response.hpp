@@ -7,6 +7,7 @@
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/impacts/impact_response.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
@@ -77,6 +78,8 @@ struct Response {
   /// Set if converged, with ResponseOptions::phases of a structure whose modes are known, and in scenes by
   /// phases where a motion was found, then without errors of a response.
   std::optional<solvers::ResponsePhases> phases;
+  /// Set in scenes with impacts. Between them no contact exerts a force, so that `contacts` have none.
+  std::optional<solvers::ImpactResponse> impacts;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
@@ -144,5 +147,13 @@ Response phases_response(const Scene& scene, const StructureModel& model,
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
                                 const ResponseOptions& options = {});
+
+/// The motion with impacts that the structure settles to, of scenes with contact.restitution: exact flights from
+/// impact to impact until it nearly repeats, and of forced responses Newton's method on instants and impulses
+/// from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it repeats to
+/// analysis.tolerance. The whole structure's motion is summed up from harmonics to 1e-4, since those of impulses
+/// do not decay. The status is a solvers::ImpactStatus, or "no_modes".
+Response impacts_response(const Scene& scene, const StructureModel& model,
+                          const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app

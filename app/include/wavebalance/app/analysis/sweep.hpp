@@ -13,6 +13,13 @@
 
 namespace wavebalance::app {
 
+/// The impacts of a point of a curve.
+struct PointImpacts {
+  int count = 0;                 ///< in the period of the motion
+  double largest_impulse = 0.0;  ///< N s
+  double energy_lost = 0.0;      ///< J in a period of the load
+};
+
 /// A curve of responses over the frequency or the amplitude. Frequencies are those of the load, also of the
 /// branches; of an amplitude sweep load scales are amplitudes.
 struct Sweep {
@@ -20,6 +27,9 @@ struct Sweep {
   solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
   std::vector<solvers::Branch> branches;  ///< set by add_stability() with analysis.branches
   std::vector<SweepPhases> phases = {};   ///< set by add_phases(): of the curve, then of each branch
+  /// Of scenes with impacts: of each point of the curve, then of each branch.
+  std::vector<std::vector<PointImpacts>> impacts = {};
+  std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
   bool phases_cancelled = false;          ///< the observer stopped add_phases()
   int periods = 1;                        ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
@@ -63,6 +73,12 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
 /// of its phases are those that are estimated. Starts as frequency_sweep() does.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
+
+/// The scene's curve over frequency or amplitude with contact.restitution: motions with impacts, with their
+/// stability, special points and, with analysis.branches, the motions of twice as many periods that begin at
+/// period doublings. It begins with the motion that the structure settles to. What an impact passes on is an
+/// impulse and not a force, so that points have no contact force.
+Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of

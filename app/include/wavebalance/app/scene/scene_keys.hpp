@@ -31,7 +31,7 @@ struct Bounds {
 };
 
 /// A condition on a scene: the conjunction of clauses "key has one of these values", true if there is no
-/// clause. It is false if the scene holds the key of unless().
+/// clause. It is false if the scene holds a key of unless().
 class Condition {
  public:
   Condition() = default;
@@ -60,7 +60,7 @@ class Condition {
     bool holds(const Scene& scene) const;
   };
   std::vector<Clause> clauses_;
-  std::string_view unless_;
+  std::vector<std::string_view> unless_;
 };
 
 /// One key of a scene file; the loader, the writer and the help all use this description.

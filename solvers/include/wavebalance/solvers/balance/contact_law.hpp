@@ -74,6 +74,13 @@ concept SaysItsBreakpoints = requires(const Law& law) {
   { law.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
+/// A rigid law that says with which share of its velocity a contact with mass leaves the obstacle after an impact,
+/// 0..1; nothing of a contact without mass, which has no impacts.
+template <class Law>
+concept SaysItsRestitution = requires(const Law& law) {
+  { law.restitution() } -> std::convertible_to<std::optional<double>>;
+};
+
 /// A law that says whether its force falls nowhere, so that its resolvent is one force for every v.
 template <class Law>
 concept SaysWhetherItRises = requires(const Law& law) {
@@ -156,6 +163,8 @@ class AnyContactLaw {
   ForceSlope resolvent(double v, double flexibility) const { return model_->resolvent(v, flexibility); }
   /// Whether the force beyond the gap is infinite, so that only the force form can solve for it.
   bool is_rigid() const;
+  /// The restitution of a law that SaysItsRestitution; nothing for others.
+  std::optional<double> restitution() const { return model_->restitution(); }
   /// Whether the force vanishes below the gap and is never negative.
   bool unilateral() const { return model_->unilateral(); }
   /// Whether the force form may solve for it: a unilateral law, or one that says that it is monotone, of the
@@ -190,6 +199,7 @@ class AnyContactLaw {
       refuse_steps();
     }
     virtual std::optional<FrictionConstants> friction() const { return std::nullopt; }
+    virtual std::optional<double> restitution() const { return std::nullopt; }
     virtual double force(double displacement) const = 0;
     virtual double tangent(double displacement) const = 0;
     virtual double potential(double displacement) const = 0;
@@ -254,6 +264,12 @@ class AnyContactLaw {
     }
     double potential(double displacement) const override { return law_.potential(displacement); }
     double gap() const override { return law_.gap(); }
+    std::optional<double> restitution() const override {
+      if constexpr (SaysItsRestitution<Law>)
+        return law_.restitution();
+      else
+        return std::nullopt;
+    }
     ForceSlope resolvent(double v, double flexibility) const override {
       if constexpr (OffersResolvent<Law>) {
         const auto both = law_.resolvent(v, flexibility);

@@ -46,6 +46,10 @@ class ContactLaws {
   bool have_finite_force() const;
   /// Those of `contacts` contacts whose law is rigid.
   std::vector<int> rigid(int contacts) const;
+  /// Whether one has a restitution, so that motions have impacts.
+  bool have_impacts() const;
+  /// The restitution of each of `contacts` contacts. Throws std::invalid_argument where one has none.
+  Eigen::VectorXd restitution(int contacts) const;
   /// Whether all laws are unilateral.
   bool unilateral() const;
   /// Whether the force form may solve for all of them.

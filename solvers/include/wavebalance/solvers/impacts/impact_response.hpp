@@ -8,10 +8,16 @@ namespace wavebalance::solvers {
 
 /// How a motion with impacts is integrated until it repeats.
 struct ImpactResponseOptions {
-  int max_periods = 2000;        ///< of the load
-  int longest = 16;              ///< periods of the load after which a motion may repeat
-  int max_impacts = 2000;        ///< in a period of the load
-  double near = 1e-2;            ///< relative change of the state after which Newton's method is tried
+  int max_periods = 2000;  ///< of the load
+  int longest = 16;        ///< periods of the load after which a motion may repeat
+  int max_impacts = 2000;  ///< in a period of the load
+  double near = 1e-2;      ///< relative change of the state after which Newton's method is tried
+  /// false: no Newton's method; the motion is that of the last periods once they repeat to `near`, and its
+  /// stability is not known.
+  bool solve = true;
+  /// The deviation from the motion without contact at t = 0, one number for each of ContactDynamics::poles();
+  /// empty: where it is clear of all obstacles.
+  Eigen::VectorXcd start{};
   ImpactMotionOptions newton{};  ///< its observer is not called
   Observer observer = {};        ///< called once per period
 

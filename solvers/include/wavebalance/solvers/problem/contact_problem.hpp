@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "wavebalance/solvers/exact/exact_curve.hpp"
+#include "wavebalance/solvers/impacts/impact_curve.hpp"
+#include "wavebalance/solvers/impacts/impact_motions.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -34,7 +36,9 @@ struct ResponseStart {
 class ContactProblem {
  public:
   /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law at
-  /// a contact with mass, and as CondensedProblem does.
+  /// a contact with mass unless it has a restitution, and as CondensedProblem does. With restitution there
+  /// are impacts, motions of which have questions of their own, below; the others throw
+  /// std::invalid_argument.
   ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods = 1);
   /// Takes a problem with another load, or a structure whose dynamics are shared with others.
   ContactProblem(CondensedProblem problem, ContactLaws laws,
@@ -113,12 +117,32 @@ class ContactProblem {
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 
+  /// impact_response() at a frequency of the load, impact_motions(), and impact_curve() from what a structure
+  /// settles to at options.from, or at a frequency over the load scale. The curve has the status `no_start`
+  /// where it settles to no motion; `first` says what it settles to. Throw std::invalid_argument for laws
+  /// without restitution, a structure without modes, and as these do.
+  ImpactResponse impacts(double frequency, const ImpactResponseOptions& options = {});
+  ImpactMotions coexisting_impacts(double frequency, const ImpactMotionsOptions& options = {});
+  ImpactCurve impact_sweep(ImpactCurveOptions options, ImpactResponse* first = nullptr);
+  ImpactCurve impact_amplitude_sweep(double frequency, ImpactCurveOptions options,
+                                     ImpactResponse* first = nullptr);
+  /// The curves of twice as many periods from the period doublings of a curve that was traced with `options`.
+  std::vector<ImpactCurve> impact_branches(const ImpactCurve& curve, SweepParameter parameter,
+                                           double frequency, const ImpactCurveOptions& options);
+  /// The motion of all degrees of freedom, structure_phases() of one with impacts.
+  StructurePhases structure_motion(double frequency, const ImpactMotion& motion, int points,
+                                   const StructurePhasesOptions& options = {});
+
   /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
   TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
 
  private:
   void require_well_posed() const;
+  const ContactDynamics& dynamics_of_impacts() const;
+  ImpactsProblem impacts_here() const;
+  ImpactFamily impact_family(SweepParameter parameter) const;
+  ImpactCurve traced_impacts(SweepParameter parameter, ImpactCurveOptions options, ImpactResponse* first);
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
   std::optional<PhaseMotion> motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,

@@ -1,0 +1,59 @@
+#include "results/impacts_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "files/missing.hpp"
+#include "results/quantities.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Where contact lasts, and from when on.
+void warn_of_lasting_contact(Record& record, const solvers::ImpactMotion& motion, double frequency) {
+  using solvers::ImpactStatus;
+  if (motion.status != ImpactStatus::chattering && motion.status != ImpactStatus::lasting_contact) return;
+  const bool chatters = motion.status == ImpactStatus::chattering;
+  record.warnings.push_back(fmt::format(
+      "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. Motions with "
+      "contact that lasts are not solved for with a restitution.",
+      chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound is pressed on",
+      motion.chattering_contact + 1, motion.chattering_end / frequency));
+}
+
+}  // namespace
+
+Table impacts_table(const solvers::ImpactMotion& motion) {
+  Table table({"impact", "time_fraction", "contact", "velocity_before_m_per_s", "velocity_after_m_per_s",
+               "impulse_Ns", "energy_lost_J"});
+  std::int64_t number = 0;
+  for (const solvers::Impact& one : motion.impacts)
+    table.append_row({++number, one.time, std::int64_t{one.contact + 1}, one.velocity_before,
+                      one.velocity_after, one.impulse, one.energy_lost});
+  return table;
+}
+
+void append_impacts(Record& record, const Scene& scene, const Response& response) {
+  if (!response.impacts) return;
+  const solvers::ImpactMotion& motion = response.impacts->motion;
+  double impulse = 0.0, velocity = 0.0;
+  for (const solvers::Impact& one : motion.impacts) {
+    impulse = std::max(impulse, one.impulse);
+    velocity = std::max(velocity, one.velocity_before);
+  }
+  const bool known = response.moves;
+  record.summary.emplace_back(quantities::impacts, known ? double(motion.impacts.size()) : missing);
+  record.summary.emplace_back(quantities::max_impulse, known ? impulse : missing);
+  record.summary.emplace_back(quantities::max_impact_velocity, known ? velocity : missing);
+  record.summary.emplace_back(quantities::impact_energy,
+                              known ? motion.energy_lost() / response.impacts->load_periods : missing);
+  if (known && response.impacts->load_periods > 1)
+    record.summary.emplace_back(quantities::period_of_motion, std::int64_t{response.impacts->load_periods});
+  warn_of_lasting_contact(record, motion, scene.forcing.frequency);
+  if (known && !motion.impacts.empty())
+    record.files.push_back({"impacts.csv", csv_text(impacts_table(motion)),
+                            "The impacts of a period: instants, velocities, impulses and energies"});
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,158 @@
+#include "impacts/impact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "impacts/impact_parts.hpp"
+#include "linalg/index.hpp"
+#include "wavebalance/solvers/impacts/impact_stability.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+Eigen::VectorXd velocity_weights(const ImpactModel& model) {
+  return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
+}
+
+}  // namespace
+
+ImpactSearch::ImpactSearch(const ImpactsProblem& problem, const ImpactResponseOptions& options)
+    : problem_(problem),
+      options_(options),
+      model_(problem),
+      flow_(model_, options.max_impacts),
+      weights_(velocity_weights(model_)),
+      best_(static_cast<std::size_t>(options.longest)),
+      tried_(static_cast<std::size_t>(options.longest), std::numeric_limits<double>::infinity()) {}
+
+ImpactResponse ImpactSearch::run() {
+  if (options_.start.size() == 0)
+    flow_.start_clear();
+  else
+    flow_.start(options_.start, 0.0);
+  states_.push_front(flow_.state());
+  for (period_ = 1; period_ <= options_.max_periods; ++period_) {
+    if (!goes_on(options_.observer, progress())) return ended(ImpactStatus::cancelled);
+    if (!flow_.advance_period()) return ended(flow_.end());
+    states_.push_front(flow_.state());
+    if (states_.size() > best_.size() + 1) states_.pop_back();
+    flow_.forget_before(flow_.time() - options_.longest);
+    if (look_back()) return finished(found_);
+  }
+  return ended(ImpactStatus::not_settled);
+}
+
+Progress ImpactSearch::progress() const {
+  return {"settling with impacts", period_, missing, {}, double(period_) / options_.max_periods};
+}
+
+double ImpactSearch::distance_after(int periods) const {
+  const Eigen::VectorXcd change = states_.front() - states_[static_cast<std::size_t>(periods)];
+  const double size = weights_.cwiseProduct(states_.front().cwiseAbs()).norm();
+  return weights_.cwiseProduct(change.cwiseAbs()).norm() / std::max(size, 1e-9 * model_.velocity_scale());
+}
+
+// The impacts of the last periods, in shares of them.
+std::vector<ImpactGuess> ImpactSearch::last_impacts(int periods) const {
+  std::vector<ImpactGuess> impacts;
+  for (const auto& event : flow_.events())
+    if (event.time >= flow_.time() - periods)
+      impacts.push_back({event.contact, event.time / periods, event.impulse});
+  return impacts;
+}
+
+// Whether a stable motion is found near the last periods.
+bool ImpactSearch::look_back() {
+  const int most = std::min<int>(options_.longest, static_cast<int>(states_.size()) - 1);
+  for (int n = 1; n <= most; ++n) {
+    const double distance = distance_after(n);
+    auto& best = best_[static_cast<std::size_t>(n - 1)];
+    if (distance < best.distance) best = {n, distance, last_impacts(n)};
+    if (distance > options_.near) continue;
+    if (is_motion({n, distance, last_impacts(n)})) return true;
+    break;  // longer ones would be the same motion
+  }
+  return false;
+}
+
+bool ImpactSearch::is_motion(const NearReturn& start) {
+  constexpr double much_closer = 0.1, arrived = 1e-9;
+  if (!options_.solve) {
+    found_ = integrated(start);
+    return true;
+  }
+  double& tried = tried_[static_cast<std::size_t>(start.periods - 1)];
+  if (start.distance > much_closer * tried && start.distance > arrived) return false;
+  tried = start.distance;
+  ImpactResponse response = solve(start);
+  if (!response.motion.converged()) return false;
+  const bool accepted = response.unstable == 0 || start.distance <= arrived;
+  if (accepted || !found_.motion.converged()) found_ = std::move(response);
+  return accepted;
+}
+
+ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
+  ImpactResponse response;
+  response.load_periods = start.periods;
+  response.distance = start.distance;
+  response.motion = impact_motion(problem_.over_periods(start.periods), start.impacts, options_.newton);
+  if (!response.motion.converged()) return response;
+  response.multipliers = impact_multipliers(response.motion);
+  if (response.multipliers.size() > 0) response.unstable = unstable_count(response.multipliers);
+  return response;
+}
+
+// The motion by the impacts of the last periods as they are.
+ImpactResponse ImpactSearch::integrated(const NearReturn& start) const {
+  ImpactResponse response;
+  response.load_periods = start.periods;
+  response.distance = start.distance;
+  const auto model = std::make_shared<const ImpactModel>(problem_.over_periods(start.periods));
+  response.motion = motion_of(model, unknowns_of(*model, start.impacts), {});
+  response.motion.residual = start.distance;
+  response.motion.status = ImpactStatus::converged;
+  return response;
+}
+
+std::vector<ImpactResponse> ImpactSearch::near_returns() const {
+  constexpr double far = 0.5;
+  std::vector<ImpactResponse> motions;
+  for (const NearReturn& start : best_) {
+    if (!(start.distance < far)) continue;
+    ImpactResponse response = solve(start);
+    if (response.motion.converged()) motions.push_back(finished(std::move(response)));
+  }
+  return motions;
+}
+
+ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
+  response.integrated = std::min(period_, options_.max_periods);
+  return response;
+}
+
+// Without a stable motion: one that is unstable, or one near the closest returns, or none.
+ImpactResponse ImpactSearch::ended(ImpactStatus status) {
+  const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
+  if (named || status == ImpactStatus::cancelled || !options_.solve) return none(status);
+  for (const NearReturn& start : best_) {
+    if (found_.motion.converged()) break;
+    if (!std::isfinite(start.distance) || start.impacts.empty()) continue;
+    ImpactResponse response = solve(start);
+    if (response.motion.converged()) found_ = std::move(response);
+  }
+  return found_.motion.converged() ? finished(found_) : none(status);
+}
+
+ImpactResponse ImpactSearch::none(ImpactStatus status) const {
+  ImpactResponse response;
+  response.motion.status = status;
+  const bool lasts = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
+  if (lasts) {
+    response.motion.chattering_end = period_ + flow_.end_time();
+    response.motion.chattering_contact = flow_.end_contact();
+  }
+  return finished(std::move(response));
+}
+
+}  // namespace wavebalance::solvers::detail
