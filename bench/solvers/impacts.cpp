@@ -6,7 +6,8 @@
 #include "wavebalance/solvers/impacts/impact_stability.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
-// A bar of 50 elements, EA = rho A = L = 1, whose end has a mass of its own and meets a rigid stop twice in a period.
+// A bar of 50 elements, EA = rho A = L = 1, whose end has a mass of its own and meets a rigid stop twice in a
+// period.
 namespace wavebalance::bench {
 namespace {
 
@@ -72,7 +73,8 @@ void follow_impacts(benchmark::State& state, bool stability) {
   for (auto _ : state)
     curve = solvers::impact_curve(bench.family, first,
                                   {.from = omega / turn, .to = 1.0 / turn, .stability = stability});
-  if (curve.status != solvers::SweepStatus::reached_end) state.SkipWithError("the curve does not reach its end");
+  if (curve.status != solvers::SweepStatus::reached_end)
+    state.SkipWithError("the curve does not reach its end");
   state.counters["curve_points"] = double(curve.points.size());
 }
 

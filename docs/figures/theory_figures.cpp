@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -253,6 +255,58 @@ void draw_phase_errors(const Files& files) {
   }
   app::write_pictures("phase_errors", figure);
 }
+
+// Displacements of a contact whose rigid stop gives way elastically: about each impact half a sine beyond the gap.
+Eigen::MatrixXd with_penetrations(const solvers::ImpactMotion& motion, const Eigen::VectorXd& times, double gap,
+                                  double natural) {
+  Eigen::MatrixXd u = motion.displacement(times);
+  for (const solvers::Impact& impact : motion.impacts)
+    for (Eigen::Index k = 0; k < times.size(); ++k) {
+      const double apart = times[k] - impact.time - std::round(times[k] - impact.time);
+      const double phase = natural * apart / motion.frequency();
+      if (std::abs(phase) < 0.5 * std::numbers::pi)
+        u(impact.contact, k) = gap + impact.velocity_before / natural * std::cos(phase);
+    }
+  return u;
+}
+
+// How far motions against ever stiffer elastic stops are from those with impacts without loss, of each scene.
+void draw_stiff_stops(const Files& files) {
+  constexpr int points = 8192;
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
+  app::Figure figure{.panel_width = 480, .panel_height = 320};
+  app::Panel& panel = figure.add_panel();
+  panel.x = {.label = "Stiffness of the stop (N/m)", .logarithmic = true};
+  panel.y = {.label = "Relative distance of the displacement", .logarithmic = true};
+  panel.x.tick_format = panel.y.tick_format = "10^{%L}";
+  for (const std::string& file : files) {
+    app::Scene scene = app::load_scene(file);
+    scene.contact.values["restitution"] = 1.0;
+    const app::StructureModel model = app::make_model(scene);
+    const app::Response rigid = app::impacts_response(scene, model);
+    if (!rigid.converged) throw std::runtime_error(file + ": " + rigid.status);
+    const double gap = scene.contact.gap, frequency = scene.forcing.frequency,
+                 mobility = solvers::inverse_contact_mass(*model.contact_dynamics())(0, 0);
+    const solvers::ImpactMotion& motion = rigid.impacts->motion;
+    const Eigen::MatrixXd exact_motion = motion.displacement(times);
+    std::vector<double> stiffnesses, distances;
+    for (double stiffness = 1e3; stiffness < 2e8; stiffness *= std::sqrt(10.0)) {
+      scene.contact.law = "linear";
+      scene.contact.values = {{"stiffness", stiffness}};
+      solvers::ContactProblem problem =
+          app::compose_problem(Balance::with_functions(scene, 63), model).over_periods(rigid.periods);
+      const auto found = problem.phases(
+          frequency, solvers::Motion{with_penetrations(motion, times, gap, std::sqrt(stiffness * mobility)), {}, {}},
+          {.tolerance = 1e-9});
+      if (!found || !found->converged()) continue;
+      stiffnesses.push_back(stiffness);
+      distances.push_back((found->displacement(times) - exact_motion).norm() / exact_motion.norm());
+    }
+    panel.add({std::filesystem::path(file).stem().string(), stiffnesses, distances,
+               app::SeriesStyle::line_points});
+  }
+  app::write_pictures("stiff_stops", figure);
+}
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -262,12 +316,13 @@ int main(int count, char** arguments) try {
                                                               {"laws", draw_laws},
                                                               {"multipliers", draw_multipliers},
                                                               {"phases", draw_phases},
-                                                              {"phase_errors", draw_phase_errors}};
+                                                              {"phase_errors", draw_phase_errors},
+                                                              {"stiff_stops", draw_stiff_stops}};
   const auto figure = figures.find(count > 1 ? arguments[1] : "");
   if (figure == figures.end()) {
     std::fprintf(
         stderr,
-        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases SCENE, or phase_errors SCENE...\n");
+        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases SCENE, or phase_errors|stiff_stops SCENE...\n");
     return 2;
   }
   figure->second(Files(arguments + 2, arguments + count));

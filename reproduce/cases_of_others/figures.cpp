@@ -26,7 +26,8 @@ const std::vector<report::Step>& figures() {
        identity("Bar, light damping", "case 2 of JL14 with a tenth of its damping", "lightly_damped_bar"),
        lightly_damped_bar},
       {"impact_oscillator",
-       identity("Impacts", "the oscillator with restitution of Recipes for Continuation", "impact_oscillator"),
+       identity("Impacts", "the oscillator with restitution of Recipes for Continuation",
+                "impact_oscillator"),
        impact_oscillator}};
   return all;
 }

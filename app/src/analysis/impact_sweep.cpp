@@ -27,8 +27,9 @@ struct ImpactMeasure {
     point.load_scale = over_frequency ? 1.0 : value;
     point.max_displacement = u.maxCoeff();
     for (const solvers::Impact& impact : motion.impacts)
-      point.max_displacement = std::max(
-          point.max_displacement, motion.displacement(Eigen::VectorXd::Constant(1, impact.time))(impact.contact));
+      point.max_displacement =
+          std::max(point.max_displacement,
+                   motion.displacement(Eigen::VectorXd::Constant(1, impact.time))(impact.contact));
     point.min_displacement = u.minCoeff();
     point.max_abs_displacement = std::max(point.max_displacement, -point.min_displacement);
     point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
@@ -73,15 +74,16 @@ void copy_impacts(const ImpactCurve& traced, const ImpactMeasure& measure, int p
     impacts.push_back(impacts_of(point.motion, periods));
     if (!stability) continue;
     solvers::PointStability& one = known.points.emplace_back();
-    one.status = point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
+    one.status =
+        point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
     one.unstable = point.unstable;
     one.contacts = impacts.back().count;
   }
   for (const ImpactEvent& event : traced.events) {
     const solvers::SpecialPoint point = special_point(event, measure);
-    if (event.type == solvers::SpecialPointType::fold)
-      curve.turning_points.push_back(
-          {point.frequency, point.max_displacement, point.max_abs_displacement, false, point.load_scale});
+    if (event.type == solvers::SpecialPointType::fold || event.turns)
+      curve.turning_points.push_back({point.frequency, point.max_displacement, point.max_abs_displacement,
+                                      event.turns, point.load_scale});
     if (stability) known.special_points.push_back(point);
   }
 }
@@ -155,9 +157,9 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
   }
   solvers::ContactProblem problem = impacts_problem(scene, model);
   solvers::ImpactResponse first;
-  const ImpactCurve curve =
-      over_amplitude ? problem.impact_amplitude_sweep(scene.forcing.frequency, options, &first)
-                     : problem.impact_sweep(options, &first);
+  const ImpactCurve curve = over_amplitude
+                                ? problem.impact_amplitude_sweep(scene.forcing.frequency, options, &first)
+                                : problem.impact_sweep(options, &first);
   const ImpactMeasure measure{sweep.curve.parameter, scene.forcing.frequency,
                               time_fractions(scene.analysis.output_points)};
   if (!first.motion.converged()) sweep.start_status = to_string(first.motion.status);

@@ -42,8 +42,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   const solvers::ImpactResponse& found = *result.impacts;
   result.status = to_string(found.motion.status);
   result.converged = result.moves = found.motion.converged();
-  result.iterations =
-      integrates_in_time(scene.analysis.type) ? found.integrated : found.motion.iterations;
+  result.iterations = integrates_in_time(scene.analysis.type) ? found.integrated : found.motion.iterations;
   result.unknowns = 2 * static_cast<int>(found.motion.impacts.size());
   result.residual = found.motion.residual;
   if (!result.moves) return;

@@ -73,8 +73,8 @@ Motions impact_motions(const Scene& scene, const StructureModel& model, const so
   if (model.contact_dynamics() == nullptr) return result;
   solvers::ContactProblem problem = impacts_problem(scene, model);
   const Analysis& analysis = scene.analysis;
-  solvers::ImpactMotions all = problem.coexisting_impacts(scene.forcing.frequency,
-                                                          {.random_starts = analysis.random_starts,
+  solvers::ImpactMotions all =
+      problem.coexisting_impacts(scene.forcing.frequency, {.random_starts = analysis.random_starts,
                                                            .seed = static_cast<unsigned>(analysis.seed),
                                                            .longest = analysis.longest_period,
                                                            .observer = observer});

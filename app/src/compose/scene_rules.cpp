@@ -299,14 +299,16 @@ void check_impacts(const Document& document, const Scene& scene) {
   const auto refuse = [&](bool given, const char* key, const std::string& why) {
     if (given) fail_rule(document, {key, "contact.restitution"}, why);
   };
-  refuse(scene.contact.mass == ContactMass::redistribute, "contact.mass",
-         "a contact without mass has no impacts, and contact.restitution says what impacts do; expected one or the "
-         "other");
+  refuse(
+      scene.contact.mass == ContactMass::redistribute, "contact.mass",
+      "a contact without mass has no impacts, and contact.restitution says what impacts do; expected one or the "
+      "other");
   refuse(scene.structure.massless_tip, "structure.massless_tip",
          "a contact without mass has no impacts; expected false, or no contact.restitution");
-  refuse(scene.structure.matrices.free, "structure.free",
-         "not with contact.restitution: impacts of a structure that is free to move have no periodic Green function; "
-         "expected false");
+  refuse(
+      scene.structure.matrices.free, "structure.free",
+      "not with contact.restitution: impacts of a structure that is free to move have no periodic Green function; "
+      "expected false");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
   refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",
@@ -321,9 +323,10 @@ void check_rigid(const Document& document, const Scene& scene) {
   if (!is_rigid(scene.contact.law)) return;
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
     if (scene.contact.pairs[i].values.contains("restitution") && !has_impacts(scene.contact))
-      fail_rule(document, {pair_section(i) + ".restitution", "contact.restitution"},
-                "where one contact has impacts, all have; expected contact.restitution, which holds for pairs "
-                "without one of their own");
+      fail_rule(
+          document, {pair_section(i) + ".restitution", "contact.restitution"},
+          "where one contact has impacts, all have; expected contact.restitution, which holds for pairs "
+          "without one of their own");
   if (has_impacts(scene.contact)) return check_impacts(document, scene);
   const bool balanced =
       !integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::nonlinear_mode;

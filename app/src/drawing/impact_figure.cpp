@@ -10,13 +10,14 @@ namespace wavebalance::app {
 namespace {
 
 Axis time_axis(int periods) {
-  return {.label = "Time (fraction of " +
-                   (periods == 1 ? std::string("a period") : std::to_string(periods) + " periods of the load") +
-                   ")",
-          .lower = 0.0,
-          .upper = 1.0,
-          .ticks = {},
-          .tick_format = "%.1f"};
+  return {
+      .label = "Time (fraction of " +
+               (periods == 1 ? std::string("a period") : std::to_string(periods) + " periods of the load") +
+               ")",
+      .lower = 0.0,
+      .upper = 1.0,
+      .ticks = {},
+      .tick_format = "%.1f"};
 }
 
 }  // namespace

@@ -180,6 +180,20 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
     panel.add(extremes_of_runs(curve));
 }
 
+/// The largest impulse along a curve with impacts, in a panel of its own.
+void add_impulses_along(Figure& figure, const Sweep& sweep) {
+  std::vector<double> impulses;
+  for (const PointImpacts& point : sweep.impacts.front()) impulses.push_back(point.largest_impulse);
+  const Scale scale = axis_scale(*std::max_element(impulses.begin(), impulses.end()));
+  for (double& one : impulses) one *= scale.factor;
+  Panel& panel = figure.add_panel();
+  panel.x.label = sweep_axis(sweep).label();
+  panel.y.label = "Largest impulse (" + scale.prefix + "N s)";
+  Series series("largest", places_along(sweep.curve), impulses);
+  series.colour = Colour::blue;
+  add_curve(panel, series, sweep.stability.points, {});
+}
+
 /// The end of the axis of energies: that of linear grazing is shown, and `largest` only where the curve comes
 /// near.
 double shown_energy(const std::vector<double>& energies, double largest) {
@@ -288,6 +302,10 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   if (const double gap = common_gap(scene); !std::isnan(gap))
     panel.mark_level(scale.factor * gap, "gap", scale.prefix + "m");
+  if (!sweep.impacts.empty()) {
+    figure.panel_height = 320;
+    add_impulses_along(figure, sweep);
+  }
   return figure;
 }
 

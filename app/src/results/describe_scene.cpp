@@ -102,7 +102,8 @@ std::string gap_text(const std::vector<SceneContact>& contacts) {
 
 std::string law_text(const std::vector<SceneContact>& contacts) {
   if (is_rigid(contacts.front().law))
-    return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle" : "rigid obstacle";
+    return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle"
+                                                           : "rigid obstacle";
   std::vector<std::string> names;
   for (const SceneContact& one : contacts)
     if (std::find(names.begin(), names.end(), one.law) == names.end()) names.push_back(one.law);
@@ -216,8 +217,8 @@ std::string starts_line(const Scene& scene) {
 }
 
 std::string impacts_line(const Scene& scene) {
-  const bool sweep = scene.analysis.type != AnalysisType::forced_response &&
-                     scene.analysis.type != AnalysisType::shooting;
+  const bool sweep =
+      scene.analysis.type != AnalysisType::forced_response && scene.analysis.type != AnalysisType::shooting;
   return fmt::format("time       instants and impulses of impacts{}\n",
                      sweep ? ", followed by arc length" : ", from the motion that the structure settles to");
 }

@@ -22,6 +22,15 @@ void warn_of_lasting_contact(Record& record, const solvers::ImpactMotion& motion
       motion.chattering_contact + 1, motion.chattering_end / frequency));
 }
 
+/// The largest displacement of the leading contact, at the samples and at impacts.
+double highest(const solvers::ImpactMotion& motion, const Response& response) {
+  double largest = response.displacement().maxCoeff();
+  for (const solvers::Impact& one : motion.impacts)
+    largest =
+        std::max(largest, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(response.contact));
+  return largest;
+}
+
 }  // namespace
 
 Table impacts_table(const solvers::ImpactMotion& motion) {
@@ -43,6 +52,12 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
     velocity = std::max(velocity, one.velocity_before);
   }
   const bool known = response.moves;
+  // Samples miss the instants at which a contact is at its gap, and impacts have no force.
+  for (Entry& entry : record.summary) {
+    if (entry.name == quantities::max_contact_force.name) entry.value = missing;
+    if (known && !motion.impacts.empty() && entry.name == quantities::max_displacement.name)
+      entry.value = highest(motion, response);
+  }
   record.summary.emplace_back(quantities::impacts, known ? double(motion.impacts.size()) : missing);
   record.summary.emplace_back(quantities::max_impulse, known ? impulse : missing);
   record.summary.emplace_back(quantities::max_impact_velocity, known ? velocity : missing);

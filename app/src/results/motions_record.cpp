@@ -53,7 +53,8 @@ void append_files(Record& record, const StructureModel& model, const FoundMotion
     record.files.push_back(
         {name + "_contacts.csv", csv_text(contacts_table(motion.contacts)), about + ": every contact"});
   if (motion.impacts)
-    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(*motion.impacts)), about + ": its impacts"});
+    record.files.push_back(
+        {name + "_impacts.csv", csv_text(impacts_table(*motion.impacts)), about + ": its impacts"});
   for (RecordFile& file : motion_files(model, motion.structure, name)) {
     file.about = about + ": the whole structure";
     record.files.push_back(std::move(file));
@@ -89,10 +90,9 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.converged = all.status == "converged";
   record.interrupted = all.status == "cancelled";
   record.status = all.status;
-  record.summary =
-      solution_entries(record.converged, record.status,
-                       largest(all, [](const FoundMotion& one) { return one.residual; }),
-                       iterations, unknowns, all.wall_seconds);
+  record.summary = solution_entries(record.converged, record.status,
+                                    largest(all, [](const FoundMotion& one) { return one.residual; }),
+                                    iterations, unknowns, all.wall_seconds);
   record.summary.emplace_back(quantities::max_displacement, largest(all, [](const FoundMotion& one) {
                                 return one.contacts.displacement.maxCoeff();
                               }));

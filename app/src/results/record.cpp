@@ -115,7 +115,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back(quantities::strategy, response.strategy);
   if (!response.solved_by.empty()) record.summary.emplace_back(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
-  const bool touches = response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
+  const bool touches =
+      response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
   if (response.moves && scene.contact.law != no_law && !touches)
     warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
   if (!response.impacts) append_period(record, response.periods, response.motion_periods);
@@ -191,8 +192,8 @@ int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sw
   return most;
 }
 
-/// The largest impulse of the curve, over how many periods of the load its motions repeat, and what there is in
-/// place of a first motion.
+/// The largest impulse of the curve, over how many periods of the load its motions repeat, and what there is
+/// in place of a first motion.
 void append_impacts(Record& record, const Sweep& sweep) {
   if (sweep.impacts.empty()) return;
   Summary& summary = record.summary;
@@ -302,7 +303,8 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
                      ResponseOptions options) {
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases && !has_friction(scene);
-  if (has_impacts(scene.contact)) return response_record(scene, model, impacts_response(scene, model, options));
+  if (has_impacts(scene.contact))
+    return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);

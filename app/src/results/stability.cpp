@@ -140,7 +140,9 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
 void append_stability(Record& record, const Sweep& sweep) {
   const bool complete =
       !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
-  append_turning_points(record, sweep, complete && folds_are_known(sweep.stability));
+  // Curves with impacts turn at grazings, too, and exactly.
+  const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
+  append_turning_points(record, sweep, complete && folds_alone);
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back(quantities::stability,
                               complete ? sweep.stability_of(0).status : std::string("interrupted"));

@@ -99,8 +99,7 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   const SweepPhases* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
-                         phases != nullptr && !phases->points.empty(), with_branches,
-                         !sweep.impacts.empty()};
+                         phases != nullptr && !phases->points.empty(), with_branches, !sweep.impacts.empty()};
   Table table(columns_of(sweep_axis(sweep).column(), more));
   append_rows(table, sweep, 0, more);
   for (std::size_t i = 1; with_branches && i <= sweep.branches.size(); ++i)

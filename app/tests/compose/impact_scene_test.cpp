@@ -64,7 +64,7 @@ TEST(ImpactScene, OfTheOscillatorOfCocoHasItsMotion) {
 }
 
 TEST(ImpactScene, LosesAsMuchEnergyAsTheLoadBringsBesideTheDamping) {
-  for (const char* name : {"oscillator.toml", "bar.toml"}) {
+  for (const char* name : {"oscillator.toml", "bar_with_end_mass.toml"}) {
     const Scene scene = impact_scene(name, {"structure.stiffness_damping=1e-9"});
     const Record record = analyse(scene);
     if (!record.converged) continue;
@@ -85,27 +85,39 @@ TEST(ImpactScene, LosesAsMuchEnergyAsTheLoadBringsBesideTheDamping) {
 }
 
 TEST(ImpactScene, OfABarHasImpactsAndAMotionOfAllItsNodes) {
-  const Record record = analyse(impact_scene("bar.toml", {"analysis.type=forced_response"}));
+  const Record record = analyse(impact_scene("bar_with_end_mass.toml"));
   ASSERT_TRUE(record.converged) << record.status;
-  EXPECT_GE(value_of<double>(record.summary, "impacts"), 1.0);
-  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 1e-4, 1e-6);
-  ASSERT_EQ(record.bar_motion.rows(), 51);
-  EXPECT_NEAR(record.bar_motion.row(50).maxCoeff(), 1e-4, 1e-6);
+  EXPECT_EQ(value_of<double>(record.summary, "impacts"), 2.0);
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 0.8, 1e-13);
+  EXPECT_NEAR(value_of<double>(record.summary, "max_impact_velocity_m_per_s"), 1.8136127872, 1e-9);
+  EXPECT_LE(value_of<double>(record.summary, "structure_left_out"), 1e-4);
+  const auto written = [](const RecordFile& file) { return file.name == "motion.mtx"; };
+  EXPECT_EQ(std::count_if(record.files.begin(), record.files.end(), written), 1);
+}
+
+TEST(ImpactScene, OfABarWhoseEndHasTheMassOfAnElementChatters) {
+  const std::vector<std::string> set{"contact.restitution=0.8"},
+      unset{"structure.massless_tip", "time.trial",       "time.weight",
+            "time.functions",         "time.formulation", "time.quadrature_points",
+            "time.inner_products"};
+  const Record record = analyse(
+      load_scene(impact_scenes.parent_path() / "jones_legrand_2014" / "case2_rigid.toml", set, unset));
+  EXPECT_EQ(record.status, "chattering");
 }
 
 TEST(ImpactScene, IsSweptThroughGrazingWithStopsOfDifferentRestitution) {
   const Record record = analyse(impact_scene("between_stops.toml"));
   EXPECT_TRUE(record.converged) << record.status;
   const auto frequencies = record.sweep.numbers("frequency_Hz");
-  EXPECT_EQ(frequencies.front(), 0.06);
+  EXPECT_EQ(frequencies.front(), 0.02);
   EXPECT_EQ(record.sweep.numbers("impacts").front(), 0.0);
   const Table special = *value_in<Table>(record.summary, "special_points");
-  // (1 - w^2)^2 + (0.1 w)^2 = 1 where the motion without contact reaches the gap of 1.
+  // 1 / |1 - w^2 + 0.1 w i| is the motion without contact, which reaches the gap of 1.2 there.
   const double grazing = special.where("type", "grazing").numbers("frequency_Hz").front();
-  EXPECT_GT(grazing, 0.06);
+  EXPECT_GT(grazing, 0.02);
   const double w = 2.0 * 3.14159265358979323846 * grazing;
   const double reach = 1.0 / std::hypot(1.0 - w * w, 0.1 * w);
-  EXPECT_NEAR(reach, 1.0, 1e-9);
+  EXPECT_NEAR(reach, 1.2, 1e-9);
 }
 
 TEST(ImpactScene, HasAllMotionsOfOneFrequency) {
@@ -125,8 +137,8 @@ TEST(ImpactScene, HasAllMotionsOfOneFrequency) {
 
 TEST(ImpactScene, OfTimeSteppingHasTheMotionOfNewtonsMethod) {
   const Record solved = analyse(impact_scene("oscillator.toml")),
-               stepped = analyse(impact_scene("oscillator.toml", {"analysis.type=time_stepping",
-                                                                  "analysis.tolerance=1e-9"}));
+               stepped = analyse(impact_scene("oscillator.toml",
+                                              {"analysis.type=time_stepping", "analysis.tolerance=1e-9"}));
   ASSERT_TRUE(stepped.converged) << stepped.status;
   EXPECT_NEAR(value_of<double>(stepped.summary, "max_impulse_Ns"),
               value_of<double>(solved.summary, "max_impulse_Ns"), 1e-7);
@@ -134,15 +146,15 @@ TEST(ImpactScene, OfTimeSteppingHasTheMotionOfNewtonsMethod) {
 }
 
 TEST(ImpactScene, NamesChatteringAndDoesNotConverge) {
-  const Record record = analyse(impact_scene("oscillator.toml", {"contact.gap=0", "contact.restitution=0.5",
-                                                                 "forcing.frequency=0.0318309886"}));
+  const Record record = analyse(impact_scene(
+      "oscillator.toml", {"contact.gap=0", "contact.restitution=0.5", "forcing.frequency=0.0318309886"}));
   EXPECT_FALSE(record.converged);
   EXPECT_EQ(record.status, "chattering");
   ASSERT_FALSE(record.warnings.empty());
 }
 
 TEST(ImpactScene, IsWrittenAndReadBackEqual) {
-  for (const char* name : {"oscillator.toml", "bar.toml", "between_stops.toml"}) {
+  for (const char* name : {"oscillator.toml", "bar_with_end_mass.toml", "between_stops.toml"}) {
     const Scene scene = impact_scene(name);
     EXPECT_EQ(parse_scene(write_scene(scene), (impact_scenes / "written.toml").string()), scene) << name;
     EXPECT_EQ(complete_scene(scene), scene) << name;

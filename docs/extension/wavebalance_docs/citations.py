@@ -6,10 +6,10 @@ from sphinx import addnodes
 SHOWN = {
     "JL14": "Jones & Legrand 2014", "LL10": "Laxalde & Legrand 2010", "AllgowerGeorg": "Allgower & Georg",
     "Beylkin": "Beylkin 1992", "CameronGriffin": "Cameron & Griffin 1989", "CottlePangStone": "Cottle, Pang & Stone",
-    "CraigBampton": "Craig & Bampton 1968", "Daubechies": "Daubechies 1992", "Hairer": "Hairer, Nørsett & Wanner",
+    "CraigBampton": "Craig & Bampton 1968", "DankowiczSchilder": "Dankowicz & Schilder 2013", "Daubechies": "Daubechies 1992", "Hairer": "Hairer, Nørsett & Wanner",
     "HaleTownsend": "Hale & Townsend 2014", "HuntCrossley": "Hunt & Crossley 1975", "Keller": "Keller 1977",
-    "Moreau": "Moreau 1988", "QiSun": "Qi & Sun 1993", "RestrepoLeaf": "Restrepo & Leaf 1993",
-    "SaadSchultz": "Saad & Schultz 1986", "Seydel": "Seydel 2010", "Skeel": "Skeel 1979",
+    "Moreau": "Moreau 1988", "Muller": "Müller 1995", "QiSun": "Qi & Sun 1993", "RestrepoLeaf": "Restrepo & Leaf 1993",
+    "SaadSchultz": "Saad & Schultz 1986", "Seydel": "Seydel 2010", "ShawHolmes": "Shaw & Holmes 1983", "Skeel": "Skeel 1979",
     "WereleyHall": "Wereley & Hall 1990",
 }
 

@@ -157,12 +157,14 @@ class ImpactTracer {
   }
 
   void go_over(ImpactSwitch over, double step) {
+    const bool turns = over.place.point.parameter_tangent * last_.point.parameter_tangent < 0.0;
     if (over.grazing)
       curve_.events.push_back({SpecialPointType::grazing,
                                over.place.point.parameter,
                                {missing, missing},
                                over.place.motion,
-                               curve_.points.size()});
+                               curve_.points.size(),
+                               turns});
     // With an impact more the multipliers are infinite there.
     const bool fewer = over.path->contacts().size() < path_->contacts().size();
     if (over.path->contacts().size() > std::size_t(options_.max_impacts)) curve_.status = SweepStatus::lost;

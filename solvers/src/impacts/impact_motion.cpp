@@ -221,6 +221,17 @@ ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnk
   return found;
 }
 
+bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>& b, double later) {
+  constexpr double agreement = 1e-6;
+  return std::ranges::all_of(a, [&](const Impact& one) {
+    return std::ranges::any_of(b, [&](const Impact& other) {
+      const double apart = one.time + later - other.time;
+      return one.contact == other.contact && std::abs(apart - std::round(apart)) <= agreement &&
+             std::abs(one.impulse - other.impulse) <= agreement * std::abs(one.impulse);
+    });
+  });
+}
+
 Flight flight_after(const ImpactMotion& motion, std::size_t i) {
   const ImpactModel& model = *motion.model;
   const double allowed = allowed_penetration(model);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "impacts/impact_parts.hpp"
 #include "impacts/impact_search.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
@@ -18,29 +19,10 @@ void ImpactMotionsOptions::validate() const {
 
 namespace {
 
-// Whether the impacts of b are those of a so many shares of the period later.
-bool same_later(const ImpactMotion& a, const ImpactMotion& b, double later) {
-  constexpr double agreement = 1e-6;
-  return std::ranges::all_of(a.impacts, [&](const Impact& one) {
-    return std::ranges::any_of(b.impacts, [&](const Impact& other) {
-      const double apart = one.time + later - other.time;
-      return one.contact == other.contact && std::abs(apart - std::round(apart)) <= agreement &&
-             std::abs(one.impulse - other.impulse) <= agreement * std::abs(one.impulse);
-    });
-  });
-}
-
 bool same_motion(const ImpactResponse& a, const ImpactResponse& b) {
   if (a.load_periods != b.load_periods || a.motion.impacts.size() != b.motion.impacts.size()) return false;
   for (int k = 0; k < a.load_periods; ++k)
-    if (same_later(a.motion, b.motion, double(k) / a.load_periods)) return true;
-  return false;
-}
-
-// Whether it already repeats after a part of its period.
-bool repeats_sooner(const ImpactResponse& one) {
-  for (int k = 1; k < one.load_periods; ++k)
-    if (one.load_periods % k == 0 && same_later(one.motion, one.motion, double(k) / one.load_periods))
+    if (detail::same_impacts_later(a.motion.impacts, b.motion.impacts, double(k) / a.load_periods))
       return true;
   return false;
 }
@@ -85,8 +67,7 @@ class ImpactCollection {
     return motions_.emplace_back(CoexistingImpacts{std::move(response)});
   }
   void add_all(std::vector<ImpactResponse> responses) {
-    for (ImpactResponse& one : responses)
-      if (!repeats_sooner(one)) add(std::move(one));
+    for (ImpactResponse& one : responses) add(std::move(one));
   }
   std::vector<CoexistingImpacts> take() { return std::move(motions_); }
 

@@ -30,6 +30,9 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
 ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns,
                        ImpactMotion found);
 
+/// Whether the impacts of b are those of a so many shares of the period later, to 1e-6.
+bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>& b, double later);
+
 /// The flight from impact i (or the whole period without impacts) to the next one.
 Flight flight_after(const ImpactMotion& motion, std::size_t i);
 

@@ -15,6 +15,15 @@ Eigen::VectorXd velocity_weights(const ImpactModel& model) {
   return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
 }
 
+// The periods of the load after which a motion already repeats.
+int repeats_after(const ImpactResponse& one) {
+  for (int k = 1; k < one.load_periods; ++k)
+    if (one.load_periods % k == 0 &&
+        same_impacts_later(one.motion.impacts, one.motion.impacts, double(k) / one.load_periods))
+      return k;
+  return one.load_periods;
+}
+
 }  // namespace
 
 ImpactSearch::ImpactSearch(const ImpactsProblem& problem, const ImpactResponseOptions& options)
@@ -98,6 +107,13 @@ ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
   response.distance = start.distance;
   response.motion = impact_motion(problem_.over_periods(start.periods), start.impacts, options_.newton);
   if (!response.motion.converged()) return response;
+  if (const int fewer = repeats_after(response); fewer < start.periods) {
+    NearReturn shorter{fewer, start.distance, {}};
+    for (const Impact& impact : response.motion.impacts)
+      if (impact.time * start.periods < fewer)
+        shorter.impacts.push_back({impact.contact, impact.time * start.periods / fewer, impact.impulse});
+    return solve(shorter);
+  }
   response.multipliers = impact_multipliers(response.motion);
   if (response.multipliers.size() > 0) response.unstable = unstable_count(response.multipliers);
   return response;

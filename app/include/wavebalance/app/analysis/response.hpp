@@ -148,11 +148,11 @@ Response time_stepping_response(const Scene& scene, const ResponseOptions& optio
 Response time_stepping_response(const Scene& scene, const StructureModel& model,
                                 const ResponseOptions& options = {});
 
-/// The motion with impacts that the structure settles to, of scenes with contact.restitution: exact flights from
-/// impact to impact until it nearly repeats, and of forced responses Newton's method on instants and impulses
-/// from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it repeats to
-/// analysis.tolerance. The whole structure's motion is summed up from harmonics to 1e-4, since those of impulses
-/// do not decay. The status is a solvers::ImpactStatus, or "no_modes".
+/// The motion with impacts that the structure settles to, of scenes with contact.restitution: exact flights
+/// from impact to impact until it nearly repeats, and of forced responses Newton's method on instants and
+/// impulses from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it
+/// repeats to analysis.tolerance. The whole structure's motion is summed up from harmonics to 1e-4, since
+/// those of impulses do not decay. The status is a solvers::ImpactStatus, or "no_modes".
 Response impacts_response(const Scene& scene, const StructureModel& model,
                           const ResponseOptions& options = {});
 

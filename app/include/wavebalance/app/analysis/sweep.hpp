@@ -30,8 +30,8 @@ struct Sweep {
   /// Of scenes with impacts: of each point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
-  bool phases_cancelled = false;          ///< the observer stopped add_phases()
-  int periods = 1;                        ///< of the load, over which its motions are solved for
+  bool phases_cancelled = false;  ///< the observer stopped add_phases()
+  int periods = 1;                ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
       1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()

@@ -46,6 +46,7 @@ struct ImpactEvent {
   std::complex<double> multiplier{missing, missing};  ///< the one at the unit circle, Im >= 0
   ImpactMotion motion;
   std::size_t next_point = 0;  ///< index of the first point of the curve behind it
+  bool turns = false;          ///< of a grazing: the parameter reverses there, as it does at a fold
 };
 
 /// A curve of motions with impacts.
