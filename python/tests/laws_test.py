@@ -72,3 +72,19 @@ def test_a_response_has_the_digits_of_the_scene_of_the_same_structure(law):
     motion = wb.forced_response(structure, law, 0.1).motion(1024)
     assert record.converged
     assert record.summary["max_displacement_m"] == motion.displacement.max()
+
+
+def test_a_rigid_law_with_restitution_is_a_scene_with_impacts():
+    one = np.eye(1)
+    structure = wb.Structure(one, 0.1 * one, one, [1.0], contacts=[0])
+    scene = structure.scene(wb.Rigid(1.0, restitution=0.8), frequency=0.5 / np.pi)
+    assert "time" not in scene and scene["contact"]["restitution"] == 0.8
+    record = wb.run(scene)
+    assert record.converged and record.summary["solved_by"] == "impacts"
+    assert abs(record.summary["max_impact_velocity_m_per_s"] - 1.69573294) < 1e-8
+    with pytest.raises(ValueError, match="restitution"):
+        wb.forced_response(structure, wb.Rigid(1.0, restitution=0.8), 0.5 / np.pi)
+    with pytest.raises(ValueError, match="in 0..1"):
+        wb.Rigid(1.0, restitution=1.5)
+    with pytest.raises(ValueError, match="no pair"):
+        structure.scene(wb.Rigid(1.0, restitution=0.8), frequency=1.0, pair=wb.Pair())
