@@ -20,7 +20,7 @@ void set_gap(Scene& scene, const SceneValue& value) {
 void add_law_keys(std::vector<SceneKey>& keys) {
   for (const SharedParameter& parameter : law_parameters()) {
     SceneKey key = key_of_parameter("contact", parameter);
-    or_in_pairs(key);
+    if (!parameter.first.may_lack) or_in_pairs(key);
     only_with(law_is(parameter.laws))(key);
     if (parameter.first.name == "gap") {
       single_or_list(get_gap, set_gap)(key);
