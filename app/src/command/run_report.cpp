@@ -88,12 +88,12 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html(
           "What came out",
-          paragraph(outcome_sentences(summary, common_gap(scene))) +
+          paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
               (record.figure.panels.empty() ? "" : picture(files, heading)) + motion(files) +
               folded_table(summary, "motions",
                            scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
                                                                         : "Motions at points of the curve")) +
-      section_html("Stability", paragraph(stability_sentences(summary, record.sweep)) +
+      section_html("Stability", paragraph(stability_sentences(summary, record.sweep, record.axis)) +
                                     folded_table(summary, "special_points", "Special points")) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked", asked(arguments, scene)) +

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
-#include "analysis/sweep_axis.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 
@@ -150,15 +148,14 @@ void append_motions(std::vector<std::string>& sentences, const Summary& summary,
   append_motion(sentences, summary, gap);
 }
 
-void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap) {
+void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap,
+                  const SweepAxis& axis) {
   const double highest = number_in(summary, quantities::max_displacement);
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   if (!std::isfinite(highest)) return;
-  std::string place = "not known";
-  for (const Quantity& one : quantities::peak_places)
-    if (find_entry(summary, one.name) != nullptr)
-      place = (one.unit == "Hz" ? "" : "an amplitude of ") + with_unit(summary, one);
-  sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}.", quantity(highest, "m"), place,
+  sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}{}.", quantity(highest, "m"),
+                                  axis.quantity == "frequency" ? "" : "an amplitude of ",
+                                  with_unit(summary, quantities::peak_place(axis.unit)),
                                   beside_gap(highest, gap)));
 }
 
@@ -233,17 +230,15 @@ std::string type_in_words(const std::string& type) {
   return found == known.end() ? spaced(type) : found->second;
 }
 
-void append_special_points(std::vector<std::string>& sentences, const Summary& summary) {
+void append_special_points(std::vector<std::string>& sentences, const Summary& summary,
+                           const SweepAxis& axis) {
   const auto* points = value_in<Table>(summary, quantities::special_points.name);
   if (points == nullptr || points->empty()) return;
-  const std::optional<SweepAxis> axis = axis_of(*points);
-  const std::string place = axis ? axis->column() : points->columns().at(1);
   std::map<std::string, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)
-    if (const auto* value = std::get_if<double>(&points->at(i, place)))
+    if (const auto* place = std::get_if<double>(&points->at(i, axis.column())))
       places[type_in_words(cell_text(points->at(i, "type")))].push_back(
-          axis ? fmt::format("{:.7g} {}", *value, axis->unit)
-               : fmt::format("{} {:.5g}", spaced(place), *value));
+          fmt::format("{:.7g} {}", *place, axis.unit));
   for (const auto& [type, where] : places)
     sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
 }
@@ -284,15 +279,15 @@ std::vector<std::string> unstable_parts(const std::vector<double>& place, const 
   return parts;
 }
 
-void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& curve) {
-  const std::optional<SweepAxis> axis = axis_of(curve);
-  if (!axis || !curve.has_column("unstable") || curve.has_column("branch")) return;
+void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& curve,
+                           const SweepAxis& axis) {
+  if (!curve.has_column("unstable") || curve.has_column("branch")) return;
   const std::vector<double> unstable = curve.numbers("unstable");
   const auto not_known =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
   if (not_known == static_cast<std::ptrdiff_t>(unstable.size())) return;
-  const auto parts = unstable_parts(curve.numbers(axis->column()), unstable,
-                                    changes_of_stability(summary, axis->column()), axis->unit);
+  const auto parts = unstable_parts(curve.numbers(axis.column()), unstable,
+                                    changes_of_stability(summary, axis.column()), axis.unit);
   sentences.push_back(
       parts.empty() ? "No motion whose stability is known is unstable."
                     : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
@@ -303,12 +298,12 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
 
 }  // namespace
 
-std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
+std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
   std::vector<std::string> sentences{solution_sentence(summary)};
   const std::string analysis = text_in(summary, quantities::analysis);
   const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
   if (curve)
-    append_curve(sentences, summary, gap);
+    append_curve(sentences, summary, gap, axis);
   else if (analysis == "nonlinear_mode")
     append_mode(sentences, summary);
   else if (analysis == "motions")
@@ -320,7 +315,8 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap) {
   return sentences;
 }
 
-std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve) {
+std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve,
+                                             const SweepAxis& axis) {
   const std::string status = text_in(summary, quantities::stability);
   if (status.empty()) return {};
   std::vector<std::string> sentences{status_sentence(status)};
@@ -333,8 +329,8 @@ std::vector<std::string> stability_sentences(const Summary& summary, const Table
   if (std::isfinite(real))
     sentences.push_back(
         fmt::format("The leading multiplier has the absolute value {:.4g}.", std::hypot(real, imaginary)));
-  append_unstable_parts(sentences, summary, curve);
-  append_special_points(sentences, summary);
+  append_unstable_parts(sentences, summary, curve, axis);
+  append_special_points(sentences, summary, axis);
   return sentences;
 }
 

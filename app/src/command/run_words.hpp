@@ -2,15 +2,17 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/summary.hpp"
 
 namespace wavebalance::app {
 
 /// What a run found, in sentences: whether it was solved and how, the motion or the curve, contact. `gap` in
-/// m; NaN where contacts have different gaps or there are none.
-std::vector<std::string> outcome_sentences(const Summary& summary, double gap);
+/// m; NaN where contacts have different gaps or there are none. `axis` is that of a sweep.
+std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis = {});
 
 /// What the record says of stability, and where it changes; `curve` is the table of a sweep, or empty.
-std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve = {});
+std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve = {},
+                                             const SweepAxis& axis = {});
 
 }  // namespace wavebalance::app

@@ -227,7 +227,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
       solution_entries(record.converged, record.status, largest(sweep.curve, &solvers::SweepPoint::residual),
                        points, unknowns_of(scene, model, sweep), sweep.wall_seconds);
   record.summary.emplace_back(quantities::max_displacement, highest);
-  record.summary.emplace_back(quantities::peak_place(sweep_axis(sweep).unit), place_of_peak(sweep.curve));
+  record.axis = sweep_axis(sweep);
+  record.summary.emplace_back(quantities::peak_place(record.axis.unit), place_of_peak(sweep.curve));
   record.summary.emplace_back(quantities::min_displacement, least_displacement(sweep.curve));
   record.summary.emplace_back(quantities::rms_displacement,
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));

@@ -90,7 +90,7 @@ TEST(RunWords, WordsOfModesAreExplainedWhereTheyStand) {
   EXPECT_NE(text.find("A tongue is a part of the curve on an internal resonance"), std::string::npos) << text;
   EXPECT_NE(text.find("The virial residual, at most 1.5e-05, is the relative error"), std::string::npos)
       << text;
-  Table points({"type", "energy_ratio"});
+  Table points({"type", "frequency_Hz"});
   points.append_row({std::string("krein_collision"), 2.0});
   const std::string stability =
       joined(stability_sentences({{"stability", std::string("converged")}, {"special_points", points}}, {}));

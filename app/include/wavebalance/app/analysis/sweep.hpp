@@ -20,6 +20,16 @@ struct PointImpacts {
   double energy_lost = 0.0;      ///< J in a period of the load
 };
 
+/// What a sweep varies, in words, columns and units.
+struct SweepAxis {
+  std::string quantity = "frequency";  ///< or "amplitude"
+  std::string unit = "Hz";             ///< or "N", "m" or "m/s^2"
+  std::string suffix = "Hz";           ///< the unit at the end of a column's name
+
+  std::string column() const { return quantity + "_" + suffix; }
+  std::string label() const;  ///< "Frequency (Hz)"
+};
+
 /// A curve of responses over the frequency or the amplitude. Frequencies are those of the load, also of the
 /// branches; of an amplitude sweep load scales are amplitudes.
 struct Sweep {

@@ -5,6 +5,7 @@
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -29,6 +30,7 @@ struct Record {
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< see sweep_table(); empty otherwise
+  SweepAxis axis;   ///< of sweep and of the special points
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
