@@ -61,17 +61,12 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
   const SweepAxis axis = sweep_axis(sweep);
   const bool with_phases = std::any_of(motions.begin(), motions.end(),
                                        [](const CurveMotion& motion) { return motion.phases.has_value(); });
-  std::vector<std::string> columns{"file",
-                                   "at",
-                                   axis.column(),
-                                   "max_displacement_m",
-                                   "min_displacement_m",
-                                   "rms_displacement_m",
-                                   "max_contact_force_N",
-                                   "contact_fraction",
-                                   "unstable_multipliers",
-                                   "residual",
-                                   "converged"};
+  Summary measures;
+  append_motion(measures, {});
+  std::vector<std::string> columns{"file", "at", axis.column()};
+  for (const Entry& one : measures) columns.push_back(one.name);
+  for (const Quantity& one : {quantities::unstable_multipliers, quantities::residual, quantities::converged})
+    columns.push_back(one.column());
   if (with_phases)
     for (std::string& column : phases_columns()) columns.push_back(std::move(column));
   Table table(columns);
