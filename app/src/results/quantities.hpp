@@ -81,9 +81,9 @@ constexpr const Quantity& peak_place(std::string_view unit) {
 
 /// The quantity with words that a column of a table holds; null for others.
 constexpr const Quantity* find_in_words(std::string_view column) {
-  for (const Quantity* one :
-       {&frequency, &linear_frequency, &max_displacement, &min_displacement, &rms_displacement,
-        &max_contact_force, &contact_dissipation, &max_penetration, &min_contact_force})
+  for (const Quantity* one : {&frequency, &linear_frequency, &max_displacement, &min_displacement,
+                              &rms_displacement, &max_contact_force, &contact_dissipation, &friction_work,
+                              &wear, &max_penetration, &min_contact_force})
     if (one->name == column) return one;
   for (const Quantity& one : peak_places)
     if (one.name == column) return &one;

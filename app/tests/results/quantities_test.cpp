@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "support/bar_scene.hpp"
@@ -40,6 +41,21 @@ TEST(Quantities, WhatIsMeasuredOfAMotionIsAResultAndItsEffortIsNot) {
   EXPECT_EQ(kind_of(quantities::residual), EntryKind::diagnostic);
   EXPECT_EQ(kind_of(quantities::frequency), EntryKind::setting);
   EXPECT_EQ(kind_of(quantities::wall_seconds), EntryKind::heading);
+}
+
+TEST(Quantities, WhatARecordHasWordsForIsFoundByItsColumn) {
+  const auto file = std::filesystem::path(WAVEBALANCE_SCENES) / "friction" / "slider.toml";
+  const std::vector<Record> records{
+      analyse(load_scene(file, std::vector<std::string>{"contact.wear_coefficient=1e-14"})),
+      analyse(load_with({}))};
+  for (const Record& record : records)
+    for (const Entry& one : record.summary) {
+      if (one.words.empty()) continue;
+      const Quantity* found = quantities::find_in_words(one.name);
+      ASSERT_NE(found, nullptr) << one.name;
+      EXPECT_EQ(found->words, one.words);
+    }
+  EXPECT_NE(find_entry(records[0].summary, quantities::wear.name), nullptr);
 }
 
 TEST(Quantities, AColumnHasItsWordsAndItsUnit) {
