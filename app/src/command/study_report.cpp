@@ -109,12 +109,9 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
 
 std::string study_outcome(const StudyRecord& record) {
   const Summary& summary = record.summary;
-  const auto value = [&](const char* wanted) {
-    const auto* count = value_in<std::int64_t>(summary, wanted);
-    return count == nullptr ? std::int64_t{0} : *count;
-  };
-  std::string text = fmt::format("{} of {} runs have ended, and {} of them converged.\n", value("runs_ended"),
-                                 value("runs"), value("runs_converged"));
+  std::string text = fmt::format("{:.0f} of {:.0f} runs have ended, and {:.0f} of them converged.\n",
+                                 number_in(summary, {"runs_ended"}), number_in(summary, {"runs"}),
+                                 number_in(summary, {"runs_converged"}));
   const Table* statuses = table_of(summary, "statuses");
   for (std::size_t i = 0; statuses != nullptr && i < statuses->rows(); ++i)
     if (cell_text(statuses->at(i, "status")) != "converged")

@@ -69,7 +69,7 @@ void append_outcome(Summary& summary, const StudyOutcome& outcome, const Table& 
   summary.emplace_back("workers", std::int64_t{outcome.workers});
   summary.emplace_back("processes_lost", std::int64_t{outcome.lost});
   summary.emplace_back("runs_solved_now", solved);
-  summary.emplace_back("wall_seconds", outcome.wall_seconds);
+  summary.emplace_back(quantities::wall_seconds, outcome.wall_seconds);
   const std::vector<double> seconds = table.empty() ? std::vector<double>() : table.numbers("seconds");
   summary.emplace_back("seconds_of_all_runs", std::accumulate(seconds.begin(), seconds.end(), 0.0));
   summary.emplace_back("runs_per_second",
@@ -146,8 +146,8 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
   record.converged = record.complete && converged == std::int64_t(rows.size());
   record.status = status_of(record);
-  record.summary = {{"converged", record.converged},
-                    {"status", record.status},
+  record.summary = {{quantities::converged, record.converged},
+                    {quantities::status, record.status},
                     {"runs", runs.size()},
                     {"runs_ended", static_cast<std::int64_t>(rows.size())},
                     {"runs_converged", static_cast<std::int64_t>(converged)},
@@ -158,7 +158,7 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
   if (!study.quantity.empty() && quantity != study.quantity)
     record.warnings.push_back(fmt::format("quantity = \"{}\": no run has such a value; pictures show {}",
                                           study.quantity, quantity));
-  record.summary.emplace_back("warnings", record.warnings);
+  record.summary.emplace_back(quantities::warnings, record.warnings);
   record.summary.emplace_back("quantity", quantity);
   record.summary.emplace_back("statuses", statuses_table(record.table));
   record.summary.emplace_back("quantiles", quantiles_table(study, record.table));
