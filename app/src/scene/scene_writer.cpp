@@ -1,5 +1,7 @@
 #include "wavebalance/app/scene/scene_writer.hpp"
 
+#include <algorithm>
+
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -9,7 +11,7 @@ namespace {
 
 bool is_empty(const SceneValue& value) {
   return value == SceneValue(std::string()) || value == SceneValue(std::vector<std::int64_t>()) ||
-         value == SceneValue(std::vector<NumberOrText>());
+         value == SceneValue(std::vector<double>()) || value == SceneValue(std::vector<NumberOrText>());
 }
 
 /// Whether a key was not given and has no default, or a default that cannot be derived. It is not written:
@@ -29,13 +31,10 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
 
 /// Whether a pair of this law has the key, with a value of its own.
 bool has_value(const Scene& scene, std::size_t index, const SceneKey& key) {
-  const ContactPair& pair = scene.contact.pairs[index];
-  if (key.name == "coefficients") return !pair.coefficients.empty();
-  if (key.name.find("tangent") != std::string_view::npos && key.laws.empty())
-    return !(key.name.starts_with("second") ? pair.second_tangent : pair.tangent).empty();
-  if (key.name == "law") return pair.law != no_law && !is_rigid(pair.law);
-  if (key.laws.empty()) return true;
-  return contact::law_entry(pair.law).find(key.name) != nullptr && !is_empty(key.get(scene));
+  const std::string& law = scene.contact.pairs[index].law;
+  if (key.name == "law") return law != no_law && !is_rigid(law);
+  const bool of_law = key.laws.empty() || std::find(key.laws.begin(), key.laws.end(), law) != key.laws.end();
+  return of_law && !is_empty(key.get(scene));
 }
 
 /// Calls use(section, key) for each key of the pairs that is written.

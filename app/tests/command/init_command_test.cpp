@@ -105,24 +105,18 @@ TEST(CommandKeys, OfAChoiceLeaveOutWhatSuchASceneMayNotHold) {
 
 TEST(CommandKeys, OfALawAreItsOwnParametersAsItHasThem) {
   const std::string text = selected_keys_text({"contact", "contact.law=linear"});
-  const std::vector<std::string> expected{"dofs",
-                                          "coefficients",
-                                          "tangent",
-                                          "tangent_coefficients",
-                                          "second_tangent",
-                                          "second_tangent_coefficients",
-                                          "side",
-                                          "law",
-                                          "stiffness",
-                                          "gap",
-                                          "law",
-                                          "stiffness",
-                                          "gap",
-                                          "form",
-                                          "mass"};
+  const std::vector<std::string> expected{"dofs", "coefficients", "side", "law",  "stiffness", "gap",
+                                          "law",  "stiffness",    "gap",  "form", "mass"};
   EXPECT_EQ(names_in(text), expected);
   EXPECT_NE(text.find("slope of the linear law.\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("clearance law"), std::string::npos) << text;
+}
+
+TEST(CommandKeys, TangentsAreThoseOfALawWithFriction) {
+  const auto names = names_in(selected_keys_text({"contact", "contact.law=coulomb"}));
+  for (const char* name :
+       {"tangent", "tangent_coefficients", "second_tangent", "second_tangent_coefficients", "friction"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
 }
 
 TEST(CommandKeys, OfANameAreAllOfThisName) {

@@ -82,7 +82,7 @@ struct SceneKey {
   std::vector<std::string_view> choices;  ///< the texts that are allowed
   Condition belongs;                      ///< scenes that may hold the key; in others it is an error
   Condition needed;                       ///< scenes in which the key is required if it has no default
-  std::vector<std::string_view> laws;     ///< the contact laws of which it is a parameter; empty for others
+  std::vector<std::string_view> laws;     ///< the contact laws that take it; empty: all do
   bool dofs = false;                      ///< a list whose entries may be names such as "node 7 z"
   bool in_pairs = false;                  ///< not required where [[contact.pairs]] may each have their own
   Default fallback = Default::required;
