@@ -123,13 +123,7 @@ class PairReader {
 bool is_pair_section(std::string_view section) { return section.starts_with("contact.pairs["); }
 
 std::size_t count_pairs(const Document& document) {
-  const auto count = std::count_if(document.sections.begin(), document.sections.end(),
-                                   [](const DocumentSection& one) { return is_pair_section(one.name); });
-  if (count > most_pairs)
-    throw SceneError(
-        {document.name, document.section_line(pair_section(0)), "", "contact.pairs", "",
-         "there are " + std::to_string(count) + "; expected at most " + std::to_string(most_pairs)});
-  return static_cast<std::size_t>(count);
+  return count_tables(document, "contact.pairs", most_pairs);
 }
 
 void read_pairs(const Document& document, Scene& scene) {

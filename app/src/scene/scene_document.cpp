@@ -144,6 +144,16 @@ int Document::section_line(std::string_view section) const {
   return 0;
 }
 
+std::size_t count_tables(const Document& document, const std::string& name, int most) {
+  const auto count =
+      std::count_if(document.sections.begin(), document.sections.end(),
+                    [&](const DocumentSection& one) { return one.name.starts_with(name + "["); });
+  if (count > most)
+    throw SceneError({document.name, document.section_line(name + "[1]"), "", name, "",
+                      "there are " + std::to_string(count) + "; expected at most " + std::to_string(most)});
+  return static_cast<std::size_t>(count);
+}
+
 Document parse_document(std::string_view text, const std::string& name) {
   const toml::table root = parse_toml(text, name);
   Document document;

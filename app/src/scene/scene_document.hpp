@@ -46,6 +46,9 @@ struct Document {
   int section_line(std::string_view section) const;  ///< 0 if the file has no such section
 };
 
+/// The number of sections [[name]]. Throws SceneError for more than `most`.
+std::size_t count_tables(const Document& document, const std::string& name, int most);
+
 /// The section and the key of "section.key"; the section of "contact.pairs[1].gap" is "contact.pairs[1]". The
 /// name must have a dot.
 std::pair<std::string, std::string> split_name(const std::string& full_name);

@@ -75,13 +75,7 @@ class TermReader {
 bool is_term_section(std::string_view section) { return section.starts_with("forcing.terms["); }
 
 std::size_t count_terms(const Document& document) {
-  const auto count = std::count_if(document.sections.begin(), document.sections.end(),
-                                   [](const DocumentSection& one) { return is_term_section(one.name); });
-  if (count > most_terms)
-    throw SceneError(
-        {document.name, document.section_line(term_section(0)), "", "forcing.terms", "",
-         "there are " + std::to_string(count) + "; expected at most " + std::to_string(most_terms)});
-  return static_cast<std::size_t>(count);
+  return count_tables(document, "forcing.terms", most_terms);
 }
 
 void read_terms(const Document& document, Scene& scene) {
