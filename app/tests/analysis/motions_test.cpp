@@ -12,29 +12,14 @@
 namespace wavebalance::app {
 namespace {
 
-/// m = k = 1, c = 0.05, a stop of 4 N/m at 1 m, 0.15 N: two stable motions and one unstable one between the
-/// folds at 0.1699 and 0.1957 Hz.
-const std::string motions_scene = R"([structure]
-type = "bar"
-youngs_modulus = 1.0
-density = 2.0
-area = 1.0
-length = 1.0
-elements = 1
-lumped_mass_fraction = 1.0
-stiffness_damping = 0.05
-[contact]
-law = "linear"
-stiffness = 4.0
-gap = 1.0
-[forcing]
-amplitude = 0.15
-frequency = 0.18
-[analysis]
-type = "motions"
-)";
+/// The oscillator with a stop.
+const std::string motions_scene =
+    stop_scene.substr(0, stop_scene.find("[time]")) + "[analysis]\ntype = \"motions\"\n";
 
-Scene motions_with(const std::vector<std::string>& overrides = {}) {
+/// A stop of 4 N/m and 0.15 N: two stable motions and one unstable one between the folds at 0.1699 and 0.1957
+/// Hz.
+Scene motions_with(std::vector<std::string> overrides = {}) {
+  overrides.insert(overrides.begin(), {"contact.stiffness=4.0", "forcing.amplitude=0.15"});
   return parse_scene(motions_scene, "motions.toml", overrides);
 }
 
@@ -156,7 +141,7 @@ TEST(Motions, RefuseKeysByTheirNames) {
 
 TEST(Motions, RefuseARigidContactWithMass) {
   std::string rigid = motions_scene;
-  rigid.replace(rigid.find("law = \"linear\"\nstiffness = 4.0"), 30, "law = \"rigid\"\nmass = \"keep\"");
+  rigid.replace(rigid.find("law = \"linear\"\nstiffness = 2.0"), 30, "law = \"rigid\"\nmass = \"keep\"");
   EXPECT_EQ(error_of(rigid).key, "contact.mass");
 }
 
