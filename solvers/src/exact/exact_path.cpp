@@ -30,6 +30,27 @@ double& passage_of(PhaseIterate& iterate, Index i) {
   return iterate.layout.passages[static_cast<std::size_t>(i)].time;
 }
 
+Eigen::VectorXd lagrange_weights(const std::vector<const PathPoint*>& points, double place) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Index(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < points.size(); ++j)
+      if (j != i) weights[Index(i)] *= (place - points[j]->place) / (points[i]->place - points[j]->place);
+  return weights;
+}
+
+// The forces of the points at the same share of a phase, weighted.
+double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::VectorXd& weights, int phase,
+                      double share) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const Layout& layout = points[j]->iterate.layout;
+    const Phase& own = layout.phases[static_cast<std::size_t>(phase)];
+    const double begin = layout.begin(own), time = begin + share * (layout.end(own) - begin);
+    sum += weights[Index(j)] * points[j]->iterate.forces.in_phase(phase, time);
+  }
+  return sum;
+}
+
 }  // namespace
 
 PathModel::PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options)
@@ -145,14 +166,19 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
   }
 }
 
-PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes) {
-  CellGrid grid = iterate.layout.grid();
+PhaseIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force) {
+  CellGrid grid = layout.grid();
   Eigen::VectorXd values(nodes.count() * Index(grid.panels.size()));
   for (std::size_t p = 0; p < grid.panels.size(); ++p)
     for (Index i = 0; i < nodes.count(); ++i)
-      values[nodes.count() * Index(p) + i] =
-          iterate.forces.in_phase(grid.panels[p].phase, grid.panels[p].time(nodes.points[i]));
-  return {iterate.layout, PanelForces(std::move(grid), nodes, values)};
+      values[nodes.count() * Index(p) + i] = force(grid.panels[p], grid.panels[p].time(nodes.points[i]));
+  return {std::move(layout), PanelForces(std::move(grid), nodes, values)};
+}
+
+PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes) {
+  return with_forces(iterate.layout, nodes, [&](const Panel& panel, double time) {
+    return iterate.forces.in_phase(panel.phase, time);
+  });
 }
 
 Prediction along_tangent(const PathPoint& at, double distance, double speed) {
@@ -169,31 +195,6 @@ Prediction along_tangent(const PathPoint& at, double distance, double speed) {
   return result;
 }
 
-namespace {
-
-Eigen::VectorXd lagrange_weights(const std::vector<const PathPoint*>& points, double place) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(Index(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t j = 0; j < points.size(); ++j)
-      if (j != i) weights[Index(i)] *= (place - points[j]->place) / (points[i]->place - points[j]->place);
-  return weights;
-}
-
-// The forces of the points at the same share of a phase, weighted.
-double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::VectorXd& weights, int phase,
-                      double share) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    const Layout& layout = points[j]->iterate.layout;
-    const Phase& own = layout.phases[static_cast<std::size_t>(phase)];
-    const double begin = layout.begin(own), time = begin + share * (layout.end(own) - begin);
-    sum += weights[Index(j)] * points[j]->iterate.forces.in_phase(phase, time);
-  }
-  return sum;
-}
-
-}  // namespace
-
 Prediction through(const std::vector<const PathPoint*>& points, double place) {
   const Eigen::VectorXd weights = lagrange_weights(points, place);
   Prediction result{0.0, points.back()->iterate};
@@ -206,18 +207,12 @@ Prediction through(const std::vector<const PathPoint*>& points, double place) {
   }
   const Index q = points.back()->iterate.forces.coefficients().rows();
   if (q == 0) return result;
-  const LegendreNodes nodes(q);
-  CellGrid grid = layout.grid();
-  Eigen::VectorXd values(q * Index(grid.panels.size()));
-  for (std::size_t p = 0; p < grid.panels.size(); ++p) {
-    const Panel& panel = grid.panels[p];
+  const auto force = [&](const Panel& panel, double time) {
     const Phase& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
     const double begin = layout.begin(phase), length = layout.end(phase) - begin;
-    for (Index i = 0; i < q; ++i)
-      values[q * Index(p) + i] =
-          weighted_force(points, weights, panel.phase, (panel.time(nodes.points[i]) - begin) / length);
-  }
-  result.iterate.forces = PanelForces(std::move(grid), nodes, values);
+    return weighted_force(points, weights, panel.phase, (time - begin) / length);
+  };
+  result.iterate = with_forces(layout, LegendreNodes(q), force);
   return result;
 }
 

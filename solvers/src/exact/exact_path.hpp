@@ -74,6 +74,9 @@ class PathModel {
   Eigen::VectorXd times_;
 };
 
+/// A layout with the forces that `force` gives at times of its panels, by these nodes.
+using ForceInPanel = std::function<double(const Panel& panel, double time)>;
+PhaseIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force);
 /// The same forces by other nodes, and by the panels of the layout.
 PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes);
 

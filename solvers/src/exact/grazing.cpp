@@ -128,13 +128,8 @@ double passed_by(const PathPoint& at, const Grazing& grazing) {
 PhaseIterate with_layout(const PathPoint& at, Layout layout) {
   const PanelForces& old = at.iterate.forces;
   const LegendreNodes nodes(std::max<Index>(4, old.coefficients().rows()));
-  CellGrid grid = layout.grid();
-  Eigen::VectorXd values(nodes.count() * Index(grid.panels.size()));
-  for (std::size_t p = 0; p < grid.panels.size(); ++p)
-    for (Index i = 0; i < nodes.count(); ++i)
-      values[nodes.count() * Index(p) + i] =
-          old.at(grid.panels[p].contact, grid.panels[p].time(nodes.points[i]));
-  return {std::move(layout), PanelForces(std::move(grid), nodes, values)};
+  return with_forces(std::move(layout), nodes,
+                     [&](const Panel& panel, double time) { return old.at(panel.contact, time); });
 }
 
 }  // namespace wavebalance::solvers::detail
