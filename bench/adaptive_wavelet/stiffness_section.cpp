@@ -9,7 +9,6 @@ solvers::SelectedBalance stiffness_section(const solvers::CondensedProblem& prob
                                            const solvers::LinearStructure& structure,
                                            const solvers::MultiscaleBasis& basis,
                                            const solvers::Selection& selection) {
-  structure.require_single_contact("stiffness_section");
   const double frequency = problem.frequency();
   const solvers::TimePair& pair = problem.pair();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes{Eigen::MatrixXd(structure.mass),

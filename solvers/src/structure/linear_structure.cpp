@@ -127,12 +127,6 @@ int LinearStructure::selected_dof(int contact) const {
   return dof;
 }
 
-void LinearStructure::require_single_contact(const char* caller) const {
-  if (contacts() == 1) return;
-  throw std::invalid_argument(std::string(caller) + ": contact_directions has " + std::to_string(contacts()) +
-                              " rows; this solver takes exactly 1");
-}
-
 ContactDirections contact_rows(const std::vector<int>& dofs, int size) {
   std::vector<bool> taken(static_cast<std::size_t>(std::max(size, 0)), false);
   ContactDirections directions(Index(dofs.size()), size);

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "period_oracle/shooting_modes.hpp"
+
 namespace wavebalance::oracle {
 
 using solvers::LinearStructure;
@@ -27,7 +29,7 @@ class Flows {
       : masses_(structure.size() - 1), gap_(gap) {
     const Eigen::MatrixXd m = structure.mass, c = structure.damping, k = structure.stiffness;
     const int n = masses_, size = 2 * n + 3;
-    structure.require_single_contact("rigid_reference");
+    require_single_contact(structure, "rigid_reference");
     structure.require_causal_damping("rigid_reference");
     if (structure.selected_dof(0) != n || m.row(n).cwiseAbs().maxCoeff() != 0.0 || c(n, n) <= 0.0)
       throw std::invalid_argument(

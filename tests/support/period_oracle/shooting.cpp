@@ -208,7 +208,7 @@ ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law,
     throw std::invalid_argument("shoot: frequency_hz is " + std::to_string(frequency_hz) +
                                 "; it must be positive and finite");
   structure.validate();
-  structure.require_single_contact("shoot");
+  require_single_contact(structure, "shoot");
   if (law.depends_on_velocity())
     throw std::invalid_argument(
         "shoot: the force of the law depends on the velocity; integrate_to_periodic takes such laws");

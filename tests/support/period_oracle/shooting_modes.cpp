@@ -37,6 +37,12 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
 
 }  // namespace
 
+void require_single_contact(const solvers::LinearStructure& structure, const char* caller) {
+  if (structure.contacts() == 1) return;
+  throw std::invalid_argument(std::string(caller) + ": contact_directions has " +
+                              std::to_string(structure.contacts()) + " rows; this solver takes exactly 1");
+}
+
 ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
     : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
   const Eigen::MatrixXd mass = structure.mass;
@@ -59,7 +65,7 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();
   projection = shapes.transpose() * structure.mass;
-  structure.require_single_contact("shoot");
+  require_single_contact(structure, "shoot");
   const Eigen::MatrixXd along = structure.contact_directions * shapes;
   contact = along.row(0).transpose();
   const Eigen::MatrixXcd loads = structure.load_amplitudes(frequency_hz);

@@ -5,6 +5,9 @@
 
 namespace wavebalance::oracle {
 
+/// Throws std::invalid_argument naming `caller` when there is not exactly one contact.
+void require_single_contact(const solvers::LinearStructure& structure, const char* caller);
+
 /// The structure in its undamped modes, mass-normalised, with the periodic response to the load without
 /// contact.
 struct ModalStructure {

@@ -60,8 +60,6 @@ struct LinearStructure {
   /// Throws std::invalid_argument for a loss factor that is negative or not finite, and naming the member
   /// whose size does not fit, with both sizes, or the direction that is zero or not finite.
   void validate() const;
-  /// Throws std::invalid_argument naming `caller` when there is not exactly one contact.
-  void require_single_contact(const char* caller) const;
 };
 
 }  // namespace wavebalance::solvers
