@@ -8,18 +8,15 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
-#include "convergence.hpp"
 #include "figures.hpp"
 #include "jl14.hpp"
-#include "paper_results.hpp"
+#include "jl14_results.hpp"
 #include "paper_values.hpp"
 #include "readings.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -30,11 +27,6 @@ using Columns = std::vector<std::string>;
 const Columns pair_columns{
     "time_fraction",           "reference",    "fourier_fourier",     "bspline_bspline",
     "daubechies6_daubechies6", "haar_fourier", "daubechies6_fourier", "haar_bspline"};
-
-report::PaperResults& results() {
-  static report::PaperResults all(figures());
-  return all;
-}
 
 /// Starts the program with a folder of its own for what it writes.
 class Jl14Program : public testing::Test {
@@ -191,54 +183,6 @@ TEST(Jl14Paper, TheFirstReadingIsThatOfTheScenes) {
   EXPECT_EQ(all_sums().size(), 18u);
 }
 
-TEST(Jl14Paper, StatementsOnTheCasesHaveTheirVerdicts) {
-  using report::Verdict;
-  results().need({"reference_case1", "reference_case2", "haar_readings", "fig04", "fig06", "fig07", "fig08",
-                  "fig09", "tab01", "rigid_plateau"});
-  const std::vector<std::tuple<std::string, std::string, Verdict>> expected{
-      {"reference_case2", "transient response to decay", Verdict::agrees},
-      {"fig04_daubechies6_levels", "no longer scale-invariant", Verdict::agrees},
-      {"fig04_daubechies6_levels", "the shape does not converge", Verdict::differs},
-      {"fig04_daubechies6_levels", "prone to error", Verdict::agrees},
-      {"tab01_cases", "fundamental frequency", Verdict::agrees},
-      {"tab01_cases", "maximum tip displacements", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "HBM (Fourier:Fourier) approximates", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "oscillations due to Gibbs", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "less well due to the blocky nature", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "contact plateau is well represented", Verdict::depends},
-      {"fig06_tip_displacement_case1", "localized error", Verdict::depends},
-      {"fig07_tip_displacement_case2", "less suited", Verdict::depends},
-      {"fig07_tip_displacement_case2", "tip penetration", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "sharp jump in velocity", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "ringing due to Gibbs", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "more pronounced", Verdict::depends},
-      {"fig08_tip_velocity_case1", "best job", Verdict::depends},
-      {"fig08_tip_velocity_case1", "velocity function envelope", Verdict::depends},
-      {"fig08_tip_velocity_case1", "sparse representation", Verdict::agrees},
-      {"fig09_contact_force_case1", "Gibbs phenomenon can be seen", Verdict::depends},
-      {"fig09_contact_force_case1", "relatively well", Verdict::depends},
-      {"fig09_contact_force_case1", "most accurately approximate", Verdict::partly},
-      {"fig09_contact_force_case1", "more accurate contact force", Verdict::depends},
-      {"fig09_contact_force_case1", "comparable prediction accuracy", Verdict::partly},
-      {"rigid_plateau", "perform even better", Verdict::agrees},
-      {"rigid_plateau", "perfectly flat contact plateaus", Verdict::depends}};
-  for (const auto& [stem, words, verdict] : expected)
-    EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
-}
-
-TEST(Jl14Paper, ReadingsAreCounted) {
-  results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig08", "fig09"});
-  const auto agreeing = [](const std::string& stem, const std::string& words) {
-    return report::agreeing(results().statement(stem, words).readings);
-  };
-  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "well represented"), 7);
-  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "localized error"), 13);
-  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "velocity function envelope"), 1);
-  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "best job"), 1);
-  EXPECT_EQ(agreeing("fig09_contact_force_case1", "relatively well"), 2);
-  EXPECT_EQ(agreeing("fig09_contact_force_case1", "Gibbs phenomenon can be seen"), 17);
-}
-
 TEST(Jl14Paper, ChecksOfTheCodePass) {
   results().need({"reference_case1", "reference_case2", "fig02", "fig03", "fig04", "fig05", "tab02"});
   for (const char* stem :
@@ -272,64 +216,6 @@ TEST(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
         entry(table, listed.case_number, "daubechies6_daubechies6", listed.functions, "energy_norm_ratio"),
         listed.ratio, listed.tolerance)
         << "case " << listed.case_number << ", " << listed.functions;
-}
-
-TEST(Jl14Paper, StatementsOnConvergenceAndResonanceHaveTheirVerdicts) {
-  using report::Verdict;
-  results().need({"reference_case1", "reference_case2", "fig10", "fig11", "fig12"});
-  const std::vector<std::tuple<std::string, std::string, Verdict>> expected{
-      {"fig10_energy_norm", "approximately unity", Verdict::agrees},
-      {"fig10_energy_norm", "relatively few basis functions", Verdict::agrees},
-      {"fig10_energy_norm", "again converge quickly", Verdict::agrees},
-      {"fig10_energy_norm", "over-predict the system energy", Verdict::agrees},
-      {"fig10_energy_norm", "better approximated", Verdict::depends},
-      {"fig10_energy_norm", "less obvious", Verdict::differs},
-      {"fig10_energy_norm", "more slowly", Verdict::depends},
-      {"fig10_energy_norm", "larger difference", Verdict::depends},
-      {"fig11_tip_error", "only 8 basis functions", Verdict::agrees},
-      {"fig11_tip_error", "does not perform as well", Verdict::agrees},
-      {"fig11_tip_error", "performs poorly using 16", Verdict::depends},
-      {"fig11_tip_error", "reasonably constant", Verdict::depends},
-      {"fig11_tip_error", "is highest out of", Verdict::agrees},
-      {"fig11_tip_error", "mid-points of the Haar", Verdict::partly},
-      {"fig11_tip_error", "low resolution", Verdict::depends},
-      {"fig11_tip_error", "similar trends", Verdict::partly},
-      {"fig11_tip_error", "consistent or better", Verdict::partly},
-      {"fig11_tip_error", "rapidly converge", Verdict::agrees},
-      {"fig12_frequency_response", "increase in frequency", Verdict::agrees},
-      {"fig12_frequency_response", "captured by both", Verdict::depends},
-      {"fig12_frequency_response", "other combinations", Verdict::depends},
-      {"fig12_frequency_response", "all the basis combinations", Verdict::depends},
-      {"fig12_frequency_response", "second fundamental frequency", Verdict::misprint}};
-  for (const auto& [stem, words, verdict] : expected)
-    EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
-}
-
-TEST(Jl14Paper, CurvesWithoutTheNyquistCoefficientPassWithEveryStep) {
-  results().need({"fig12"});
-  for (const char* words : {"captured by both", "other combinations", "all the basis combinations"}) {
-    const auto statement = results().statement("fig12_frequency_response", words);
-    int dropped = 0, kept = 0;
-    for (const auto& reading : statement.readings) {
-      const bool without = reading.name.find("dropped") != std::string::npos;
-      (without ? dropped : kept) += 1;
-      const bool shortest = reading.name.find("up to 1 Hz") != std::string::npos;
-      if (without || shortest) {
-        EXPECT_EQ(reading.verdict, report::plain(without)) << reading.name << ": " << reading.measured;
-      }
-    }
-    EXPECT_EQ(dropped, 2);
-    EXPECT_EQ(kept, 6);
-  }
-}
-
-// The energies and errors of [JL14, Figs. 10 and 11] under the sums that are read from the paper's words.
-TEST(Jl14Paper, ConvergenceIsJudgedUnderReadingsOfAllSums) {
-  std::vector<std::string> names;
-  for (const Sums& one : all_sums()) names.push_back(one.name());
-  for (const Sums& one : convergence_sums())
-    EXPECT_EQ(std::count(names.begin(), names.end(), one.name()), 1) << one.name();
-  EXPECT_EQ(convergence_sums().front().name(), all_sums().front().name());
 }
 
 TEST(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
