@@ -26,16 +26,16 @@ namespace fs = std::filesystem;
 
 struct QuantityNames {
   const char* name;
-  const char* column;
+  std::string column;
   const char* words;
 };
 
 const QuantityNames& names_of(OverlayQuantity quantity) {
   static const std::array<QuantityNames, 4> names{
-      {{"max", "max_displacement_m", "Largest displacement"},
-       {"min", "min_displacement_m", "Least displacement"},
+      {{"max", quantities::max_displacement.column(), "Largest displacement"},
+       {"min", quantities::min_displacement.column(), "Least displacement"},
        {"max_abs", "max_abs_displacement_m", "Largest absolute displacement"},
-       {"rms", "rms_displacement_m", "rms displacement"}}};
+       {"rms", quantities::rms_displacement.column(), "rms displacement"}}};
   return names[static_cast<std::size_t>(quantity)];
 }
 
@@ -113,7 +113,7 @@ void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const st
     if (table.empty()) return;
     const std::string name = branch == 0 ? label : fmt::format("{}, branch {}", label, branch);
     curves.push_back({name, branch == 0 ? "frequency_sweep" : "branch",
-                      column_of(table, "frequency_Hz", file), column_of(table, column, file),
+                      column_of(table, quantities::frequency.column(), file), column_of(table, column, file),
                       unstable_of(table)});
     if (!branches) return;
   }
@@ -122,7 +122,7 @@ void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const st
 void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
               const std::string& column) {
   const Table table = read_csv(file);
-  OverlayCurve curve{label, "nonlinear_mode", column_of(table, "frequency_Hz", file),
+  OverlayCurve curve{label, "nonlinear_mode", column_of(table, quantities::frequency.column(), file),
                      column_of(table, column, file), unstable_of(table)};
   const std::vector<std::string> statuses = table.texts("status");
   for (std::size_t i = 0; i < statuses.size(); ++i)
@@ -147,7 +147,7 @@ void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, con
 
 void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
                 OverlayQuantity quantity) {
-  const std::string column = names_of(quantity).column;
+  const std::string& column = names_of(quantity).column;
   if (holds(folder, "sweep.csv"))
     add_sweep(curves, folder / "sweep.csv", label, column);
   else if (holds(folder, "backbone.csv"))

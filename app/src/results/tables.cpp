@@ -32,9 +32,13 @@ Table contacts_table(const solvers::Motion& contacts) {
 
 namespace {
 
-const std::vector<std::string> point_columns{
-    "frequency_Hz",           "max_displacement_m",  "rms_displacement_m", "min_displacement_m",
-    "max_abs_displacement_m", "max_contact_force_N", "contact_fraction"};
+const std::vector<std::string> point_columns{quantities::frequency.column(),
+                                             quantities::max_displacement.column(),
+                                             quantities::rms_displacement.column(),
+                                             quantities::min_displacement.column(),
+                                             "max_abs_displacement_m",
+                                             quantities::max_contact_force.column(),
+                                             quantities::contact_fraction.column()};
 
 std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepParameter parameter) {
   return {parameter_of(point, parameter), point.max_displacement,     point.rms_displacement,
