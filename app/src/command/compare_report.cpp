@@ -30,22 +30,20 @@ std::string error_text(double error) {
 }
 
 /// Two sentences for each error, with the table to paste where it is not that of the error before.
-std::string recommendations(const Summary& summary) {
+std::string recommendations(const ComparisonRecord& record, const Summary& summary) {
   const Table* table = table_of(summary, "recommendations");
   if (table == nullptr) return "";
   std::string html, before;
-  for (std::size_t row = 0; row < table->rows(); ++row) {
-    const std::string paste = cell_text(table->at(row, "time_table"));
-    html += fmt::format("<h3>For an error of {} of {}</h3>\n",
-                        error_text(std::get<double>(table->at(row, "error"))),
-                        subject_of(parse_error_measure(cell_text(table->at(row, "error_of")))));
-    html += paragraph({cell_text(table->at(row, "sentences"))});
-    const std::string stability = cell_text(table->at(row, "stability"));
-    if (stability == "stable" || stability == "unstable")
-      html += paragraph({"Its motion is " + stability + "."});
-    if (paste.empty()) continue;
-    html += paste == before ? "<p>The [time] table is the one above.</p>\n" : code_html(paste);
-    before = paste;
+  for (const Recommendation& one : record.recommendations) {
+    html +=
+        fmt::format("<h3>For an error of {} of {}</h3>\n", error_text(one.error), subject_of(one.measure));
+    html += paragraph({one.sentences});
+    if (one.stability == "stable" || one.stability == "unstable")
+      html += paragraph({"Its motion is " + one.stability + "."});
+    if (one.time_table.empty()) continue;
+    html +=
+        one.time_table == before ? "<p>The [time] table is the one above.</p>\n" : code_html(one.time_table);
+    before = one.time_table;
   }
   const std::vector<std::pair<std::string, std::string>> columns{
       {"error", "error asked for"},
@@ -94,18 +92,17 @@ std::string curves(const ComparisonRecord& record, const Summary& summary) {
                                      {"status", "status"}});
 }
 
-std::string reference(const Summary& summary) {
-  const std::string text = text_in(summary, {"reference_text"});
-  if (text.empty()) return "";
-  const double error = number_in(summary, {"reference_error"});
-  if (!std::isfinite(error)) return paragraph({"No reference was found within its share of the budget."});
+std::string reference_html(const Reference& reference) {
+  if (reference.text.empty()) return "";
+  if (!std::isfinite(reference.error))
+    return paragraph({"No reference was found within its share of the budget."});
   std::vector<std::string> sentences{
       fmt::format("Errors are those against {}. Its own error is about {:.0e}; smaller differences from it "
                   "say nothing.",
-                  text, error)};
-  if (const double of_force = number_in(summary, {"reference_force_error"}); std::isfinite(of_force))
-    sentences.push_back(fmt::format("That of its force is about {:.0e}.", of_force));
-  const std::string stability = text_in(summary, {"reference_stability"});
+                  reference.text, reference.error)};
+  if (std::isfinite(reference.force_error))
+    sentences.push_back(fmt::format("That of its force is about {:.0e}.", reference.force_error));
+  const std::string& stability = reference.stability.status;
   if (stability == "stable" || stability == "unstable")
     sentences.push_back("Its motion is " + stability + ".");
   else if (!stability.empty())
@@ -120,7 +117,7 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
                               const std::vector<ResultFile>& files) {
   const bool sweep = table_of(summary, "curves") != nullptr;
   std::string outcome = record.converged
-                            ? recommendations(summary)
+                            ? recommendations(record, summary)
                             : paragraph({"Nothing was compared to the end: " + record.status + "."});
   if (sweep) outcome += paragraph({record.text.substr(0, record.text.find("\n\n"))});
   PageParts page;
@@ -131,7 +128,7 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
       "<main>\n<h1>Which basis for this scene?</h1>\n" + section_html("What to take", outcome) +
       section_html("Pictures", pictures_html(record.pictures, files)) +
       section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
-      section_html("The reference", reference(summary)) +
+      section_html("The reference", reference_html(record.reference)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked",
                    "<p>The command:</p>\n" + code_html(command_of(arguments)) +

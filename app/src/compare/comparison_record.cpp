@@ -233,12 +233,12 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   record.status = comparison.status();
   record.warnings = warnings_of(comparison);
   record.summary = heading(record, scene, comparison.wall_seconds);
-  add_reference(record.summary, comparison.reference);
+  record.reference = comparison.reference;
+  add_reference(record.summary, record.reference);
   record.summary.emplace_back("error_of", std::string(to_string(comparison.measure)));
   record.summary.emplace_back("solves", static_cast<std::int64_t>(comparison.points.size()));
-  record.summary.emplace_back("recommendations",
-                              recommendations_table(comparison.points.empty() ? std::vector<Recommendation>()
-                                                                              : comparison.recommendations));
+  if (!comparison.points.empty()) record.recommendations = comparison.recommendations;
+  record.summary.emplace_back("recommendations", recommendations_table(record.recommendations));
   record.summary.emplace_back("pairs", pairs_table(comparison));
   record.summary.emplace_back("front", front_table(comparison));
   record.summary.emplace_back("warnings", record.warnings);

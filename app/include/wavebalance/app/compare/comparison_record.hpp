@@ -17,6 +17,8 @@ struct ComparisonRecord {
   std::string status;
   std::vector<std::string> warnings;  ///< also in the summary
   Summary summary;
+  Reference reference;                          ///< of responses
+  std::vector<Recommendation> recommendations;  ///< of responses, for each error that was asked for
   std::string peak_column, peak_unit;  ///< of sweeps: the table's column of where a peak is, and its unit
   Table table;                         ///< comparison.csv: a row for each solve or curve
   std::vector<RecordPicture> pictures;
