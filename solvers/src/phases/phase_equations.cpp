@@ -166,16 +166,17 @@ Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const Le
   return result;
 }
 
-Eigen::MatrixXd monodromy_of(const PhaseModel& model, const PhaseIterate& iterate,
-                             const LegendreNodes& nodes) {
+Eigen::MatrixXd PeriodMap::all() const { return free - product(by_unknowns, unknowns_by); }
+
+std::optional<PeriodMap> period_map(const PhaseModel& model, const PhaseIterate& iterate,
+                                    const LegendreNodes& nodes) {
   const Evaluation now = evaluate(model, iterate, nodes);
-  const FreePeriod period = model.response.free_period(now.grid, nodes, model.velocity);
+  FreePeriod period = model.response.free_period(now.grid, nodes, model.velocity);
   const Lu<double> factor(jacobian(iterate, now, nodes, period.influence));
-  if (factor.is_singular()) return {};
-  const Eigen::MatrixXd unknowns =
-      factor.solve(residual_by_motion(now, period.displacement_by, period.velocity_by));
-  return period.states_by_states -
-         product(period.states_by * impulses_of(iterate, now, nodes).asDiagonal(), unknowns);
+  if (factor.is_singular()) return std::nullopt;
+  return PeriodMap{std::move(period.states_by_states),
+                   period.states_by * impulses_of(iterate, now, nodes).asDiagonal(),
+                   factor.solve(residual_by_motion(now, period.displacement_by, period.velocity_by))};
 }
 
 Eigen::MatrixXd force_at(const PanelForces& forces, const PhaseModel& model, const Eigen::VectorXd& times) {

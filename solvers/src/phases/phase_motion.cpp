@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "linalg/dense.hpp"
+#include "phases/phase_count.hpp"
 #include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers {
@@ -26,14 +27,21 @@ bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts
 Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
   if (!parts->iterate.forces.panels().empty()) {
-    const Eigen::MatrixXd map = detail::monodromy_of(parts->model, parts->iterate, parts->nodes);
-    const bool computed = map.rows() <= max_states && map.allFinite();
-    values = computed ? detail::eigenvalues(map) : Eigen::VectorXcd();
+    const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);
+    const bool computed = map && map->free.rows() <= max_states && map->unknowns_by.allFinite();
+    values = computed ? detail::eigenvalues(map->all()) : Eigen::VectorXcd();
   }
   if (!values.allFinite()) return {};
   std::sort(values.begin(), values.end(),
             [](std::complex<double> a, std::complex<double> b) { return std::abs(a) > std::abs(b); });
   return values;
+}
+
+int PhaseMotion::count_unstable(int max_evaluations) const {
+  if (parts->iterate.forces.panels().empty())
+    return static_cast<int>((parts->model.response.free_multipliers().array().abs() > 1.0).count());
+  const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);
+  return map && map->unknowns_by.allFinite() ? detail::count_unstable(*map, max_evaluations) : -1;
 }
 
 bool PhaseMotion::is_rigid() const {

@@ -20,14 +20,18 @@ MotionStability stability_of(const UnstableMultipliers& count) {
   return result;
 }
 
-// All multipliers at once, or with too many states the count by the determinant along the motion.
-MotionStability by_phases(const CondensedProblem& problem, const ContactDynamics& dynamics,
-                          const PhaseMotion& motion) {
+// All multipliers at once, or of many states their count alone.
+MotionStability by_phases(const PhaseMotion& motion) {
   const Eigen::VectorXcd all = motion.multipliers();
-  MotionStability result =
-      all.size() > 0 ? stability_of_multipliers(all)
-                     : stability_of(unstable_multipliers(dynamics, contact_stiffness(motion),
-                                                         problem.frequency(), stability_options(problem)));
+  MotionStability result;
+  if (all.size() > 0) {
+    result = stability_of_multipliers(all);
+  } else {
+    UnstableMultipliers count;
+    count.count = motion.count_unstable();
+    if (count.count < 0) count.status = StabilityStatus::effort_limit;
+    result = stability_of(count);
+  }
   result.by_phases = true;
   return result;
 }
@@ -89,8 +93,8 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
     unknown.status = to_string(motion->status);
     return unknown;
   }
-  MotionStability result = motion && motion->converged() ? by_phases(problem, dynamics, *motion)
-                                                         : by_balance(problem, laws, response, dynamics);
+  MotionStability result =
+      motion && motion->converged() ? by_phases(*motion) : by_balance(problem, laws, response, dynamics);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

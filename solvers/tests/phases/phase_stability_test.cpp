@@ -5,6 +5,7 @@
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/problem/motion_stability.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -112,6 +113,70 @@ TEST(PhaseMultipliers, OfAMotionWithoutContactAreExponentials) {
   double slowest = -infinity;
   for (const ContactPole& pole : dynamics.poles()) slowest = std::max(slowest, pole.exponent.real());
   EXPECT_NEAR(std::abs(multipliers[0]), std::exp(slowest / random.frequency), 1e-12);
+}
+
+int outside(const Eigen::VectorXcd& multipliers) {
+  return static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
+}
+
+TEST(PhaseMultipliers, AreCountedByTheDeterminantAsOneByOne) {
+  std::mt19937 generator(5);
+  int found = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const RandomCase random(generator, 1 + trial % 4);
+    const ContactDynamics dynamics(random.structure);
+    const PhaseMotion motion = motion_of(random.structure, random.laws, random.frequency, dynamics, 127);
+    if (!motion.converged()) continue;
+    const Eigen::VectorXcd multipliers = motion.multipliers();
+    if ((multipliers.array().abs() - 1.0).abs().minCoeff() < 1e-4) continue;
+    ++found;
+    EXPECT_EQ(motion.count_unstable(), outside(multipliers)) << trial;
+  }
+  EXPECT_GE(found, 16);
+}
+
+TEST(PhaseMultipliers, OfRigidContactAreCountedByTheDeterminantToo) {
+  const LinearStructure structure = with_massless_contacts(0.3);
+  const ContactDynamics dynamics(structure);
+  const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
+  const PhaseMotion motion = motion_of(structure, laws, 1.3, dynamics, 127);
+  ASSERT_TRUE(motion.converged());
+  EXPECT_EQ(motion.count_unstable(), outside(motion.multipliers()));
+}
+
+/// A chain of masses between a wall and a stop, damped so little that all states outlast a period.
+LinearStructure chain(int masses) {
+  LinearStructure result;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses, masses);
+  stiffness.diagonal().setConstant(2.0);
+  stiffness.diagonal(1).setConstant(-1.0);
+  stiffness.diagonal(-1).setConstant(-1.0);
+  stiffness(masses - 1, masses - 1) = 1.0;
+  const Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(masses, masses);
+  result.mass = mass.sparseView();
+  result.stiffness = stiffness.sparseView();
+  result.damping = (0.05 * mass + 0.02 * stiffness).sparseView();
+  result.load = Eigen::VectorXd::Unit(masses, masses - 1);
+  result.contact_directions = contact_rows({masses - 1}, masses);
+  return result;
+}
+
+TEST(PhaseMultipliers, OfMoreStatesThanAreComputedAreCountedInTheVerdict) {
+  const LinearStructure structure = chain(220);
+  const ContactDynamics dynamics(structure);
+  const ContactLaws laws(AnyContactLaw(DampedStop{3.0, 0.2, 0.4}));
+  CondensedProblem problem(testing::fourier_pair(63, 256), structure, cosine_load());
+  problem.set_frequency(0.12);
+  const PeriodicResponse response = forced_response(problem, laws, {});
+  const PhaseMotion motion = response_phases(problem, laws, response, dynamics).motion;
+  ASSERT_TRUE(motion.converged());
+  ASSERT_EQ(motion.multipliers().size(), 0);
+  const Eigen::VectorXcd all = motion.multipliers(440);
+  ASSERT_GT(all.size(), 400);
+  const MotionStability stability = motion_stability(problem, laws, response, dynamics, &motion);
+  EXPECT_TRUE(stability.by_phases);
+  EXPECT_EQ(stability.unstable, outside(all));
+  EXPECT_EQ(stability.status, outside(all) > 0 ? "unstable" : "stable");
 }
 
 TEST(PhaseMultipliers, AreNotComputedForMoreStatesThanAllowed) {

@@ -109,6 +109,12 @@ class PhaseMotion {
   /// contact leaves.
   Eigen::VectorXcd multipliers(int max_states = 400) const;
 
+  /// How many of them lie outside the unit circle, for any number of states: by the argument of det(I + V (mu
+  /// - D)^-1 U) along the circle, of the map D - U V of the s states over a period, whose n unknowns U and V
+  /// have few columns and rows. -1 where that takes more than `max_evaluations`, as with multipliers on the
+  /// circle. O(s n^2 + n^3) each.
+  int count_unstable(int max_evaluations = 2000) const;
+
   struct Parts;  ///< what the equations hold
   std::shared_ptr<const Parts> parts;
 };

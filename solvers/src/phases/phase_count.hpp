@@ -1,0 +1,13 @@
+#pragma once
+#include "phases/phase_equations.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// The eigenvalues of the map outside the unit circle: those of its free part less the turns of
+///
+///   det(mu - D + U V) / det(mu - D) = det(I + V (mu - D)^-1 U)
+///
+/// as mu goes along the circle. -1 where its argument cannot be followed by so many evaluations.
+int count_unstable(const PeriodMap& map, int max_evaluations);
+
+}  // namespace wavebalance::solvers::detail
