@@ -38,8 +38,10 @@ class Tracer {
 
  private:
   bool within(double value) const {
-    return value >= std::min(options_.from, options_.to) && value <= std::max(options_.from, options_.to);
+    return value >= std::min(behind(), options_.to) && value <= std::max(behind(), options_.to);
   }
+
+  double behind() const { return options_.behind > 0.0 ? options_.behind : options_.from; }
 
   void advance() {
     std::optional<Switch> vanishes = detail::disappearance(model_, points_.back());
@@ -148,9 +150,8 @@ class Tracer {
   }
 
   SweepStatus end_at(double value) const {
-    return (value > options_.from) == (options_.to > options_.from) && value != options_.from
-               ? SweepStatus::reached_end
-               : SweepStatus::returned;
+    return (value > behind()) == (options_.to > options_.from) && value != behind() ? SweepStatus::reached_end
+                                                                                    : SweepStatus::returned;
   }
 
   void go_over(Switch over) {
@@ -174,7 +175,7 @@ class Tracer {
 
   void end_before(const PathPoint& next) {
     const SweepStatus status = end_at(next.value);
-    const double limit = status == SweepStatus::reached_end ? options_.to : options_.from;
+    const double limit = status == SweepStatus::reached_end ? options_.to : behind();
     std::optional<PathPoint> last =
         detail::zero_between(model_, points_.back(), next, model_.fastest(points_.back(), true),
                              [limit](const PathPoint& point) { return point.value - limit; });
@@ -196,6 +197,9 @@ void ExactCurveOptions::validate() const {
   detail::require_positive("exact_curve", "from", from);
   detail::require_positive("exact_curve", "to", to);
   if (from == to) throw std::invalid_argument("exact_curve: from and to are the same");
+  if (behind != 0.0) detail::require_positive("exact_curve", "behind", behind);
+  if (behind != 0.0 && behind != from && (behind > from) == (to > from))
+    throw std::invalid_argument("exact_curve: behind is on the side of to; it must be on the other one");
   if (!(parameter_scale >= 0.0)) detail::require_positive("exact_curve", "parameter_scale", parameter_scale);
   detail::require_positive("exact_curve", "first_step", first_step);
   detail::require_positive("exact_curve", "largest_step", largest_step);

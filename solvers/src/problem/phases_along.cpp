@@ -1,27 +1,13 @@
 #include "wavebalance/solvers/problem/phases_along.hpp"
 
-#include <algorithm>
 #include <atomic>
 
 #include "linalg/option_checks.hpp"
+#include "problem/thread_problems.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-// Making another problem is worth it from so many places on.
-constexpr std::size_t least_places_of_thread = 4;
-
-std::vector<ContactProblem> problems_for(const ProblemMaker& make, std::size_t places, int threads) {
-  const std::size_t most = std::max<std::size_t>(1, places / least_places_of_thread);
-  const std::size_t workers = std::min<std::size_t>(static_cast<std::size_t>(thread_count(threads)), most);
-  std::vector<ContactProblem> problems;
-  problems.reserve(workers);
-  for (std::size_t i = 0; i < workers; ++i) problems.push_back(make());
-  if (workers > 1)
-    for (ContactProblem& problem : problems) problem.condensed().set_threads(1);
-  return problems;
-}
 
 PointPhases phases_at(ContactProblem& problem, const FrequencySweep& curve, const CurvePlace& place,
                       const CurvePhasesOptions& options) {
@@ -65,7 +51,7 @@ CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
                          const CurvePhasesOptions& options) {
   options.validate();
   CurvePhases result;
-  std::vector<ContactProblem> problems = problems_for(make, places.size(), options.threads);
+  std::vector<ContactProblem> problems = detail::thread_problems(make, places.size(), options.threads);
   if (places.empty() || problems.front().dynamics() == nullptr) return result;
   result.points.resize(places.size());
   const std::string_view unit = unit_of(problems.front().condensed(), curve.parameter);

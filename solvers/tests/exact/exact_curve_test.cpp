@@ -116,6 +116,31 @@ TEST(ExactCurve, HasTheSameSpecialPointsFromEitherEnd) {
   }
 }
 
+// Between the folds a multiplier lies outside the unit circle.
+TEST(ExactCurve, HasAsManyUnstableMultipliersByTheDeterminant) {
+  Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.1);
+  const ExactCurve curve = traced.over_frequency(0.1, 0.35);
+  int unstable = 0;
+  for (const ExactPoint& point : curve.points) {
+    if ((point.multipliers.array().abs() - 1.0).abs().minCoeff() < 1e-4) continue;
+    EXPECT_EQ(point.motion.count_unstable(), point.unstable) << point.value;
+    unstable += point.unstable;
+  }
+  EXPECT_GE(unstable, 3);
+}
+
+TEST(ExactCurve, EndsBehindItsStartWhereItTurns) {
+  Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.1);
+  const ExactCurve whole = traced.over_frequency(0.1, 0.35);
+  ExactCurveOptions options;
+  options.behind = 0.16;
+  const ExactCurve part = traced.over_frequency(0.17, 0.19, options);
+  ASSERT_FALSE(part.points.empty());
+  EXPECT_NE(part.status, SweepStatus::lost);
+  EXPECT_NEAR(part.points.back().value, part.status == SweepStatus::returned ? 0.16 : 0.19, 1e-9);
+  EXPECT_THROW(traced.over_frequency(0.17, 0.19, {.behind = 0.18}), std::invalid_argument);
+}
+
 TEST(ExactCurve, GrazesOverTheLoadWhereTheFreeMotionReachesTheGap) {
   Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.14);
   const double free = traced.problem().contact_free_response().maxCoeff();

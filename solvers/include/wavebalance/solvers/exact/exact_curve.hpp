@@ -14,6 +14,7 @@ namespace wavebalance::solvers {
 struct ExactCurveOptions {
   double from = 0.0;             ///< Hz or load scale, where the first motion is
   double to = 0.0;               ///< either side of `from`
+  double behind = 0.0;  ///< beyond this value on the other side a curve that turns ends, too; 0: at `from`
   double parameter_scale = 0.0;  ///< Hz or load scale; 0: a 20th of the interval
   double first_step = 0.02;      ///< arc length
   double largest_step = 0.2;     ///< arc length
@@ -53,7 +54,8 @@ struct ExactCurve {
 };
 
 /// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
-/// that has converged at options.from until it leaves the interval: predicted by polynomials in the arc
+/// that has converged at options.from until it leaves the interval, of which options.behind may be the end on
+/// the side of its start: predicted by polynomials in the arc
 /// length, corrected by Newton's method with the unknown that changes fastest held, so that folds are points
 /// as any other. Where a phase appears or vanishes the grazing motion is solved for, and the curve goes on
 /// with the other phases.

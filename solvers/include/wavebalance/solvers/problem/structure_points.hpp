@@ -1,0 +1,69 @@
+#pragma once
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/problem/phases_along.hpp"
+
+namespace wavebalance::solvers {
+
+/// What the structure has near a special point of a balance.
+enum class StructurePointStatus {
+  found,      ///< one of its type
+  repeated,   ///< one of its type, to which another special point of the balance is nearer
+  none,       ///< none of its type: the curve of its motions passes without one
+  not_known,  ///< the curve of its motions was not followed past it, or has no multipliers
+  not_sought  ///< it was left out by the limits of the options, or came after an interruption
+};
+
+std::string_view to_string(StructurePointStatus status);
+
+struct NearStructurePoint {
+  StructurePointStatus status = StructurePointStatus::not_sought;
+  std::size_t event = 0;  ///< that of StructurePoints::events, where it is found or repeated
+};
+
+/// Where special points of the structure are sought, and with how much work.
+struct StructurePointsOptions {
+  /// The interval of the parameter in which they lie, Hz or load scale, as of the sweep.
+  double from = 0.0, to = 0.0;
+  /// How far beside a special point of the balance they are sought, as arc length of its curve: a change of
+  /// the parameter by a 20th of the interval, and of the displacement by the largest one, have length 1 each.
+  double reach = 0.25;
+  std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
+  int max_points = 2000;           ///< motions on all curves together
+  double max_operations = 1e12;    ///< floating-point operations of all curves together
+  double max_distance = 0.1;       ///< as of CurvePhasesOptions
+  double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
+  ContactPhasesOptions phases{};
+  int threads = 1;      ///< that take the stretches one by one; 0: one per core
+  Observer observer{};  ///< called by the caller's thread alone
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// Special points of the structure near those of a balance.
+struct StructurePoints {
+  /// Each once, in the order of the curve; ExactEvent::next_point is the number of the point of the balance's
+  /// curve with which the stretch begins in which it was found.
+  std::vector<ExactEvent> events;
+  std::vector<NearStructurePoint> of_balance;  ///< one for each special point of the balance
+  bool cancelled = false;                      ///< the observer returned false
+};
+
+/// The special points that the structure has near those of a balance's curve: exact_curve() along the
+/// stretches of the curve about these, from motions by phases of contact near their first points and, where
+/// that does not come past their last ones, back from these. Special points that lie near each other share a
+/// stretch, so that one of the structure stands once where samples make many of it, and one that the balance
+/// does not have is found in a stretch, too. Beside all stretches none is sought.
+///
+/// `make` makes the problem on which the curve was traced with keep_unknowns; `points` are of its
+/// CurveStability. Neither the order of the stretches nor the threads change a digit. Without events where
+/// the structure has no modes to compute. Throws std::invalid_argument for options out of range, and as
+/// ContactProblem::response() does. One exact_curve() or two per stretch.
+StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep& curve,
+                                 const std::vector<SpecialPoint>& points,
+                                 const StructurePointsOptions& options);
+
+}  // namespace wavebalance::solvers
