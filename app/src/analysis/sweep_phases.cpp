@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -96,6 +97,23 @@ SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& can
   return result;
 }
 
+/// Those of the structure near the special points of the main curve.
+void add_structure_points(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                          const Observer& observer) {
+  if (sweep.stability.special_points.empty() || sweep.phases_cancelled) return;
+  const solvers::FrequencySweepOptions balance = sweep_options(scene);
+  solvers::StructurePointsOptions options;
+  options.from = balance.from;
+  options.to = balance.to;
+  options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
+  options.largest_step = balance.arc_length.max_step;
+  options.threads = model.threads;
+  options.observer = observer;
+  sweep.structure_points = solvers::structure_points([&] { return compose_problem(scene, model); },
+                                                     sweep.curve, sweep.stability.special_points, options);
+  sweep.phases_cancelled = sweep.structure_points->cancelled;
+}
+
 }  // namespace
 
 std::size_t peak_of(const solvers::FrequencySweep& curve) {
@@ -144,6 +162,7 @@ void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, c
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
                                    observer, sweep.phases_cancelled));
+  if (scene.analysis.stability) add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {
     SweepPhases& phases = sweep.phases.emplace_back();
     if (branch.curve.points.empty() || sweep.phases_cancelled) continue;

@@ -39,7 +39,8 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
     stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
     random_starts{"random_starts"}, starts_without_motion{"starts_without_motion"}, branches{"branches"},
-    special_points_of_branches{"special_points_of_branches"}, motions{"motions"};
+    special_points_of_branches{"special_points_of_branches"}, motions{"motions"},
+    structure_special_points{"structure_special_points"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

@@ -8,6 +8,7 @@
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
+#include "results/structure_points.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_phases.hpp"
 
@@ -72,7 +73,7 @@ Table table_of(const Sweep& sweep) {
   const SweepPhases* phases = sweep.phases_of(0);
   Table table(special_columns({}, sweep_axis(sweep), phases != nullptr));
   append_special_points(table, {}, sweep.stability, sweep.curve.parameter, phases);
-  return table;
+  return sweep.structure_points ? with_structure_points(table, sweep) : table;
 }
 
 /// No branch is followed there.
@@ -147,6 +148,7 @@ void append_stability(Record& record, const Sweep& sweep) {
   record.summary.emplace_back(quantities::stability,
                               complete ? sweep.stability_of(0).status : std::string("interrupted"));
   record.summary.emplace_back(quantities::special_points, table_of(sweep));
+  append_structure_points(record, sweep);
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/branches.hpp"
 
@@ -40,6 +42,8 @@ struct Sweep {
   /// Of scenes with impacts: of each point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
+  /// Set by add_phases() with analysis.stability, where the curve has special points: those of the structure.
+  std::optional<solvers::StructurePoints> structure_points = {};
   bool phases_cancelled = false;  ///< the observer stopped add_phases()
   int periods = 1;                ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
@@ -93,7 +97,8 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
 /// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
 /// special points at most most_special_points_with_phases of each curve are then taken, those where
-/// multipliers pass the unit circle before grazings. Nothing where neither analysis.stability nor
+/// multipliers pass the unit circle before grazings. With analysis.stability the special points of the
+/// structure are solved for near those of the main curve. Nothing where neither analysis.stability nor
 /// analysis.phases is true or the structure's modes cannot be computed. An observer that stops it leaves
 /// those found so far.
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});

@@ -1,0 +1,87 @@
+#include "results/structure_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analysis/sweep_axis.hpp"
+#include "files/missing.hpp"
+#include "results/quantities.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::StructurePointStatus;
+
+bool is_known(const solvers::NearStructurePoint& near) {
+  return near.status == StructurePointStatus::found || near.status == StructurePointStatus::repeated;
+}
+
+std::int64_t count_of(const solvers::StructurePoints& points, StructurePointStatus status) {
+  return std::count_if(points.of_balance.begin(), points.of_balance.end(),
+                       [status](const auto& near) { return near.status == status; });
+}
+
+/// How many special points of the balance lie nearest to that of the structure.
+std::int64_t copies_of(const solvers::StructurePoints& points, std::size_t event) {
+  return std::count_if(points.of_balance.begin(), points.of_balance.end(),
+                       [event](const auto& near) { return is_known(near) && near.event == event; });
+}
+
+/// Uniform over the period.
+Eigen::VectorXd instants() {
+  constexpr Eigen::Index count = 1024;
+  return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / double(count));
+}
+
+Table table_of(const solvers::StructurePoints& points, const SweepAxis& axis) {
+  Table table({"type", axis.column(), "multiplier_real", "multiplier_imag", "max_displacement_m", "contacts",
+               "error_of_displacement", "of_balance"});
+  for (std::size_t i = 0; i < points.events.size(); ++i) {
+    const solvers::ExactEvent& event = points.events[i];
+    table.append_row({std::string(to_string(event.type)), event.value, event.multiplier.real(),
+                      event.multiplier.imag(), event.motion.displacement(instants()).maxCoeff(),
+                      std::int64_t(event.motion.phases.size()), event.motion.estimated_error,
+                      copies_of(points, i)});
+  }
+  return table;
+}
+
+}  // namespace
+
+Table with_structure_points(const Table& special_points, const Sweep& sweep) {
+  std::vector<std::string> columns = special_points.columns();
+  columns.insert(columns.end(), {"structure_" + sweep_axis(sweep).column(), "structure_status"});
+  Table table(columns);
+  for (std::size_t i = 0; i < special_points.rows(); ++i) {
+    const solvers::NearStructurePoint& near = sweep.structure_points->of_balance[i];
+    std::vector<Cell> row;
+    for (const std::string& column : special_points.columns()) row.push_back(special_points.at(i, column));
+    row.push_back(is_known(near) ? sweep.structure_points->events[near.event].value : missing);
+    row.push_back(std::string(to_string(near.status)));
+    table.append_row(std::move(row));
+  }
+  return table;
+}
+
+void append_structure_points(Record& record, const Sweep& sweep) {
+  if (!sweep.structure_points) return;
+  const solvers::StructurePoints& points = *sweep.structure_points;
+  record.summary.emplace_back(quantities::structure_special_points, table_of(points, sweep_axis(sweep)));
+  const std::int64_t repeated = count_of(points, StructurePointStatus::repeated),
+                     none = count_of(points, StructurePointStatus::none),
+                     left = count_of(points, StructurePointStatus::not_known) +
+                            count_of(points, StructurePointStatus::not_sought);
+  if (repeated + none > 0)
+    record.warnings.push_back(fmt::format(
+        "Of {} special points of the curve {} are an error of the functions and points: {} repeat one of the structure and "
+        "{} have none of their type near. structure_special_points lists the {} of the structure.",
+        points.of_balance.size(), repeated + none, repeated, none, points.events.size()));
+  if (left == 0) return;
+  record.warnings.push_back(
+      fmt::format("For {} of {} special points of the curve it is not known whether the structure has them: "
+                  "structure_status names them.",
+                  left, points.of_balance.size()));
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,15 @@
+#pragma once
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/results/record.hpp"
+
+namespace wavebalance::app {
+
+/// The table of the special points of a balance with two columns more: the frequency or amplitude of the
+/// structure's next to each, NaN where there is none, and solvers::StructurePointStatus.
+Table with_structure_points(const Table& special_points, const Sweep& sweep);
+
+/// The table of the special points of the structure near those of a sweep, and a warning where the balance
+/// has others. Nothing where they were not sought.
+void append_structure_points(Record& record, const Sweep& sweep);
+
+}  // namespace wavebalance::app
