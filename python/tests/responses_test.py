@@ -125,3 +125,17 @@ def test_a_structure_driven_at_its_natural_frequency_without_damping_is_singular
     response = wb.forced_response(oscillator(damping=0.0), wb.NoContact(), 1.0 / (2.0 * np.pi))
     assert response.status in ("singular", "inaccurate") and not response.converged
     assert wb.forced_response(oscillator(damping=0.0), wb.NoContact(), 0.1).converged
+
+
+def test_friction_rubs_as_the_exact_motion_does():
+    # A mass on an elastic slider: the largest displacement and the friction work of the event-driven exact motion.
+    one = np.eye(1)
+    structure = wb.Structure(one, 0.05 * one, one, [2.0], contacts=[0])
+    law = wb.Coulomb(0.5, 1.0, 2.0)
+    response = wb.forced_response(structure, law, 0.6 / np.pi, pair=wb.Pair("fourier", 63, 1024))
+    assert response.converged
+    motion = response.motion(4096)
+    assert abs(motion.displacement.max() - 5.030259141) < 1e-4 * 5.03
+    work = np.sum(motion.force * motion.velocity) / 4096 / (0.6 / np.pi)
+    assert abs(work - 16.12103657) < 1e-3 * 16.1
+    assert response.stability().unstable == 0
