@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
@@ -106,6 +107,7 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
     result.structure_left_out = whole.left_out;
   }
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
+  note_settled(problem, scene, options.observer, result);
 }
 
 /// `settling`: whether to start from that motion where no balance leads to one.

@@ -53,6 +53,7 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   if (options.phases) note_phases(problem, found, options, result);
   if (options.stability)
     result.stability = problem.stability(found, result.phases ? &result.phases->motion : nullptr);
+  note_settled(problem, scene, options.observer, result);
 }
 
 void solve_law(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
@@ -168,6 +169,18 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   result.wall_seconds = seconds_since(start) - result.phases_seconds -
                         (result.stability ? result.stability->wall_seconds : 0.0);
   return result;
+}
+
+void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
+                  Response& result) {
+  const bool unstable = result.stability && result.stability->unstable > 0;
+  if (!unstable || scene.analysis.subharmonic > 1) return;
+  const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, {.observer = observer});
+  SettledBeside& beside = result.settled.emplace();
+  beside.periods = settled.attractor_periods;
+  if (!settled.integrated()) return;
+  beside.max_displacement = settled.last.displacement.maxCoeff();
+  beside.max_force = settled.last.force.maxCoeff();
 }
 
 Response time_stepping_response(const Scene& scene, const ResponseOptions& options) {

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 
 namespace wavebalance::app {
@@ -10,6 +10,10 @@ namespace wavebalance::app {
 /// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
+
+/// Sets Response::settled where the response of the problem's load period at the scene's frequency is unstable.
+void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
+                  Response& result);
 
 /// `time` with the pair, functions and points that a response to a tolerance chose.
 Time solved_time(Time time, const Response& response);

@@ -52,11 +52,13 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     friction{"friction", result}, impacts{"impacts", result},
     max_impulse{"max_impulse_Ns", result, "N s", "max impulse"},
     max_impact_velocity{"max_impact_velocity_m_per_s", result, "m/s", "max impact velocity"},
-    impact_energy{"impact_energy_J", result, "J", "impact energy"}, max_penetration{"max_penetration_m", result, "m", "max penetration"},
+    impact_energy{"impact_energy_J", result, "J", "impact energy"},
+    max_penetration{"max_penetration_m", result, "m", "max penetration"},
     min_contact_force{"min_contact_force_N", result, "N", "min contact force"},
     complementarity{"complementarity", result}, leading_contact{"leading_contact", result},
     period_of_motion{"period_of_motion", result}, change_after_one_period{"change_after_one_period", result},
-    unstable_multipliers{"unstable_multipliers", result},
+    unstable_multipliers{"unstable_multipliers", result}, settled_periods{"settled_periods", result},
+    settled_max_displacement{"settled_max_displacement_m", result, "m", "settled max displacement"},
     leading_multiplier_real{"leading_multiplier_real", result},
     leading_multiplier_imag{"leading_multiplier_imag", result};
 

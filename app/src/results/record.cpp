@@ -132,6 +132,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back(quantities::phases_status,
                                 has_friction(scene) ? "unsupported_law" : "no_modes");
   if (response.stability) append_stability(record, *response.stability);
+  append_settled(record, response);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (response.structure_harmonics > 0)

@@ -125,6 +125,26 @@ void append_attractor(Record& record, int periods, const Response& response) {
                         attractor, attractor));
 }
 
+void append_settled(Record& record, const Response& response) {
+  if (!response.settled) return;
+  const SettledBeside& beside = *response.settled;
+  record.summary.emplace_back(quantities::settled_periods, std::int64_t{beside.periods});
+  record.summary.emplace_back(quantities::settled_max_displacement,
+                              beside.periods > 0 ? beside.max_displacement : missing);
+  const std::string others = " Other motions were not sought; analysis.type = \"motions\" seeks them.";
+  if (beside.periods > 0)
+    record.warnings.push_back(fmt::format(
+        "From rest the structure settles to another motion, which repeats after {} of the load and has a largest "
+        "displacement of {:.6g} m.{}",
+        beside.periods == 1 ? "one period" : fmt::format("{} periods", beside.periods),
+        beside.max_displacement, others));
+  else
+    record.warnings.push_back(
+        (beside.periods == 0 ? "From rest the structure settles to no motion of up to 16 periods of the load."
+                             : "What the structure settles to from rest is not known.") +
+        others);
+}
+
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
   if (!has_damped_contact(scene)) return;
   const solvers::Motion& motion = response.contacts;

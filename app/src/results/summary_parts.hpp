@@ -30,6 +30,9 @@ void append_period(Record& record, int periods, int motion_periods);
 /// What the structure does from rest, where it was integrated.
 void append_attractor(Record& record, int periods, const Response& response);
 
+/// What the structure settles to beside an unstable response, and what was not sought.
+void append_settled(Record& record, const Response& response);
+
 /// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response);
 

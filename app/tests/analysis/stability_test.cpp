@@ -37,6 +37,23 @@ TEST(RecordOfAResponse, SaysThatAPeriodDoubledMotionIsUnstable) {
   }));
 }
 
+TEST(RecordOfAResponse, ThatIsUnstableSaysWhatTheStructureSettlesToInItsPlace) {
+  const Record record = analyse(load_scene(
+      WAVEBALANCE_SCENES "/cases_of_others/oscillator_with_stop.toml",
+      std::vector<std::string>{"analysis.type=forced_response", "forcing.frequency=0.3978873577"},
+      std::vector<std::string>{"analysis.branches", "analysis.frequency_from", "analysis.frequency_to"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "unstable_multipliers"), 1);
+  // Behind a period doubling: a motion of two periods, which goes farther.
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "settled_periods"), 2);
+  EXPECT_GT(value_of<double>(record.summary, "settled_max_displacement_m"),
+            value_of<double>(record.summary, "max_displacement_m"));
+  EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const std::string& text) {
+    return text.find("settles to another motion, which repeats after 2 periods") != std::string::npos;
+  }));
+  EXPECT_FALSE(holds(analyse(fourier_scene("case2", {"forcing.frequency=1275"})).summary, "settled_periods"));
+}
+
 // Reference: shooting made independently of this code.
 TEST(RecordOfAResponse, HoldsTheLeadingMultiplierOfAStableMotion) {
   const Record record = analyse(fourier_scene("case2", {"forcing.frequency=1275"}));

@@ -34,6 +34,13 @@ struct Refinement {
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
+/// What a structure settles to from rest, beside an unstable response.
+struct SettledBeside {
+  int periods = -1;               ///< of the load, solvers::SettledMotion::attractor_periods
+  double max_displacement = 0.0;  ///< m, of any contact in a period of the load; of periods > 0
+  double max_force = 0.0;         ///< N, likewise
+};
+
 using ResponseStability = solvers::MotionStability;
 using solvers::largest_rounding_error;
 
@@ -80,6 +87,8 @@ struct Response {
   std::optional<solvers::ResponsePhases> phases;
   /// Set in scenes with impacts. Between them no contact exerts a force, so that `contacts` have none.
   std::optional<solvers::ImpactResponse> impacts;
+  /// Set where the response is unstable and its motion has the load's period.
+  std::optional<SettledBeside> settled;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
