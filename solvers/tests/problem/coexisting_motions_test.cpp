@@ -40,16 +40,16 @@ int arrivals(const CoexistingMotions& all) {
 TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
   for (const double frequency : {0.1705, 0.18, 0.195}) {
     ContactProblem problem = folded();
-    const CoexistingMotions all = coexisting_motions(problem, frequency);
+    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 12});
     EXPECT_EQ(all.status, MotionsStatus::converged);
     ASSERT_EQ(all.motions.size(), 3u) << frequency;
     EXPECT_EQ(stable_ones(all), 2);
     EXPECT_EQ(all.none, 0);
-    EXPECT_EQ(arrivals(all), 24);
+    EXPECT_EQ(arrivals(all), 12);
     for (const CoexistingMotion& one : all.motions) {
       EXPECT_EQ(one.periods, 1);
-      EXPECT_EQ(one.share, one.arrivals / 24.0);
-      EXPECT_EQ(one.share_error, std::sqrt(one.share * (1.0 - one.share) / 24.0));
+      EXPECT_EQ(one.share, one.arrivals / 12.0);
+      EXPECT_EQ(one.share_error, std::sqrt(one.share * (1.0 - one.share) / 12.0));
       if (one.stability.status == "stable") {
         EXPECT_GT(one.arrivals, 0);
       } else {
@@ -64,10 +64,10 @@ TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
 TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
   for (const double frequency : {0.14, 0.1695, 0.1962, 0.25}) {
     ContactProblem problem = folded();
-    const CoexistingMotions all = coexisting_motions(problem, frequency);
+    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 8});
     ASSERT_EQ(all.motions.size(), 1u) << frequency;
     EXPECT_EQ(all.motions[0].found_by, MotionSource::rest);
-    EXPECT_EQ(all.motions[0].arrivals, 24);
+    EXPECT_EQ(all.motions[0].arrivals, 8);
   }
 }
 
@@ -150,10 +150,10 @@ TEST(CoexistingMotions, OfTwoOscillatorsAreThePairsOfTheirs) {
   two.load = Eigen::VectorXd::Constant(2, 0.15);
   two.contact_directions = contact_rows({0, 1}, 2);
   ContactProblem problem(testing::fourier_pair(63, 256), two, LinearContact{4.0, 1.0});
-  const CoexistingMotions all = coexisting_motions(problem, 0.18);
+  const CoexistingMotions all = coexisting_motions(problem, 0.18, {.random_starts = 8});
   EXPECT_EQ(stable_ones(all), 4);
   EXPECT_GT(all.motions.size(), 4u);  // and some of the five unstable ones
-  EXPECT_EQ(arrivals(all), 24);
+  EXPECT_EQ(arrivals(all), 8);
   for (const CoexistingMotion& one : all.motions) EXPECT_EQ(one.periods, 1);
 }
 

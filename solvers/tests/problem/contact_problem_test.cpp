@@ -144,7 +144,9 @@ TEST(ContactProblem, TakesARigidObstacleAtContactsWithoutMass) {
     EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
     const double passed = response.displacement.maxCoeff() - gap;
     EXPECT_LT(passed, 0.2 * gap);
-    if (functions > 63) EXPECT_LT(passed, 0.5 * coarse);
+    if (functions > 63) {
+      EXPECT_LT(passed, 0.5 * coarse);
+    }
     coarse = passed;
   }
   const Eigen::VectorXd push = chain.contact_directions.transpose() * Eigen::VectorXd::Ones(1);
