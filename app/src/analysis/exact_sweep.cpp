@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "analysis/curve_events.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -46,21 +47,6 @@ struct Measure {
   }
 };
 
-solvers::SpecialPoint special_point(const ExactEvent& event, const Measure& measure) {
-  const solvers::SweepPoint at = measure(event.value, event.motion);
-  solvers::SpecialPoint point;
-  point.type = event.type;
-  point.frequency = at.frequency;
-  point.load_scale = at.load_scale;
-  point.multiplier = event.multiplier;
-  point.max_displacement = at.max_displacement;
-  point.max_abs_displacement = at.max_abs_displacement;
-  point.located = true;
-  point.unknown_parameter = event.value;
-  point.next_point = event.next_point;
-  return point;
-}
-
 solvers::PointStability stability_of(const ExactPoint& point) {
   solvers::PointStability stability;
   stability.status =
@@ -76,10 +62,9 @@ SweepPhases::Point phases_of(const PhaseMotion& motion) {
 
 void copy_events(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
   for (const ExactEvent& event : curve.events) {
-    const solvers::SpecialPoint point = special_point(event, measure);
+    const solvers::SpecialPoint point = special_point_of(event, measure(event.value, event.motion));
     if (event.type == solvers::SpecialPointType::fold)
-      sweep.curve.turning_points.push_back(
-          {point.frequency, point.max_displacement, point.max_abs_displacement, false, point.load_scale});
+      sweep.curve.turning_points.push_back(turning_point_at(point, false));
     if (!stability) continue;
     sweep.stability.special_points.push_back(point);
     sweep.phases.front().special_points.push_back(phases_of(event.motion));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analysis/curve_events.hpp"
 #include "analysis/impact_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -49,21 +50,6 @@ PointImpacts impacts_of(const ImpactMotion& motion, int periods) {
   return result;
 }
 
-solvers::SpecialPoint special_point(const ImpactEvent& event, const ImpactMeasure& measure) {
-  const solvers::SweepPoint at = measure(event.value, event.motion);
-  solvers::SpecialPoint point;
-  point.type = event.type;
-  point.frequency = at.frequency;
-  point.load_scale = at.load_scale;
-  point.multiplier = event.multiplier;
-  point.max_displacement = at.max_displacement;
-  point.max_abs_displacement = at.max_abs_displacement;
-  point.located = true;
-  point.unknown_parameter = event.value;
-  point.next_point = event.next_point;
-  return point;
-}
-
 void copy_impacts(const ImpactCurve& traced, const ImpactMeasure& measure, int periods, bool stability,
                   solvers::FrequencySweep& curve, solvers::CurveStability& known,
                   std::vector<PointImpacts>& impacts) {
@@ -80,10 +66,9 @@ void copy_impacts(const ImpactCurve& traced, const ImpactMeasure& measure, int p
     one.contacts = impacts.back().count;
   }
   for (const ImpactEvent& event : traced.events) {
-    const solvers::SpecialPoint point = special_point(event, measure);
+    const solvers::SpecialPoint point = special_point_of(event, measure(event.value, event.motion));
     if (event.type == solvers::SpecialPointType::fold || event.turns)
-      curve.turning_points.push_back({point.frequency, point.max_displacement, point.max_abs_displacement,
-                                      event.turns, point.load_scale});
+      curve.turning_points.push_back(turning_point_at(point, event.turns));
     if (stability) known.special_points.push_back(point);
   }
 }
