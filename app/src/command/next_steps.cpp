@@ -32,6 +32,8 @@ const Remedies& of_responses() {
       {"resonant", "another forcing.frequency, or damping such as structure.stiffness_damping"},
       {"chattering", "a stiff \"linear\" law, or a larger contact.restitution"},
       {"lasting_contact", "a stiff \"linear\" law, or a larger contact.restitution"},
+      {"too_many_impacts", "a stiff \"linear\" law, more damping, or a smaller contact.restitution"},
+      {"grazing", "another forcing.frequency, or another contact.gap"},
       {"not_settled", "analysis.type = \"motions\", more damping, or another forcing.frequency"},
       {"not_converged",
        "time.functions and time.quadrature_points in place of time.tolerance, or more damping"}};

@@ -61,7 +61,7 @@ std::string phases_sentence(const std::string& status) {
        "The structure settles to no motion with impacts of up to 16 periods of the load: it is aperiodic, or has not "
        "settled yet."},
       {"grazing", "A contact touches its obstacle so slightly that it cannot be told whether it does."},
-      {"effort_limit", "There are more than 2000 impacts in a period of the load."},
+      {"too_many_impacts", "There are more than 2000 impacts in a period of the load."},
       {"no_modes",
        "The modes of the structure, by which phases are solved, could not be computed: time.method = \"balance\" needs "
        "none."}};

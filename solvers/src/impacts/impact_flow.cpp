@@ -91,7 +91,7 @@ bool ImpactFlow::advance_to(double time) {
     if (free) return state_.allFinite();
     if (!rebound(touch.contact)) return false;
   }
-  end_ = ImpactStatus::effort_limit;
+  end_ = ImpactStatus::too_many_impacts;
   return false;
 }
 

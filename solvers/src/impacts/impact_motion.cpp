@@ -32,7 +32,7 @@ std::string_view to_string(ImpactStatus status) {
                                         {chattering, "chattering"},
                                         {lasting_contact, "lasting_contact"},
                                         {not_settled, "not_settled"},
-                                        {effort_limit, "effort_limit"},
+                                        {too_many_impacts, "too_many_impacts"},
                                         {cancelled, "cancelled"}},
                                        status);
 }

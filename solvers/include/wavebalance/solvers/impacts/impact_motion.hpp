@@ -12,18 +12,18 @@ namespace wavebalance::solvers {
 
 enum class ImpactStatus {
   converged,
-  iteration_limit,  ///< Newton's method on instants and impulses did not converge
-  singular,         ///< its matrix is, as where impacts graze
-  wrong_order,      ///< the equations have a solution in which impacts have passed each other
-  pulling,          ///< their solution has an impulse that would pull
-  penetrating,      ///< their solution passes an obstacle between impacts
-  grazing,          ///< it cannot be told whether the solution passes an obstacle
-  resonant,         ///< the structure without contact has a motion of this period of its own
-  chattering,       ///< infinitely many impacts in a finite time, then contact that lasts
-  lasting_contact,  ///< contact lasts from an impact without rebound on, as load or motion press it
-  not_settled,      ///< no periodic motion was found within the options' limits
-  effort_limit,     ///< too many impacts
-  cancelled         ///< the observer returned false
+  iteration_limit,   ///< Newton's method on instants and impulses did not converge
+  singular,          ///< its matrix is, as where impacts graze
+  wrong_order,       ///< the equations have a solution in which impacts have passed each other
+  pulling,           ///< their solution has an impulse that would pull
+  penetrating,       ///< their solution passes an obstacle between impacts
+  grazing,           ///< it cannot be told whether the solution passes an obstacle
+  resonant,          ///< the structure without contact has a motion of this period of its own
+  chattering,        ///< infinitely many impacts in a finite time, then contact that lasts
+  lasting_contact,   ///< contact lasts from an impact without rebound on, as load or motion press it
+  not_settled,       ///< no periodic motion was found within the options' limits
+  too_many_impacts,  ///< more than max_impacts in a period of the load
+  cancelled          ///< the observer returned false
 };
 
 std::string_view to_string(ImpactStatus status);
