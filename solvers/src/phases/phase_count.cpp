@@ -114,13 +114,26 @@ class UnknownsDeterminant {
 
 }  // namespace
 
-int count_unstable(const PeriodMap& map, int max_evaluations) {
+int count_by_determinant(const PeriodMap& map, int max_evaluations) {
   const UnknownsDeterminant determinant(map);
   const auto turned =
       argument_change([&](double nu) { return determinant(nu); }, determinant.points(), max_evaluations);
   if (!turned) return -1;
   const double count = determinant.outside() - *turned / pi, rounded = std::round(count);
   return std::abs(count - rounded) < 1e-3 && rounded >= 0.0 ? static_cast<int>(rounded) : -1;
+}
+
+int count_unstable(const PeriodMap& map, int max_evaluations) {
+  constexpr double of_eigenvalues = 25.0, expected = 150.0, most_operations = 1e12;
+  const double s = double(map.free.rows()), n = double(map.unknowns_by.rows()),
+               of_evaluation = n * n * (16.0 * s + 8.0 * n), of_all = of_eigenvalues * s * s * s;
+  if (of_all < expected * of_evaluation) {
+    if (of_all > most_operations) return -1;
+    const Eigen::VectorXcd multipliers = eigenvalues(map.all());
+    return multipliers.allFinite() ? static_cast<int>((multipliers.array().abs() > 1.0).count()) : -1;
+  }
+  const int affordable = static_cast<int>(std::min(2e9, most_operations / of_evaluation));
+  return count_by_determinant(map, std::min(max_evaluations, affordable));
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -117,7 +117,7 @@ TEST(ExactCurve, HasTheSameSpecialPointsFromEitherEnd) {
 }
 
 // Between the folds a multiplier lies outside the unit circle.
-TEST(ExactCurve, HasAsManyUnstableMultipliersByTheDeterminant) {
+TEST(ExactCurve, CountsItsUnstableMultipliers) {
   Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.1);
   const ExactCurve curve = traced.over_frequency(0.1, 0.35);
   int unstable = 0;

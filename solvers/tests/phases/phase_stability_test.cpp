@@ -2,6 +2,8 @@
 
 #include <random>
 
+#include "linalg/dense.hpp"
+#include "phases/phase_count.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -119,7 +121,30 @@ int outside(const Eigen::VectorXcd& multipliers) {
   return static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
 }
 
-TEST(PhaseMultipliers, AreCountedByTheDeterminantAsOneByOne) {
+// Poles of which some have decayed, some lie outside the circle, and two unknowns.
+TEST(PhaseMultipliers, OfAnyMapAreCountedByTheDeterminant) {
+  std::mt19937 generator(41);
+  std::uniform_real_distribution<double> part(-1.0, 1.0), size(0.0, 1.2);
+  const auto random = [&](int rows, int columns) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return part(generator); }));
+  };
+  int unstable = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    detail::PeriodMap map{Eigen::MatrixXd::Zero(12, 12), random(12, 2), random(2, 12)};
+    for (int i = 0; i < 10; i += 2) {
+      const std::complex<double> pole =
+          std::polar(i == 0 ? 1e-20 : size(generator), 0.5 * two_pi * part(generator));
+      map.free.block<2, 2>(i, i) << pole.real(), -pole.imag(), pole.imag(), pole.real();
+    }
+    map.free(10, 10) = size(generator);
+    const Eigen::VectorXcd all = detail::eigenvalues(map.all());
+    EXPECT_EQ(detail::count_by_determinant(map, 100000), outside(all)) << trial;
+    unstable += outside(all);
+  }
+  EXPECT_GT(unstable, 20);
+}
+
+TEST(PhaseMultipliers, AreCountedAsOneByOne) {
   std::mt19937 generator(5);
   int found = 0;
   for (int trial = 0; trial < 24; ++trial) {
@@ -135,7 +160,7 @@ TEST(PhaseMultipliers, AreCountedByTheDeterminantAsOneByOne) {
   EXPECT_GE(found, 16);
 }
 
-TEST(PhaseMultipliers, OfRigidContactAreCountedByTheDeterminantToo) {
+TEST(PhaseMultipliers, OfRigidContactAreCountedToo) {
   const LinearStructure structure = with_massless_contacts(0.3);
   const ContactDynamics dynamics(structure);
   const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
