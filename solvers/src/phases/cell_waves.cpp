@@ -12,8 +12,21 @@ using Complex = std::complex<double>;
 
 CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes)
     : nodes_(nodes), decay_(z.size()), at_nodes_(nodes.count(), z.size()), at_end_(z.size(), nodes.count()) {
+  sum_up(z, nodes.points);
+}
+
+CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes, const Eigen::VectorXd& points)
+    : nodes_(nodes),
+      own_points_(true),
+      decay_(z.size()),
+      at_nodes_(points.size(), z.size()),
+      at_end_(z.size(), nodes.count()) {
+  sum_up(z, points);
+}
+
+void CellWaves::sum_up(const Eigen::VectorXcd& z, const Eigen::VectorXd& at) {
   constexpr double most_turns = 32.0, most_decay = 64.0;  // of the slow poles
-  const Index poles = z.size(), count = nodes.count();
+  const Index poles = z.size(), count = nodes_.count();
   std::vector<std::vector<Complex>> series(static_cast<std::size_t>(poles));
   std::size_t longest = 1;
   for (Index r = 0; r < poles; ++r) {
@@ -39,12 +52,13 @@ CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes)
     }
     decay_[r] = sum;
   }
-  const Eigen::MatrixXd values = nodes.values.leftCols(Index(longest));
-  at_nodes_.real() = product(values, series_real_);
-  at_nodes_.imag() = product(values, series_imag_);
+  if (own_points_) own_values_ = legendre_values(at, Index(longest) + count);
+  const Eigen::MatrixXd waves = values().leftCols(Index(longest));
+  at_nodes_.real() = product(waves, series_real_);
+  at_nodes_.imag() = product(waves, series_imag_);
   if (fast_.empty()) return;
-  Eigen::VectorXd points(count + 1);
-  points << nodes.points, 1.0;
+  Eigen::VectorXd points(at.size() + 1);
+  points << at, 1.0;
   ExponentialIntegrals<double> real(points, count);
   ExponentialIntegrals<Complex> complex(points, count);
   for (const Index r : fast_)
@@ -56,28 +70,29 @@ CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes)
 
 template <class Scalar>
 void CellWaves::add_fast(Index pole, Scalar z, ExponentialIntegrals<Scalar>& integrals) {
-  const Index count = nodes_.count();
+  const Index points = at_nodes_.rows();
   integrals.compute(z);
   const auto& decay = integrals.decay();
-  const auto values = integrals.values();
-  decay_[pole] = decay[count];
-  at_nodes_.col(pole) = decay.head(count).template cast<Complex>();
-  at_end_.row(pole) = values.row(count).template cast<Complex>();
-  fast_integrals_.push_back({values.topRows(count).real(), {}});
-  if constexpr (std::same_as<Scalar, Complex>) fast_integrals_.back().imag = values.topRows(count).imag();
+  const auto integral = integrals.values();
+  decay_[pole] = decay[points];
+  at_nodes_.col(pole) = decay.head(points).template cast<Complex>();
+  at_end_.row(pole) = integral.row(points).template cast<Complex>();
+  fast_integrals_.push_back({integral.topRows(points).real(), {}});
+  if constexpr (std::same_as<Scalar, Complex>) fast_integrals_.back().imag = integral.topRows(points).imag();
 }
 
 Eigen::VectorXd CellWaves::slow_series(const Eigen::VectorXcd& weights) const {
   return series_real_ * weights.real() - series_imag_ * weights.imag();
 }
 
-Eigen::MatrixXd CellWaves::up_to_nodes(const Eigen::VectorXcd& weights) const {
+Eigen::MatrixXd CellWaves::up_to_nodes(const Eigen::VectorXcd& weights, Index first, Index count) const {
   const Eigen::MatrixXd slow = convolution(slow_series(weights), nodes_.count());
-  Eigen::MatrixXd result = product(nodes_.values.leftCols(slow.rows()), slow);
+  Eigen::MatrixXd result = product(values().block(first, 0, count, slow.rows()), slow);
   for (std::size_t i = 0; i < fast_.size(); ++i) {
     const Complex weight = weights[fast_[i]];
-    result += weight.real() * fast_integrals_[i].real;
-    if (fast_integrals_[i].imag.size() > 0) result -= weight.imag() * fast_integrals_[i].imag;
+    const Integrals& own = fast_integrals_[i];
+    result += weight.real() * own.real.middleRows(first, count);
+    if (own.imag.size() > 0) result -= weight.imag() * own.imag.middleRows(first, count);
   }
   return result;
 }

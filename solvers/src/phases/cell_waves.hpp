@@ -13,14 +13,17 @@ class CellWaves {
  public:
   /// z: exponents times half the length of the cell, Re z <= 0. O(P (q^2 + |z|)).
   CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes);
+  /// The same at N other points of the cell in place of the q nodes.
+  CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes, const Eigen::VectorXd& points);
 
   const Eigen::VectorXcd& decay() const { return decay_; }        ///< P: exp(2 z)
   const Eigen::MatrixXcd& at_nodes() const { return at_nodes_; }  ///< q x P
   /// P x q: the integrals of exp(z (1 - s)) P_k(s) over the cell.
   const Eigen::MatrixXcd& at_end() const { return at_end_; }
-  /// q x q: takes Legendre coefficients of a force to what the poles, weighted by w, make of it up to each
-  /// node: Re sum of w_r times the integral of exp(z_r (x - s)) f(s) over s from -1 to x. O(N q (q + P / q)).
-  Eigen::MatrixXd up_to_nodes(const Eigen::VectorXcd& weights) const;
+  /// count x q: takes Legendre coefficients of a force to what the poles, weighted by w, make of it up to
+  /// each of the nodes from `first` on: Re sum of w_r times the integral of exp(z_r (x - s)) f(s) over s from
+  /// -1 to x. O(N q (q + P / q)).
+  Eigen::MatrixXd up_to_nodes(const Eigen::VectorXcd& weights, Index first, Index count) const;
 
   /// Legendre coefficients of Re sum w_r exp(z_r (x + 1)) over the slow poles.
   Eigen::VectorXd slow_series(const Eigen::VectorXcd& weights) const;
@@ -28,10 +31,14 @@ class CellWaves {
   const std::vector<Index>& fast() const { return fast_; }     ///< numbers of poles
 
  private:
+  void sum_up(const Eigen::VectorXcd& z, const Eigen::VectorXd& points);
+  const Eigen::MatrixXd& values() const { return own_points_ ? own_values_ : nodes_.values; }
   template <class Scalar>
   void add_fast(Index pole, Scalar z, ExponentialIntegrals<Scalar>& integrals);
 
   const LegendreNodes& nodes_;
+  bool own_points_ = false;
+  Eigen::MatrixXd own_values_;  // Legendre's polynomials at points of its own
   Eigen::VectorXcd decay_;
   Eigen::MatrixXcd at_nodes_, at_end_;
   Eigen::MatrixXd series_real_, series_imag_;  // N x P, zero for fast poles

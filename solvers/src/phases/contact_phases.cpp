@@ -144,12 +144,20 @@ class Search {
     return {model_, std::move(found), nodes_, times_, free_};
   }
 
+  // Of many contacts that act together one panel for a phase at first takes far fewer unknowns than one for
+  // each part between their passages.
+  Layout layout_of(const ContactMotion& motion) const {
+    Layout layout = detail::layout_of(model_.laws, model_.frequency, motion.displacement, motion.velocity);
+    layout.cut_by_others = static_cast<int>(layout.grid().panels.size()) <= options_.max_cut_panels;
+    return layout;
+  }
+
   // Stiff contact does not fit the panels at first: with the passages held they are refined until they
   // roughly resolve its force.
   Found at(const ContactMotion& motion, PhaseMotion& result) {
     constexpr double rough = 0.03, start_of_newton = 1e-4;
     constexpr Index many_nodes = 12;
-    Layout layout = detail::layout_of(model_.laws, model_.frequency, motion.displacement, motion.velocity);
+    Layout layout = layout_of(motion);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
     for (int level = 0; level < 6; ++level) {
@@ -170,15 +178,15 @@ class Search {
 
   // Layers of fast modes and laws that are not analytic where contact begins have errors that their
   // coefficients do not show; beside a fold estimates are too large. What the estimate before was wrong by,
-  // measured by the motion after it, multiplies it.
+  // measured by the motion after it, multiplies it. Kinks within panels hide, too.
   void refine(Found& found, PhaseMotion& result) {
-    constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1;
+    constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1, of_kinks = 10.0;
     bool tight = false, compared = false, by_panels = false;
     for (double factor = 1.0;; tight = true) {
       detail::EstimatedError error =
           detail::error_of(found.newton, detail::rms_of(found.motion.displacement));
       const double estimate = error.all();
-      error.resolution *= factor;
+      error.resolution *= found.newton.iterate.layout.cut_by_others ? factor : of_kinks * factor;
       result.estimated_error = error.all();
       PhaseIterate finer = found.newton.iterate;
       const LegendreNodes nodes = nodes_;
@@ -241,6 +249,7 @@ void ContactPhasesOptions::validate() const {
   detail::require_at_least("contact_phases", "nodes", nodes, 4);
   detail::require_at_least("contact_phases", "max_nodes", max_nodes, nodes);
   detail::require_at_least("contact_phases", "max_panels", max_panels, 1);
+  detail::require_at_least("contact_phases", "max_cut_panels", max_cut_panels, 0);
   detail::require_at_least("contact_phases", "max_iterations", max_iterations, 1);
   detail::require_at_least("contact_phases", "max_changes", max_changes, 0);
   detail::require_positive("contact_phases", "max_operations", max_operations);

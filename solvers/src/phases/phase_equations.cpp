@@ -66,7 +66,8 @@ double force_at_release(const Evaluation& now, const LegendreNodes& nodes, const
 
 }  // namespace
 
-Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes) {
+Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes,
+                    std::optional<Influence> known) {
   constexpr double tiny = 1e-300;
   Evaluation result;
   result.grid = at.layout.grid();
@@ -77,7 +78,7 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
     result.force[i] =
         at.forces.in_phase(panel_of(result.grid, i, nodes).phase, instants[static_cast<std::size_t>(i)].time);
   for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
-  result.influence = model.response.influence(result.grid, nodes, model.velocity);
+  result.influence = known ? *std::move(known) : model.response.influence(result.grid, nodes, model.velocity);
   Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
   if (model.velocity)
     v = model.free_velocity(instants) - result.influence.node_velocity.leftCols(n) * result.force;

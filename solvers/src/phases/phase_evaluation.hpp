@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "phases/phase_equations.hpp"
@@ -53,7 +54,9 @@ struct Evaluation {
   }
 };
 
-Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes);
+/// `known`: the influence of an iterate with the same instants and nodes.
+Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes,
+                    std::optional<Influence> known = std::nullopt);
 
 /// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
 Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes);

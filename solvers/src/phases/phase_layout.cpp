@@ -225,11 +225,21 @@ CellGrid Layout::grid() const {
     int cell = boundary_near(grid.boundaries, time);
     const int last = boundary_near(grid.boundaries, end(phase));
     if (cell == last && end(phase) - time < 0.5) continue;  // without length
+    std::vector<int> own_cuts{0};
+    for (const double cut : phase.cuts)
+      own_cuts.push_back(boundary_near(grid.boundaries, begin(phase) + cut * (end(phase) - begin(phase))));
+    bool meets = true;  // the panel before
     do {
       const double length = grid.length(cell);
-      grid.panels.push_back({phase.contact, static_cast<int>(p), cell, time, time + length});
+      if (meets) {
+        grid.panels.push_back({phase.contact, static_cast<int>(p), cell, time, time + length});
+      } else {
+        grid.panels.back().end = time + length;
+        ++grid.panels.back().cells;
+      }
       time += length;
       cell = grid.next(cell);
+      meets = cut_by_others || std::find(own_cuts.begin(), own_cuts.end(), cell) != own_cuts.end();
     } while (cell != last);
   }
   for (std::size_t i = 0; i < passages.size(); ++i) {

@@ -27,6 +27,9 @@ struct Phase {
 struct Layout {
   std::vector<Passage> passages;
   std::vector<Phase> phases;
+  /// Whether passages and cuts of other phases cut the panels of a phase: its force has kinks in high
+  /// derivatives there. Of many contacts that act together, panels without these cuts are far fewer.
+  bool cut_by_others = true;
 
   double begin(const Phase& phase) const;
   double end(const Phase& phase) const;

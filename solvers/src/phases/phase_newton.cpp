@@ -113,8 +113,9 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
                                const NewtonLimits& limits) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
+  std::optional<Influence> influence;
   for (;; ++result.iterations) {
-    const Evaluation now = evaluate(model, result.iterate, nodes);
+    Evaluation now = evaluate(model, result.iterate, nodes, std::move(influence));
     result.residual = now.force_error();
     result.converged = result.residual < limits.tolerance;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
@@ -125,6 +126,7 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
     const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
     if (!step.allFinite()) return result;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);
+    influence = std::move(now.influence);
   }
 }
 

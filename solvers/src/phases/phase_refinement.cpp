@@ -68,7 +68,8 @@ bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,
   const Index q = nodes.count();
   if (q == options.max_nodes) return divide_panels(iterate, options);
   const double digits = std::log(error / (margin * options.tolerance)), decay = decay_of(iterate.forces);
-  const double most = options.max_nodes;  // where they do not decay, or the error is no number
+  // Where they do not decay, or the error is no number; of many panels the next size may be enough.
+  const double most = iterate.layout.cut_by_others ? double(options.max_nodes) : 0.5 * double(q);
   const double more =
       decay < 1.0 ? std::fmax(0.0, std::fmin(most, std::ceil(digits / -std::log(decay)))) : most;
   nodes = LegendreNodes(std::min<Index>(options.max_nodes, q + std::max<Index>(q / 3, Index(more))));

@@ -85,7 +85,7 @@ FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& 
   std::size_t first = 0;
   double longest = 0.0;
   for (std::size_t j = 0; j < count; ++j)
-    if (cells[j].panels.empty() && cells[j].length > longest) {
+    if (cells[j].parts.empty() && cells[j].length > longest) {
       longest = cells[j].length;
       first = (j + 1) % count;
     }
@@ -97,7 +97,7 @@ FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& 
   const Index equations = n + 2 * m + (velocity ? n : 0);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(equations, n + m), by_states(equations, states.size());
   FreePeriod result;
-  result.states_by.resize(states.size(), n + m);
+  result.states_by.setZero(states.size(), n + m);
   // From the beginning of the period, of the states, and from each boundary on, of what has left it.
   Eigen::VectorXcd gone = Eigen::VectorXcd::Ones(exponents_.size());
   for (std::size_t t = 0; t < count; ++t) {
@@ -120,11 +120,11 @@ FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& 
     Eigen::MatrixXcd moving = source.states(Eigen::all, chosen);
     for (std::size_t t = s; t < count; ++t) {
       if (!rows[at(t)].numbers.empty())
-        all(rows[at(t)].numbers, numbers) =
+        all(rows[at(t)].numbers, numbers) +=
             product(rows[at(t)].real, moving.real()) - product(rows[at(t)].imag, moving.imag());
       moving = cells[at(t)].decay.asDiagonal() * moving;
     }
-    result.states_by(Eigen::all, numbers) = states.rows(moving.topRows(left));
+    result.states_by(Eigen::all, numbers) += states.rows(moving.topRows(left));
   }
   add_within_cells(grid, cells, nodes, velocity, all);
   result.influence = split(all, n, m, velocity);

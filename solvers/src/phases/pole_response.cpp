@@ -8,30 +8,6 @@
 #include "phases/pole_response_parts.hpp"
 
 namespace wavebalance::solvers::detail {
-namespace {
-
-using Complex = std::complex<double>;
-
-// start exp(rate t) at times of which most follow each other by equal steps. O(times).
-void decay(Complex rate, const Eigen::Ref<const Eigen::VectorXd>& times, Complex start,
-           Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> real,
-           Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> imag) {
-  constexpr double rounding = 1e-14;
-  const double step = times.size() > 1 ? times[1] - times[0] : 0.0;
-  const Complex factor = std::exp(rate * step);
-  Complex value = 0.0;
-  for (Index i = 0; i < times.size(); ++i) {
-    const bool follows = i > 0 && std::abs(times[i] - times[i - 1] - step) < rounding;
-    value = follows ? Complex(value.real() * factor.real() - value.imag() * factor.imag(),
-                              value.real() * factor.imag() + value.imag() * factor.real())
-                    : start * std::exp(rate * times[i]);
-    real[i] = value.real();
-    imag[i] = value.imag();
-  }
-}
-
-}  // namespace
-
 double CellGrid::length(int cell) const {
   const auto j = static_cast<std::size_t>(cell);
   return cell + 1 == cells() ? boundaries[0] + 1.0 - boundaries[j] : boundaries[j + 1] - boundaries[j];
@@ -65,20 +41,68 @@ Eigen::VectorXcd PoleResponse::weights(int displaced, int forced) const {
   return shapes_.row(displaced).cwiseProduct(left_.row(forced)).transpose();
 }
 
+// Of the cell that begins at a time of the panel.
+PoleResponse::Part PoleResponse::part_of(const CellGrid& grid, std::size_t number, double begin,
+                                         double length, bool last, const LegendreNodes& nodes) {
+  const Panel& panel = grid.panels[number];
+  const Index q = nodes.count();
+  Part part{number, 0, q, 0, nodes.points, {}, nodes.coefficients};
+  if (panel.cells == 1) {
+    part.restriction.setIdentity(q, q);
+    return part;
+  }
+  const auto before = [&](double time) {
+    return (nodes.points.array() * (0.5 * panel.length()) + 0.5 * (panel.begin + panel.end) < time).count();
+  };
+  part.first = begin > panel.begin ? before(begin) : 0;
+  part.count = (last ? q : before(begin + length)) - part.first;
+  part.points.resize(part.count);
+  for (Index i = 0; i < part.count; ++i)
+    part.points[i] =
+        std::clamp(2.0 * (panel.time(nodes.points[part.first + i]) - begin) / length - 1.0, -1.0, 1.0);
+  const double from = 2.0 * (begin - panel.begin) / panel.length() - 1.0, share = length / panel.length();
+  const Eigen::VectorXd within = from + share * (nodes.points.array() + 1.0);
+  part.restriction = nodes.coefficients * legendre_values(within, q);
+  part.coefficients = part.restriction * nodes.coefficients;
+  return part;
+}
+
 std::vector<PoleResponse::Cell> PoleResponse::cells_of(const CellGrid& grid,
                                                        const LegendreNodes& nodes) const {
   std::vector<Cell> cells(static_cast<std::size_t>(grid.cells()));
-  for (std::size_t p = 0; p < grid.panels.size(); ++p)
-    cells[static_cast<std::size_t>(grid.panels[p].cell)].panels.push_back(p);
+  for (std::size_t p = 0; p < grid.panels.size(); ++p) {
+    double begin = grid.panels[p].begin;
+    int cell = grid.panels[p].cell;
+    for (int i = 0; i < grid.panels[p].cells; ++i, cell = grid.next(cell)) {
+      const double length = grid.length(cell);
+      const bool last = i + 1 == grid.panels[p].cells;
+      cells[static_cast<std::size_t>(cell)].parts.push_back(part_of(grid, p, begin, length, last, nodes));
+      begin += length;
+    }
+  }
   for (int j = 0; j < grid.cells(); ++j) {
     Cell& cell = cells[static_cast<std::size_t>(j)];
     cell.length = grid.length(j);
-    if (cell.panels.empty()) {
-      cell.decay = (cell.length * exponents_.array()).exp();
-    } else {
-      cell.waves.emplace((0.5 * cell.length) * exponents_, nodes);
-      cell.decay = cell.waves->decay();
+    const Eigen::VectorXcd z = (0.5 * cell.length) * exponents_;
+    if (cell.parts.empty()) {
+      cell.decay = (2.0 * z.array()).exp();
+      continue;
     }
+    const bool whole = std::all_of(cell.parts.begin(), cell.parts.end(),
+                                   [&](const Part& part) { return grid.panels[part.panel].cells == 1; });
+    if (whole) {
+      cell.waves.emplace(z, nodes);
+    } else {
+      Index count = 0;
+      for (Part& part : cell.parts) {
+        part.row = count;
+        count += part.count;
+      }
+      Eigen::VectorXd points(count);
+      for (const Part& part : cell.parts) points.segment(part.row, part.count) = part.points;
+      cell.waves.emplace(z, nodes, points);
+    }
+    cell.decay = cell.waves->decay();
   }
   return cells;
 }
@@ -93,7 +117,8 @@ std::vector<PoleResponse::Rows> PoleResponse::rows_of(const CellGrid& grid, cons
   for (std::size_t i = 0; i < grid.marks.size(); ++i)
     marks[static_cast<std::size_t>(grid.marks[i].boundary)].push_back(i);
   for (std::size_t j = 0; j < cells.size(); ++j) {
-    const Index of_panels = count * Index(cells[j].panels.size()) * (velocity ? 2 : 1);
+    Index of_panels = 0;
+    for (const Part& part : cells[j].parts) of_panels += part.count * (velocity ? 2 : 1);
     Eigen::MatrixXcd states(of_panels + 2 * Index(marks[j].size()), poles);
     Index row = 0;
     const auto add = [&](const auto& block, Index number) {
@@ -101,11 +126,13 @@ std::vector<PoleResponse::Rows> PoleResponse::rows_of(const CellGrid& grid, cons
       row += block.rows();
       for (Index i = 0; i < block.rows(); ++i) rows[j].numbers.push_back(number + i);
     };
-    for (const std::size_t p : cells[j].panels) {
-      const Eigen::VectorXcd shape = shapes_.row(grid.panels[p].contact).transpose();
-      const Eigen::MatrixXcd displacement = cells[j].waves->at_nodes() * shape.asDiagonal();
-      add(displacement, count * Index(p));
-      if (velocity) add(displacement * exponents_.asDiagonal(), n + 2 * m + count * Index(p));
+    for (const Part& part : cells[j].parts) {
+      const Eigen::VectorXcd shape = shapes_.row(grid.panels[part.panel].contact).transpose();
+      const Eigen::MatrixXcd displacement =
+          cells[j].waves->at_nodes().middleRows(part.row, part.count) * shape.asDiagonal();
+      const Index number = count * Index(part.panel) + part.first;
+      add(displacement, number);
+      if (velocity) add(displacement * exponents_.asDiagonal(), n + 2 * m + number);
     }
     for (const std::size_t i : marks[j]) {
       const Eigen::RowVectorXcd shape = shapes_.row(grid.marks[i].contact);
@@ -128,13 +155,14 @@ std::vector<PoleResponse::Sources> PoleResponse::sources_of(const CellGrid& grid
     const auto begins = static_cast<int>(j);
     for (const CellGrid::Mark& mark : grid.marks) marks += mark.boundary == begins ? 1 : 0;
     const Cell& ending = cells[static_cast<std::size_t>(grid.before(begins))];
-    sources[j].states.resize(exponents_.size(), count * Index(ending.panels.size()) + marks);
+    sources[j].states.resize(exponents_.size(), count * Index(ending.parts.size()) + marks);
     Index column = 0;
-    for (const std::size_t p : ending.panels) {
-      const Eigen::VectorXcd left = 0.5 * ending.length * left_.row(grid.panels[p].contact).transpose();
+    for (const Part& part : ending.parts) {
+      const Eigen::VectorXcd left =
+          0.5 * ending.length * left_.row(grid.panels[part.panel].contact).transpose();
       sources[j].states.middleCols(column, count) =
-          left.asDiagonal() * (ending.waves->at_end() * nodes.coefficients);
-      for (Index k = 0; k < count; ++k) sources[j].numbers.push_back(count * Index(p) + k);
+          left.asDiagonal() * (ending.waves->at_end() * part.coefficients);
+      for (Index k = 0; k < count; ++k) sources[j].numbers.push_back(count * Index(part.panel) + k);
       column += count;
     }
     for (std::size_t i = 0; i < grid.marks.size(); ++i) {
@@ -146,59 +174,102 @@ std::vector<PoleResponse::Sources> PoleResponse::sources_of(const CellGrid& grid
   return sources;
 }
 
+// What one panel does to the nodes of another in a cell of both.
+void PoleResponse::add_between(const CellGrid& grid, const Cell& cell, const Part& from, const Part& to,
+                               const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const {
+  const auto count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size());
+  const int forced = grid.panels[from.panel].contact, displaced = grid.panels[to.panel].contact;
+  const Eigen::VectorXcd weight = (0.5 * cell.length) * weights(displaced, forced);
+  const Index row = count * Index(to.panel) + to.first, column = count * Index(from.panel);
+  const auto add = [&](Index first, const Eigen::VectorXcd& of_poles, double at_once) {
+    auto block = all.block(first, column, to.count, count);
+    block += product(cell.waves->up_to_nodes(of_poles, to.row, to.count), from.coefficients);
+    if (at_once == 0.0) return;
+    if (to.count == count && from.count == count)
+      block.diagonal().array() += at_once;  // the same nodes
+    else
+      block += at_once * product(legendre_values(to.points, count), from.coefficients);
+  };
+  add(row, weight, constant_(displaced, forced));
+  if (velocity) add(n + 2 * m + row, weight.cwiseProduct(exponents_), jump_(displaced, forced));
+}
+
 // What acts within the cell of an equation: up to each node, and at once.
 void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells,
                                     const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const {
   const auto count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size());
   for (const Cell& cell : cells)
-    for (const std::size_t from : cell.panels)
-      for (const std::size_t to : cell.panels) {
-        const int forced = grid.panels[from].contact, displaced = grid.panels[to].contact;
-        const Eigen::VectorXcd weight = (0.5 * cell.length) * weights(displaced, forced);
-        auto block = all.block(count * Index(to), count * Index(from), count, count);
-        block += product(cell.waves->up_to_nodes(weight), nodes.coefficients);
-        block.diagonal().array() += constant_(displaced, forced);
-        if (!velocity) continue;
-        auto rate = all.block(n + 2 * m + count * Index(to), count * Index(from), count, count);
-        rate += product(cell.waves->up_to_nodes(weight.cwiseProduct(exponents_)), nodes.coefficients);
-        rate.diagonal().array() += jump_(displaced, forced);
-      }
-  const Eigen::RowVectorXd at_end = nodes.coefficients.colwise().sum();  // P_k(1) = 1
+    for (const Part& from : cell.parts)
+      for (const Part& to : cell.parts)
+        if (to.count > 0) add_between(grid, cell, from, to, nodes, velocity, all);
   for (Index i = 0; i < m; ++i) {
     const CellGrid::Mark& mark = grid.marks[static_cast<std::size_t>(i)];
     if (!mark.acts_before)
       all(n + i, n + i) -= jump_(mark.contact, mark.contact);  // it has acted before only
-    for (const std::size_t p : cells[static_cast<std::size_t>(grid.before(mark.boundary))].panels) {
-      const int forced = grid.panels[p].contact;
-      if (forced == mark.contact && !mark.acts_after) continue;  // its force ends with zero
-      all.block(n + i, count * Index(p), 1, count) += constant_(mark.contact, forced) * at_end;
-      all.block(n + m + i, count * Index(p), 1, count) += jump_(mark.contact, forced) * at_end;
+    for (const Part& part : cells[static_cast<std::size_t>(grid.before(mark.boundary))].parts) {
+      const int forced = grid.panels[part.panel].contact;
+      if (forced == mark.contact && !mark.acts_after) continue;             // its force ends with zero
+      const Eigen::RowVectorXd at_end = part.coefficients.colwise().sum();  // P_k(1) = 1
+      all.block(n + i, count * Index(part.panel), 1, count) += constant_(mark.contact, forced) * at_end;
+      all.block(n + m + i, count * Index(part.panel), 1, count) += jump_(mark.contact, forced) * at_end;
     }
   }
 }
 
+namespace {
+
+// States of all poles by all unknowns, which move from boundary to boundary.
+class MovingStates {
+ public:
+  MovingStates(Index poles, Index unknowns)
+      : real_(Eigen::MatrixXd::Zero(poles, unknowns)), imag_(Eigen::MatrixXd::Zero(poles, unknowns)) {}
+
+  void multiply(const Eigen::VectorXcd& factors) {
+    const Eigen::ArrayXd re = factors.real(), im = factors.imag();
+    Eigen::ArrayXd before(re.size());
+    for (Index k = 0; k < real_.cols(); ++k) {
+      auto own_re = real_.col(k).array(), own_im = imag_.col(k).array();
+      before = own_re;
+      own_re = re * before - im * own_im;
+      own_im = re * own_im + im * before;
+    }
+  }
+  void add(const Eigen::MatrixXcd& states, const std::vector<Index>& numbers) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      real_.col(numbers[k]) += states.col(Index(k)).real();
+      imag_.col(numbers[k]) += states.col(Index(k)).imag();
+    }
+  }
+  // Of equations by the states.
+  Eigen::MatrixXd seen_by(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag) const {
+    return product(real, real_) - product(imag, imag_);
+  }
+
+ private:
+  Eigen::MatrixXd real_, imag_;
+};
+
+}  // namespace
+
+// Once around the period from rest, which gives the periodic states at its begin, and once more.
 Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
-  constexpr double negligible = 1e-18;
   const auto n = nodes.count() * Index(grid.panels.size()), m = Index(grid.marks.size());
   const std::vector<Cell> cells = cells_of(grid, nodes);
   const std::vector<Rows> rows = rows_of(grid, cells, nodes.count(), velocity);
   const std::vector<Sources> sources = sources_of(grid, cells, nodes);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + 2 * m + (velocity ? n : 0), n + m);
-  for (std::size_t s = 0; s < cells.size(); ++s) {
-    if (sources[s].numbers.empty()) continue;
-    Eigen::VectorXcd gone = periodic_;
-    Index active = gone.size();
-    std::size_t t = s;
-    do {
-      while (active > 0 && std::norm(gone[active - 1]) < negligible * negligible) --active;
-      if (!rows[t].numbers.empty() && active > 0) {
-        const Eigen::MatrixXcd states = gone.head(active).asDiagonal() * sources[s].states.topRows(active);
-        all(rows[t].numbers, sources[s].numbers) = product(rows[t].real.leftCols(active), states.real()) -
-                                                   product(rows[t].imag.leftCols(active), states.imag());
-      }
-      gone.head(active).array() *= cells[t].decay.head(active).array();
-      t = static_cast<std::size_t>(grid.next(static_cast<int>(t)));
-    } while (t != s);
+  MovingStates states(exponents_.size(), n + m);
+  const auto pass = [&](std::size_t cell) {
+    const auto next = static_cast<std::size_t>(grid.next(static_cast<int>(cell)));
+    states.multiply(cells[cell].decay);
+    states.add(sources[next].states, sources[next].numbers);
+  };
+  for (std::size_t j = 0; j < cells.size(); ++j) pass(j);
+  states.multiply(periodic_);
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (!rows[j].numbers.empty())
+      all(rows[j].numbers, Eigen::all) = states.seen_by(rows[j].real, rows[j].imag);
+    if (j + 1 < cells.size()) pass(j);
   }
   add_within_cells(grid, cells, nodes, velocity, all);
   return split(all, n, m, velocity);
@@ -207,119 +278,6 @@ Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nod
 Influence PoleResponse::split(const Eigen::MatrixXd& all, Index n, Index m, bool velocity) {
   Influence result{all.topRows(n + m), {}, all.block(n + m, 0, m, n)};
   if (velocity) result.node_velocity = all.bottomRows(n);
-  return result;
-}
-
-// poles x cells: the periodic states at the boundaries.
-Eigen::MatrixXcd PoleResponse::states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,
-                                                    const Eigen::MatrixXd& coefficients) const {
-  Eigen::MatrixXcd states(exponents_.size(), Index(cells.size()));
-  const auto advance = [&](const Eigen::VectorXcd& state, const Cell& cell) {
-    Eigen::VectorXcd next = cell.decay.cwiseProduct(state);
-    for (const std::size_t p : cell.panels)
-      next += (0.5 * cell.length) * left_.row(grid.panels[p].contact)
-                                        .transpose()
-                                        .cwiseProduct(cell.waves->at_end() * coefficients.col(Index(p)));
-    return next;
-  };
-  Eigen::VectorXcd from_rest = Eigen::VectorXcd::Zero(exponents_.size());
-  for (const Cell& cell : cells) from_rest = advance(from_rest, cell);
-  if (states.cols() > 0) states.col(0) = periodic_.cwiseProduct(from_rest);
-  for (Index j = 1; j < states.cols(); ++j)
-    states.col(j) = advance(states.col(j - 1), cells[static_cast<std::size_t>(j - 1)]);
-  return states;
-}
-
-// The motion within a cell without forces, at times since its begin. So many times at once keep the states
-// of all poles in the processor's cache.
-ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const {
-  constexpr Index at_once = 64;
-  const Eigen::MatrixXcd rates = shapes_ * exponents_.asDiagonal();
-  const Eigen::MatrixXd shape_real = shapes_.real(), shape_imag = shapes_.imag(), rate_real = rates.real(),
-                        rate_imag = rates.imag();
-  ContactMotion result{Eigen::MatrixXd(contacts(), since.size()), Eigen::MatrixXd(contacts(), since.size())};
-  Eigen::MatrixXd real, imag;
-  for (Index begin = 0; begin < since.size(); begin += at_once) {
-    const Index count = std::min(at_once, since.size() - begin);
-    real.resize(state.size(), count);
-    imag.resize(state.size(), count);
-    for (Index r = 0; r < state.size(); ++r)
-      decay(exponents_[r], since.segment(begin, count), state[r], real.row(r), imag.row(r));
-    result.displacement.middleCols(begin, count) = shape_real * real - shape_imag * imag;
-    result.velocity.middleCols(begin, count) = rate_real * real - rate_imag * imag;
-  }
-  return result;
-}
-
-// The same within a cell with forces, of which these are the Legendre coefficients. What the slow poles make
-// is a polynomial.
-ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell,
-                                          const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
-                                          const Eigen::VectorXd& since) const {
-  const Index count = coefficients.rows();
-  const Eigen::VectorXd points = ((2.0 / cell.length) * since.array() - 1.0).min(1.0);
-  const Index degree = cell.waves->series_length() + count;
-  const Eigen::MatrixXd values = legendre_values(points, degree);
-  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), since.size()),
-                       Eigen::MatrixXd::Zero(contacts(), since.size())};
-  const auto add = [&](Eigen::MatrixXd& motion, int c, const Eigen::VectorXcd& factor,
-                       const Eigen::MatrixXd& at_once) {
-    const Eigen::VectorXcd shape = shapes_.row(c).transpose().cwiseProduct(factor);
-    Eigen::VectorXd series = Eigen::VectorXd::Zero(degree);
-    series.head(degree - count) = cell.waves->slow_series(shape.cwiseProduct(state));
-    for (const std::size_t p : cell.panels) {
-      const int forced = grid.panels[p].contact;
-      const Eigen::VectorXcd weight = (0.5 * cell.length) * shape.cwiseProduct(left_.row(forced).transpose());
-      const auto force = coefficients.col(Index(p));
-      series += convolution(cell.waves->slow_series(weight), count) * force;
-      series.head(count) += at_once(c, forced) * force;
-    }
-    motion.row(c) += (values * series).transpose();
-  };
-  const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(exponents_.size());
-  for (int c = 0; c < contacts(); ++c) {
-    add(result.displacement, c, ones, constant_);
-    add(result.velocity, c, exponents_, jump_);
-  }
-  if (cell.waves->fast().empty()) return result;
-  ExponentialIntegrals<Complex> integrals(points, count);
-  for (const Index r : cell.waves->fast()) {
-    integrals.compute(0.5 * cell.length * exponents_[r]);
-    Eigen::VectorXcd states = state[r] * integrals.decay();
-    for (const std::size_t p : cell.panels)
-      states += (0.5 * cell.length * left_(grid.panels[p].contact, r)) *
-                (integrals.values() * coefficients.col(Index(p)));
-    result.displacement += (shapes_.col(r) * states.transpose()).real();
-    result.velocity += (exponents_[r] * shapes_.col(r) * states.transpose()).real();
-  }
-  return result;
-}
-
-ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients,
-                                   const LegendreNodes& nodes, const Eigen::VectorXd& times) const {
-  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), times.size()),
-                       Eigen::MatrixXd::Zero(contacts(), times.size())};
-  if (grid.panels.empty()) return result;
-  const std::vector<Cell> cells = cells_of(grid, nodes);
-  const Eigen::MatrixXcd states = states_at_boundaries(grid, cells, coefficients);
-  std::vector<std::vector<Index>> numbers(cells.size());
-  std::vector<std::vector<double>> since(cells.size());
-  for (Index l = 0; l < times.size(); ++l) {
-    const double first = grid.boundaries.front(), time = times[l] - first - std::floor(times[l] - first);
-    const auto above = std::upper_bound(grid.boundaries.begin(), grid.boundaries.end(), first + time);
-    const auto j = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - grid.boundaries.begin() - 1));
-    numbers[j].push_back(l);
-    since[j].push_back(first + time - grid.boundaries[j]);
-  }
-  for (std::size_t j = 0; j < cells.size(); ++j) {
-    if (numbers[j].empty()) continue;
-    const auto own = Eigen::VectorXd::Map(since[j].data(), Index(since[j].size()));
-    const ContactMotion part = cells[j].panels.empty()
-                                   ? free_flight(states.col(Index(j)), own)
-                                   : forced_flight(grid, cells[j], states.col(Index(j)), coefficients, own);
-    result.displacement(Eigen::all, numbers[j]) = part.displacement;
-    result.velocity(Eigen::all, numbers[j]) = part.velocity;
-  }
   return result;
 }
 

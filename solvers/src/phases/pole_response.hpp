@@ -7,11 +7,13 @@
 
 namespace wavebalance::solvers::detail {
 
-/// An interval on which the force of a contact is one polynomial: a part of a phase, and as long as a cell of
-/// the period. Times are in periods, those of its phase: begin < end.
+/// An interval on which the force of a contact is one polynomial: a part of a phase, and as long as so many
+/// cells of the period that follow each other, of which none but the first is cell 0. Times are in periods,
+/// those of its phase: begin < end.
 struct Panel {
   int contact = 0, phase = 0, cell = 0;
   double begin = 0.0, end = 0.0;
+  int cells = 1;
 
   double length() const { return end - begin; }
   /// The time of a point x in [-1, 1].
@@ -90,10 +92,15 @@ class PoleResponse {
                        const Eigen::VectorXd& times) const;
 
  private:
+  struct Part;
   struct Cell;
   struct Rows;
   struct Sources;
 
+  static Part part_of(const CellGrid& grid, std::size_t panel, double begin, double length, bool last,
+                      const LegendreNodes& nodes);
+  void add_between(const CellGrid& grid, const Cell& cell, const Part& from, const Part& to,
+                   const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const;
   std::vector<Cell> cells_of(const CellGrid& grid, const LegendreNodes& nodes) const;
   std::vector<Rows> rows_of(const CellGrid& grid, const std::vector<Cell>& cells, Index count,
                             bool velocity) const;

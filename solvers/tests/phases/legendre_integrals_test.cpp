@@ -61,8 +61,8 @@ TEST(CellWaves, OfSlowAndFastPolesAreTheIntegralsOfEach) {
     each.compute(z);
     const Eigen::MatrixXcd expected = each.values();
     const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
-    const Eigen::MatrixXd real = waves.up_to_nodes(one),
-                          imag = waves.up_to_nodes(std::complex<double>(0.0, -1.0) * one);
+    const Eigen::MatrixXd real = waves.up_to_nodes(one, 0, 12),
+                          imag = waves.up_to_nodes(std::complex<double>(0.0, -1.0) * one, 0, 12);
     EXPECT_LT((real - expected.topRows(12).real()).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT((imag - expected.topRows(12).imag()).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT((waves.at_end().row(0) - expected.row(12)).cwiseAbs().maxCoeff(), 100 * eps);

@@ -169,6 +169,40 @@ TEST(PhaseMultipliers, OfRigidContactAreCountedToo) {
   EXPECT_EQ(motion.count_unstable(), outside(motion.multipliers()));
 }
 
+// Panels that other contacts do not cut have kinks within, which take more nodes and panels.
+TEST(PhaseMultipliers, AreTheSameWithPanelsThatOtherContactsDoNotCut) {
+  std::mt19937 generator(23);
+  int found = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    RandomCase random(generator, 2 + trial % 4);
+    if (trial % 2 == 1) {
+      std::vector<AnyContactLaw> damped;
+      for (int c = 0; c < random.structure.contacts(); ++c) {
+        const double gap = random.laws[c].gap(), stiffness = random.laws[c].tangent(2.0 * gap);
+        damped.emplace_back(DampedStop{stiffness, 0.02 * stiffness / random.frequency, gap});
+      }
+      random.laws = ContactLaws(std::move(damped));
+    }
+    const ContactDynamics dynamics(random.structure);
+    CondensedProblem problem(testing::fourier_pair(127, 512), random.structure, cosine_load());
+    problem.set_frequency(random.frequency);
+    const PeriodicResponse response = forced_response(problem, random.laws, {});
+    const PhaseMotion cut = response_phases(problem, random.laws, response, dynamics).motion,
+                      whole = response_phases(problem, random.laws, response, dynamics,
+                                              {.tolerance = 1e-7, .max_cut_panels = 0})
+                                  .motion;
+    if (!cut.converged() || cut.phases.size() < 2) continue;
+    ++found;
+    SCOPED_TRACE(trial);
+    ASSERT_TRUE(whole.converged());
+    const Eigen::VectorXd times = testing::uniform_times(257);
+    EXPECT_LT(testing::distance(whole.displacement(times), cut.displacement(times)), 1e-6);
+    EXPECT_LT(testing::distance(whole.velocity(times), cut.velocity(times)), 1e-5);
+    expect_same(whole.multipliers(), cut.multipliers(), 1e-4);
+  }
+  EXPECT_GE(found, 4);
+}
+
 /// A chain of masses between a wall and a stop, damped so little that all states outlast a period.
 LinearStructure chain(int masses) {
   LinearStructure result;

@@ -54,6 +54,9 @@ struct ContactPhasesOptions {
   int nodes = 12;  ///< of a panel, at first
   int max_nodes = 32;
   int max_panels = 400;
+  /// Up to so many panels, phases are cut where other contacts change theirs, since their forces have kinks in
+  /// high derivatives there. Of many contacts that act together these cuts make most of the unknowns.
+  int max_cut_panels = 100;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
   /// Floating-point operations of all Newton steps. N unknowns take about 2/3 N^3 in one step and 64 N^2

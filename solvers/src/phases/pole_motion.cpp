@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/dense.hpp"
+#include "phases/pole_response_parts.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+using Complex = std::complex<double>;
+
+// start exp(rate t) at times of which most follow each other by equal steps. O(times).
+void decay(Complex rate, const Eigen::Ref<const Eigen::VectorXd>& times, Complex start,
+           Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> real,
+           Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> imag) {
+  constexpr double rounding = 1e-14;
+  const double step = times.size() > 1 ? times[1] - times[0] : 0.0;
+  const Complex factor = std::exp(rate * step);
+  Complex value = 0.0;
+  for (Index i = 0; i < times.size(); ++i) {
+    const bool follows = i > 0 && std::abs(times[i] - times[i - 1] - step) < rounding;
+    value = follows ? Complex(value.real() * factor.real() - value.imag() * factor.imag(),
+                              value.real() * factor.imag() + value.imag() * factor.real())
+                    : start * std::exp(rate * times[i]);
+    real[i] = value.real();
+    imag[i] = value.imag();
+  }
+}
+
+}  // namespace
+
+// poles x cells: the periodic states at the boundaries.
+Eigen::MatrixXcd PoleResponse::states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,
+                                                    const Eigen::MatrixXd& coefficients) const {
+  Eigen::MatrixXcd states(exponents_.size(), Index(cells.size()));
+  const auto advance = [&](const Eigen::VectorXcd& state, const Cell& cell) {
+    Eigen::VectorXcd next = cell.decay.cwiseProduct(state);
+    for (const Part& part : cell.parts)
+      next +=
+          (0.5 * cell.length) *
+          left_.row(grid.panels[part.panel].contact)
+              .transpose()
+              .cwiseProduct(cell.waves->at_end() * (part.restriction * coefficients.col(Index(part.panel))));
+    return next;
+  };
+  Eigen::VectorXcd from_rest = Eigen::VectorXcd::Zero(exponents_.size());
+  for (const Cell& cell : cells) from_rest = advance(from_rest, cell);
+  if (states.cols() > 0) states.col(0) = periodic_.cwiseProduct(from_rest);
+  for (Index j = 1; j < states.cols(); ++j)
+    states.col(j) = advance(states.col(j - 1), cells[static_cast<std::size_t>(j - 1)]);
+  return states;
+}
+
+// The motion within a cell without forces, at times since its begin. So many times at once keep the states
+// of all poles in the processor's cache.
+ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const {
+  constexpr Index at_once = 64;
+  const Eigen::MatrixXcd rates = shapes_ * exponents_.asDiagonal();
+  const Eigen::MatrixXd shape_real = shapes_.real(), shape_imag = shapes_.imag(), rate_real = rates.real(),
+                        rate_imag = rates.imag();
+  ContactMotion result{Eigen::MatrixXd(contacts(), since.size()), Eigen::MatrixXd(contacts(), since.size())};
+  Eigen::MatrixXd real, imag;
+  for (Index begin = 0; begin < since.size(); begin += at_once) {
+    const Index count = std::min(at_once, since.size() - begin);
+    real.resize(state.size(), count);
+    imag.resize(state.size(), count);
+    for (Index r = 0; r < state.size(); ++r)
+      decay(exponents_[r], since.segment(begin, count), state[r], real.row(r), imag.row(r));
+    result.displacement.middleCols(begin, count) = shape_real * real - shape_imag * imag;
+    result.velocity.middleCols(begin, count) = rate_real * real - rate_imag * imag;
+  }
+  return result;
+}
+
+// The same within a cell with forces, of which these are the Legendre coefficients. What the slow poles make
+// is a polynomial.
+ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell,
+                                          const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
+                                          const Eigen::VectorXd& since) const {
+  const Index count = coefficients.rows();
+  const Eigen::VectorXd points = ((2.0 / cell.length) * since.array() - 1.0).min(1.0);
+  const Index degree = cell.waves->series_length() + count;
+  const Eigen::MatrixXd values = legendre_values(points, degree);
+  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), since.size()),
+                       Eigen::MatrixXd::Zero(contacts(), since.size())};
+  const auto add = [&](Eigen::MatrixXd& motion, int c, const Eigen::VectorXcd& factor,
+                       const Eigen::MatrixXd& at_once) {
+    const Eigen::VectorXcd shape = shapes_.row(c).transpose().cwiseProduct(factor);
+    Eigen::VectorXd series = Eigen::VectorXd::Zero(degree);
+    series.head(degree - count) = cell.waves->slow_series(shape.cwiseProduct(state));
+    for (const Part& part : cell.parts) {
+      const int forced = grid.panels[part.panel].contact;
+      const Eigen::VectorXcd weight = (0.5 * cell.length) * shape.cwiseProduct(left_.row(forced).transpose());
+      const Eigen::VectorXd force = part.restriction * coefficients.col(Index(part.panel));
+      series += convolution(cell.waves->slow_series(weight), count) * force;
+      series.head(count) += at_once(c, forced) * force;
+    }
+    motion.row(c) += (values * series).transpose();
+  };
+  const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(exponents_.size());
+  for (int c = 0; c < contacts(); ++c) {
+    add(result.displacement, c, ones, constant_);
+    add(result.velocity, c, exponents_, jump_);
+  }
+  if (cell.waves->fast().empty()) return result;
+  ExponentialIntegrals<Complex> integrals(points, count);
+  for (const Index r : cell.waves->fast()) {
+    integrals.compute(0.5 * cell.length * exponents_[r]);
+    Eigen::VectorXcd states = state[r] * integrals.decay();
+    for (const Part& part : cell.parts)
+      states += (0.5 * cell.length * left_(grid.panels[part.panel].contact, r)) *
+                (integrals.values() * (part.restriction * coefficients.col(Index(part.panel))));
+    result.displacement += (shapes_.col(r) * states.transpose()).real();
+    result.velocity += (exponents_[r] * shapes_.col(r) * states.transpose()).real();
+  }
+  return result;
+}
+
+ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients,
+                                   const LegendreNodes& nodes, const Eigen::VectorXd& times) const {
+  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), times.size()),
+                       Eigen::MatrixXd::Zero(contacts(), times.size())};
+  if (grid.panels.empty()) return result;
+  const std::vector<Cell> cells = cells_of(grid, nodes);
+  const Eigen::MatrixXcd states = states_at_boundaries(grid, cells, coefficients);
+  std::vector<std::vector<Index>> numbers(cells.size());
+  std::vector<std::vector<double>> since(cells.size());
+  for (Index l = 0; l < times.size(); ++l) {
+    const double first = grid.boundaries.front(), time = times[l] - first - std::floor(times[l] - first);
+    const auto above = std::upper_bound(grid.boundaries.begin(), grid.boundaries.end(), first + time);
+    const auto j = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - grid.boundaries.begin() - 1));
+    numbers[j].push_back(l);
+    since[j].push_back(first + time - grid.boundaries[j]);
+  }
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (numbers[j].empty()) continue;
+    const auto own = Eigen::VectorXd::Map(since[j].data(), Index(since[j].size()));
+    const ContactMotion part = cells[j].parts.empty()
+                                   ? free_flight(states.col(Index(j)), own)
+                                   : forced_flight(grid, cells[j], states.col(Index(j)), coefficients, own);
+    result.displacement(Eigen::all, numbers[j]) = part.displacement;
+    result.velocity(Eigen::all, numbers[j]) = part.velocity;
+  }
+  return result;
+}
+
+}  // namespace wavebalance::solvers::detail
