@@ -256,9 +256,10 @@ void draw_phase_errors(const Files& files) {
   app::write_pictures("phase_errors", figure);
 }
 
-// Displacements of a contact whose rigid stop gives way elastically: about each impact half a sine beyond the gap.
-Eigen::MatrixXd with_penetrations(const solvers::ImpactMotion& motion, const Eigen::VectorXd& times, double gap,
-                                  double natural) {
+// Displacements of a contact whose rigid stop gives way elastically: about each impact half a sine beyond the
+// gap.
+Eigen::MatrixXd with_penetrations(const solvers::ImpactMotion& motion, const Eigen::VectorXd& times,
+                                  double gap, double natural) {
   Eigen::MatrixXd u = motion.displacement(times);
   for (const solvers::Impact& impact : motion.impacts)
     for (Eigen::Index k = 0; k < times.size(); ++k) {
@@ -296,16 +297,37 @@ void draw_stiff_stops(const Files& files) {
       solvers::ContactProblem problem =
           app::compose_problem(Balance::with_functions(scene, 63), model).over_periods(rigid.periods);
       const auto found = problem.phases(
-          frequency, solvers::Motion{with_penetrations(motion, times, gap, std::sqrt(stiffness * mobility)), {}, {}},
+          frequency,
+          solvers::Motion{with_penetrations(motion, times, gap, std::sqrt(stiffness * mobility)), {}, {}},
           {.tolerance = 1e-9});
       if (!found || !found->converged()) continue;
       stiffnesses.push_back(stiffness);
       distances.push_back((found->displacement(times) - exact_motion).norm() / exact_motion.norm());
     }
-    panel.add({std::filesystem::path(file).stem().string(), stiffnesses, distances,
-               app::SeriesStyle::line_points});
+    panel.add(
+        {std::filesystem::path(file).stem().string(), stiffnesses, distances, app::SeriesStyle::line_points});
   }
   app::write_pictures("stiff_stops", figure);
+}
+
+// How often a bar whose end has no mass of its own meets a rigid stop in a period, over its elements.
+void write_impacts_of_bars(const Files& files) {
+  app::Scene scene = app::load_scene(files.at(0));
+  scene.structure.massless_tip = false;
+  scene.time = {};
+  app::Table table({"elements", "e = 0.2", "e = 0.8", "e = 1"});
+  for (const int elements : {2, 3, 5, 8, 12, 25}) {
+    scene.structure.elements = elements;
+    std::vector<app::Cell> row{std::int64_t{elements}};
+    for (const double restitution : {0.2, 0.8, 1.0}) {
+      scene.contact.values["restitution"] = restitution;
+      const app::Response found = app::impacts_response(scene, app::make_model(scene));
+      row.emplace_back(found.converged ? std::to_string(found.impacts->motion.impacts.size())
+                                       : std::string(to_string(found.impacts->motion.status)));
+    }
+    table.append_row(std::move(row));
+  }
+  app::write_csv("impacts_of_bars.csv", table);
 }
 }  // namespace
 
@@ -317,12 +339,14 @@ int main(int count, char** arguments) try {
                                                               {"multipliers", draw_multipliers},
                                                               {"phases", draw_phases},
                                                               {"phase_errors", draw_phase_errors},
-                                                              {"stiff_stops", draw_stiff_stops}};
+                                                              {"stiff_stops", draw_stiff_stops},
+                                                              {"impacts_of_bars", write_impacts_of_bars}};
   const auto figure = figures.find(count > 1 ? arguments[1] : "");
   if (figure == figures.end()) {
     std::fprintf(
         stderr,
-        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases SCENE, or phase_errors|stiff_stops SCENE...\n");
+        "usage: theory_figures bases|regularity|symbols|laws, multipliers|phases|impacts_of_bars SCENE, or "
+        "phase_errors|stiff_stops SCENE...\n");
     return 2;
   }
   figure->second(Files(arguments + 2, arguments + count));
