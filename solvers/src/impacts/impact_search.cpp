@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "impacts/impact_parts.hpp"
+#include "impacts/lasting_motion.hpp"
 #include "linalg/index.hpp"
 #include "wavebalance/solvers/impacts/impact_stability.hpp"
 
@@ -150,6 +151,10 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
 ImpactResponse ImpactSearch::ended(ImpactStatus status) {
   const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
+  if (status == ImpactStatus::lasting_contact && options_.solve) {
+    ImpactResponse lasting = lasting_response(problem_, options_);
+    if (lasting.motion.converged() || lasting.motion.status == ImpactStatus::cancelled) return lasting;
+  }
   if (named || status == ImpactStatus::cancelled || !options_.solve) return none(status);
   for (const NearReturn& start : best_) {
     if (found_.motion.converged()) break;

@@ -45,6 +45,12 @@ struct Impact {
   double energy_lost = 0.0;      ///< J, impulse (velocity_before + velocity_after) / 2
 };
 
+/// A contact that stays closed, pressed by load and motion, after an impact without rebound.
+struct LastingContact {
+  int contact = 0;
+  double begin = 0.0, end = 0.0;  ///< periods of the motion; begin in 0..1
+};
+
 struct ImpactMotionOptions {
   int max_iterations = 40;  ///< of Newton's method
   Observer observer = {};   ///< called before each of its steps
@@ -55,7 +61,8 @@ struct ImpactMotionOptions {
 
 namespace detail {
 class ImpactModel;
-}
+struct LastingParts;
+}  // namespace detail
 
 /// A periodic motion with impacts, to rounding.
 ///
@@ -63,7 +70,8 @@ class ImpactModel;
 class ImpactMotion {
  public:
   ImpactStatus status = ImpactStatus::not_settled;
-  std::vector<Impact> impacts;  ///< by time; the solution of the equations also where it is no motion
+  std::vector<Impact> impacts;          ///< by time; the solution of the equations also where it is no motion
+  std::vector<LastingContact> lasting;  ///< by time
   int iterations = 0;
   /// Largest error of the equations over the scales of displacement and velocity.
   double residual = missing;
@@ -84,6 +92,8 @@ class ImpactMotion {
   /// velocity after it. Throw std::invalid_argument without a solution. O(K (log impacts + C poles)).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
   Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
+  /// N, likewise: of contacts that stay closed, and 0 of others; impulses have no force.
+  Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
   /// J per period, of all impacts.
   double energy_lost() const;
   /// Complex amplitudes of the contact forces, N, C x count: column n belongs to Re(a exp(2 pi i n t)). They
@@ -91,7 +101,8 @@ class ImpactMotion {
   Eigen::MatrixXcd force_harmonics(int count) const;
 
   std::shared_ptr<const detail::ImpactModel> model;
-  Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact
+  Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact; empty with `parts`
+  std::shared_ptr<const detail::LastingParts> parts;  ///< of a motion with contact that lasts
 };
 
 /// The periodic motion near the impacts of a start, in any order. With the periodic Green function G of the

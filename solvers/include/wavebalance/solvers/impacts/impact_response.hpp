@@ -41,6 +41,11 @@ struct ImpactResponse {
 /// begins where the motion without contact is farthest from all obstacles, pressed away from those that it
 /// passes there. A motion that is unstable is given only where none that is stable has been found.
 ///
+/// A contact without rebound (e = 0) that is pressed after its impact stays closed until its force vanishes,
+/// by exact motions with that contact closed; the periodic motion is then solved for by Newton's method on
+/// the map of its period. `lasting_contact` where two such contacts are closed at once, or the closed one has
+/// mass in common with another that meets its obstacle.
+///
 /// `chattering` where impacts of one contact follow each other ever faster, their velocity below 1e-6 of the
 /// largest while the contact is pressed against its obstacle; they then end at chattering_end, the sum of a
 /// geometric series. Throws as impact_motion() and for options out of range. O(cells C poles) per period.
