@@ -64,9 +64,7 @@ solvers::ContactProblem impacts_problem(const Scene& scene, const StructureModel
 
 solvers::Motion contacts_of(const solvers::ImpactMotion& motion, int points) {
   const Eigen::VectorXd times = time_fractions(points);
-  solvers::Motion contacts{motion.displacement(times), motion.velocity(times), {}};
-  contacts.force = Eigen::MatrixXd::Zero(contacts.displacement.rows(), points);
-  return contacts;
+  return {motion.displacement(times), motion.velocity(times), motion.force(times)};
 }
 
 Response impacts_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {

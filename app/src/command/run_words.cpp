@@ -52,11 +52,11 @@ std::string phases_sentence(const std::string& status) {
        "A loss factor has no equation in time, by which phases are solved: time.method = \"balance\" takes it, and "
        "modal_damping = loss_factor / 2 in its place gives phases."},
       {"chattering",
-       "Impacts follow each other ever faster until the contact stays closed, which is not solved for with a "
-       "restitution: a stiff \"linear\" law takes it."},
+       "Impacts follow each other ever faster until the contact stays closed, which is solved for without rebound alone: "
+       "contact.restitution = 0, or a stiff \"linear\" law, takes it."},
       {"lasting_contact",
-       "An impact without rebound leaves the contact closed, which is not solved for with a restitution: a stiff "
-       "\"linear\" law takes it."},
+       "An impact without rebound leaves the contact closed, and no periodic motion with it was found: a stiff "
+       "\"linear\" law may lead to one."},
       {"not_settled",
        "The structure settles to no motion with impacts of up to 16 periods of the load: it is aperiodic, or has not "
        "settled yet."},

@@ -222,6 +222,8 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   if (response.impacts) {
     add_velocity_with_jumps(figure, *response.impacts, response.contact, response.velocity());
     add_impulses(figure, *response.impacts, response.contact);
+    if (!response.impacts->motion.lasting.empty())
+      add_motion(figure, "Contact force", "N", response.force(), response);
   } else {
     add_motion(figure, "Velocity", "m/s", response.velocity(), response);
     add_motion(figure, "Contact force", "N", response.force(), response);

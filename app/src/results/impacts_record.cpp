@@ -16,10 +16,20 @@ void warn_of_lasting_contact(Record& record, const solvers::ImpactMotion& motion
   if (motion.status != ImpactStatus::chattering && motion.status != ImpactStatus::lasting_contact) return;
   const bool chatters = motion.status == ImpactStatus::chattering;
   record.warnings.push_back(fmt::format(
-      "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. Motions with "
-      "contact that lasts are not solved for with a restitution.",
+      "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. {}",
       chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound is pressed on",
-      motion.chattering_contact + 1, motion.chattering_end / frequency));
+      motion.chattering_contact + 1, motion.chattering_end / frequency,
+      chatters
+          ? "Motions with contact that lasts are solved for without rebound alone, contact.restitution = 0."
+          : "No periodic motion with this contact closed was found."));
+}
+
+/// contact, begin, end (fractions of the motion's period): those that stay closed.
+Table lasting_table(const solvers::ImpactMotion& motion) {
+  Table table({"contact", "begin", "end"});
+  for (const solvers::LastingContact& one : motion.lasting)
+    table.append_row({std::int64_t{one.contact + 1}, one.begin, one.end});
+  return table;
 }
 
 /// The largest displacement of the leading contact, at the samples and at impacts.
@@ -54,7 +64,7 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
   const bool known = response.moves;
   // Samples miss the instants at which a contact is at its gap, and impacts have no force.
   for (Entry& entry : record.summary) {
-    if (entry.name == quantities::max_contact_force.name) entry.value = missing;
+    if (motion.lasting.empty() && entry.name == quantities::max_contact_force.name) entry.value = missing;
     if (known && !motion.impacts.empty() && entry.name == quantities::max_displacement.name)
       entry.value = highest(motion, response);
   }
@@ -65,6 +75,8 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
                               known ? motion.energy_lost() / response.impacts->load_periods : missing);
   if (known && response.impacts->load_periods > 1)
     record.summary.emplace_back(quantities::period_of_motion, std::int64_t{response.impacts->load_periods});
+  if (!motion.lasting.empty())
+    record.summary.emplace_back(quantities::lasting_contacts, lasting_table(motion));
   warn_of_lasting_contact(record, motion, scene.forcing.frequency);
   if (known && !motion.impacts.empty())
     record.files.push_back({"impacts.csv", csv_text(impacts_table(motion)),

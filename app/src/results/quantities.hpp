@@ -53,6 +53,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     max_impulse{"max_impulse_Ns", result, "N s", "max impulse"},
     max_impact_velocity{"max_impact_velocity_m_per_s", result, "m/s", "max impact velocity"},
     impact_energy{"impact_energy_J", result, "J", "impact energy"},
+    lasting_contacts{"lasting_contacts", result},
     max_penetration{"max_penetration_m", result, "m", "max penetration"},
     min_contact_force{"min_contact_force_N", result, "N", "min contact force"},
     complementarity{"complementarity", result}, leading_contact{"leading_contact", result},

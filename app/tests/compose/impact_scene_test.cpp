@@ -105,6 +105,19 @@ TEST(ImpactScene, OfABarWhoseEndHasTheMassOfAnElementChatters) {
   EXPECT_EQ(record.status, "chattering");
 }
 
+TEST(ImpactScene, OfABarWithoutReboundHasContactThatLasts) {
+  const Record record = analyse(impact_scene("bar_without_rebound.toml"));
+  ASSERT_TRUE(record.converged) << record.status;
+  const Table lasting = *value_in<Table>(record.summary, "lasting_contacts");
+  EXPECT_EQ(lasting.rows(), 1U);
+  EXPECT_GT(lasting.numbers("end")[0], lasting.numbers("begin")[0] + 0.05);
+  EXPECT_GT(value_of<double>(record.summary, "max_contact_force_N"), 0.0);
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 14.5e-3, 1e-12);
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
+  const auto force = record.response.numbers("contact_force_N");
+  EXPECT_GE(*std::min_element(force.begin(), force.end()), 0.0);
+}
+
 TEST(ImpactScene, IsSweptThroughGrazingWithStopsOfDifferentRestitution) {
   const Record record = analyse(impact_scene("between_stops.toml"));
   EXPECT_TRUE(record.converged) << record.status;
@@ -154,7 +167,8 @@ TEST(ImpactScene, NamesChatteringAndDoesNotConverge) {
 }
 
 TEST(ImpactScene, IsWrittenAndReadBackEqual) {
-  for (const char* name : {"oscillator.toml", "bar_with_end_mass.toml", "between_stops.toml"}) {
+  for (const char* name :
+       {"oscillator.toml", "bar_with_end_mass.toml", "bar_without_rebound.toml", "between_stops.toml"}) {
     const Scene scene = impact_scene(name);
     EXPECT_EQ(parse_scene(write_scene(scene), (impact_scenes / "written.toml").string()), scene) << name;
     EXPECT_EQ(complete_scene(scene), scene) << name;

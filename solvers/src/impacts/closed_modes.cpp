@@ -121,6 +121,10 @@ Eigen::MatrixXd ClosedModes::transition(double seconds) const {
   return (vectors_ * growth.asDiagonal() * inverse_).real();
 }
 
+Eigen::VectorXd ClosedModes::rates(const Eigen::VectorXd& states) const {
+  return (vectors_ * exponents_.cwiseProduct(inverse_ * states.cast<Complex>())).real();
+}
+
 double ClosedModes::value(const Signal& signal, const Eigen::VectorXcd& modes, double time) const {
   return (signal.row * modes)(0).real() + harmonics_at(signal.harmonics, time, rate(), 0);
 }

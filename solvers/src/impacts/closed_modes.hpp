@@ -26,6 +26,8 @@ class ClosedModes {
   Eigen::VectorXcd after(const Eigen::VectorXcd& modes, double seconds) const;
   /// n x n: what becomes of perturbations of the states within a time.
   Eigen::MatrixXd transition(double seconds) const;
+  /// A x, of states in the sense of perturbations.
+  Eigen::VectorXd rates(const Eigen::VectorXd& states) const;
   /// N, of the closed contact.
   double force(const Eigen::VectorXcd& modes, double time) const;
 

@@ -233,6 +233,13 @@ bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>&
   });
 }
 
+int repeats_after(const ImpactMotion& motion, int load_periods) {
+  for (int k = 1; k < load_periods; ++k)
+    if (load_periods % k == 0 && same_impacts_later(motion.impacts, motion.impacts, double(k) / load_periods))
+      return k;
+  return load_periods;
+}
+
 Flight flight_after(const ImpactMotion& motion, std::size_t i) {
   const ImpactModel& model = *motion.model;
   const double allowed = allowed_penetration(model);

@@ -33,6 +33,9 @@ ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnk
 /// Whether the impacts of b are those of a so many shares of the period later, to 1e-6.
 bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>& b, double later);
 
+/// The periods of the load after which a motion of so many of them already repeats.
+int repeats_after(const ImpactMotion& motion, int load_periods);
+
 /// The flight from impact i (or the whole period without impacts) to the next one.
 Flight flight_after(const ImpactMotion& motion, std::size_t i);
 

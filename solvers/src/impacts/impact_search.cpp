@@ -16,15 +16,6 @@ Eigen::VectorXd velocity_weights(const ImpactModel& model) {
   return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
 }
 
-// The periods of the load after which a motion already repeats.
-int repeats_after(const ImpactResponse& one) {
-  for (int k = 1; k < one.load_periods; ++k)
-    if (one.load_periods % k == 0 &&
-        same_impacts_later(one.motion.impacts, one.motion.impacts, double(k) / one.load_periods))
-      return k;
-  return one.load_periods;
-}
-
 }  // namespace
 
 ImpactSearch::ImpactSearch(const ImpactsProblem& problem, const ImpactResponseOptions& options)
@@ -108,7 +99,7 @@ ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
   response.distance = start.distance;
   response.motion = impact_motion(problem_.over_periods(start.periods), start.impacts, options_.newton);
   if (!response.motion.converged()) return response;
-  if (const int fewer = repeats_after(response); fewer < start.periods) {
+  if (const int fewer = repeats_after(response.motion, start.periods); fewer < start.periods) {
     NearReturn shorter{fewer, start.distance, {}};
     for (const Impact& impact : response.motion.impacts)
       if (impact.time * start.periods < fewer)

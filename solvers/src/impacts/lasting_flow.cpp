@@ -125,7 +125,8 @@ bool LastingFlow::impact(LastingState& state, int contact, LastingRecord* record
     const Eigen::RowVectorXd u = displacement_.row(contact) * *perturbations,
                              v = velocity_.row(contact) * *perturbations;
     // The rates before less those after, and what the velocity before changes by while the instant moves.
-    Eigen::VectorXd rates = generator_ * left - impulse_.col(contact) * (gain * before.acceleration[contact]);
+    const Eigen::VectorXd moved = state.closed < 0 ? generator_ * left : closed(state.closed)->rates(left);
+    Eigen::VectorXd rates = moved - impulse_.col(contact) * (gain * before.acceleration[contact]);
     if (lasts) rates += impulse_.col(contact) * (pressing / mobility);
     *perturbations -= impulse_.col(contact) * (gain * v);
     *perturbations -= rates * u / speed;

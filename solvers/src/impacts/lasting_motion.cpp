@@ -168,6 +168,14 @@ ImpactResponse solved_after(const ImpactsProblem& problem, LastingFlow& flow, co
       lasting_motion(model, start->states, start->time / periods, options.newton.max_iterations);
   response.load_periods = periods;
   if (!response.motion.converged()) return response;
+  if (const int fewer = repeats_after(response.motion, periods); fewer < periods)
+    return solved_after(problem, flow, state, fewer, options);
+  if (response.motion.lasting.empty()) {  // on the way alone contact lasted
+    std::vector<ImpactGuess> impacts;
+    for (const Impact& one : response.motion.impacts) impacts.push_back({one.contact, one.time, one.impulse});
+    response.motion = impact_motion(problem.over_periods(periods), impacts, options.newton);
+    if (!response.motion.converged()) return response;
+  }
   response.multipliers = impact_multipliers(response.motion);
   response.unstable = unstable_count(response.multipliers);
   return response;

@@ -57,13 +57,6 @@ TEST(ImpactResponseTest, NamesChatteringWithItsEnd) {
   EXPECT_NEAR((c - (c - b) * (c - b) / ((c - b) - (b - a))) / period, end, 1e-5);
 }
 
-TEST(ImpactResponseTest, NamesContactThatLastsAfterAnImpactWithoutRebound) {
-  const ImpactScene scene = impact_oscillator(0.1, 0.0, 0.0, 0.2);
-  const ContactDynamics dynamics(scene.structure());
-  const ImpactResponse found = impact_response(scene.problem(dynamics));
-  EXPECT_EQ(found.motion.status, ImpactStatus::lasting_contact) << to_string(found.motion.status);
-}
-
 TEST(ImpactResponseTest, FindsTheMotionWithoutImpacts) {
   const ImpactScene scene = impact_oscillator(0.1, 10.5, 0.8, 1.0);
   const ContactDynamics dynamics(scene.structure());
