@@ -25,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 // A few seconds of one processor. A response with few contacts takes a thousandth of them, or less.
 constexpr double most_operations_of_phases = 3e10;
+constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -36,6 +37,7 @@ void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   const auto start = Clock::now();
   solvers::ContactPhasesOptions phases;
   phases.max_operations = most_operations_of_phases;
+  phases.max_cut_panels = most_panels_cut;
   phases.observer = options.observer;
   result.phases = problem.phases(found, phases);
   result.phases_seconds = seconds_since(start);

@@ -65,12 +65,18 @@ std::vector<Tries> tries_along(const PhasedCurve& of, const std::vector<std::siz
   return all;
 }
 
+/// About as many operations as 20 points of a curve of 24 contacts take, with panels for so many.
+constexpr double most_operations = 1.5e9;
+constexpr int most_cut_panels = 30;
+
 /// The errors of single responses need no more digits. Where no motion is near, as beyond a fold, the search
 /// takes longest, and the points beside are tried next.
 solvers::ContactPhasesOptions phases_options(bool all) {
   solvers::ContactPhasesOptions options;
-  if (all) return options;
+  options.max_operations = most_operations;
+  options.max_cut_panels = most_cut_panels;
   options.tolerance = 1e-6;
+  if (all) return options;
   options.max_iterations = 6;
   options.max_changes = 2;
   return options;
@@ -107,6 +113,8 @@ void add_structure_points(const Scene& scene, const StructureModel& model, Sweep
   options.to = balance.to;
   options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
   options.largest_step = balance.arc_length.max_step;
+  options.phases.max_operations = most_operations;
+  options.phases.max_cut_panels = most_cut_panels;
   options.threads = model.threads;
   options.observer = observer;
   sweep.structure_points = solvers::structure_points([&] { return compose_problem(scene, model); },

@@ -61,9 +61,9 @@ bool left_its_interval(const ExactCurve& curve) {
 // A motion of the structure from which a stretch is followed.
 struct StretchStart {
   double value = 0.0, direction = 1.0;
-  PhaseMotion motion;  // without parts where none was found
+  PhaseMotion motion;  // not converged where none was found
 
-  bool exists() const { return motion.parts != nullptr; }
+  bool exists() const { return motion.converged(); }
 };
 
 // What was found along one stretch.
@@ -133,7 +133,7 @@ class StretchFollower {
       start.direction = detail::direction_from(curve_, at, forwards, clear * scale());
       const PeriodicResponse response = problem_.response(curve_, start.value, curve_.points[at].unknown);
       start.motion = near_phases(problem_, response, near).value().motion;
-      if (start.exists()) return start;
+      if (start.motion.status != PhasesStatus::no_motion_near) break;  // elsewhere it takes as much
     }
     return start;
   }
