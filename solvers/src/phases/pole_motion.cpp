@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "linalg/dense.hpp"
 #include "phases/pole_response_parts.hpp"
@@ -77,8 +78,13 @@ ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eig
 ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell,
                                           const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
                                           const Eigen::VectorXd& since) const {
+  constexpr Index few_pairs = 16;
   const Index count = coefficients.rows();
   const Eigen::VectorXd points = ((2.0 / cell.length) * since.array() - 1.0).min(1.0);
+  Eigen::MatrixXd forces(count, Index(cell.parts.size()));
+  for (std::size_t i = 0; i < cell.parts.size(); ++i)
+    forces.col(Index(i)) = cell.parts[i].restriction * coefficients.col(Index(cell.parts[i].panel));
+  if (Index(cell.parts.size()) * contacts() > few_pairs) return by_poles(grid, cell, state, forces, points);
   const Index degree = cell.waves->series_length() + count;
   const Eigen::MatrixXd values = legendre_values(points, degree);
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), since.size()),
@@ -88,10 +94,10 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
     const Eigen::VectorXcd shape = shapes_.row(c).transpose().cwiseProduct(factor);
     Eigen::VectorXd series = Eigen::VectorXd::Zero(degree);
     series.head(degree - count) = cell.waves->slow_series(shape.cwiseProduct(state));
-    for (const Part& part : cell.parts) {
-      const int forced = grid.panels[part.panel].contact;
+    for (std::size_t i = 0; i < cell.parts.size(); ++i) {
+      const int forced = grid.panels[cell.parts[i].panel].contact;
       const Eigen::VectorXcd weight = (0.5 * cell.length) * shape.cwiseProduct(left_.row(forced).transpose());
-      const Eigen::VectorXd force = part.restriction * coefficients.col(Index(part.panel));
+      const auto force = forces.col(Index(i));
       series += convolution(cell.waves->slow_series(weight), count) * force;
       series.head(count) += at_once(c, forced) * force;
     }
@@ -102,18 +108,43 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
     add(result.displacement, c, ones, constant_);
     add(result.velocity, c, exponents_, jump_);
   }
-  if (cell.waves->fast().empty()) return result;
-  ExponentialIntegrals<Complex> integrals(points, count);
-  for (const Index r : cell.waves->fast()) {
+  add_poles(grid, cell, cell.waves->fast(), state, forces, points, result);
+  return result;
+}
+
+// With many contacts all poles one by one take far less than a series for each pair of contacts.
+ContactMotion PoleResponse::by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
+                                     const Eigen::MatrixXd& forces, const Eigen::VectorXd& points) const {
+  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), points.size()),
+                       Eigen::MatrixXd::Zero(contacts(), points.size())};
+  std::vector<Index> all(static_cast<std::size_t>(exponents_.size()));
+  std::iota(all.begin(), all.end(), Index(0));
+  add_poles(grid, cell, all, state, forces, points, result);
+  const Eigen::MatrixXd at_points = legendre_values(points, forces.rows()) * forces;
+  for (std::size_t i = 0; i < cell.parts.size(); ++i) {
+    const int forced = grid.panels[cell.parts[i].panel].contact;
+    result.displacement += constant_.col(forced) * at_points.col(Index(i)).transpose();
+    result.velocity += jump_.col(forced) * at_points.col(Index(i)).transpose();
+  }
+  return result;
+}
+
+// What some poles make there, one by one.
+void PoleResponse::add_poles(const CellGrid& grid, const Cell& cell, const std::vector<Index>& poles,
+                             const Eigen::VectorXcd& state, const Eigen::MatrixXd& forces,
+                             const Eigen::VectorXd& points, ContactMotion& result) const {
+  if (poles.empty()) return;
+  ExponentialIntegrals<Complex> integrals(points, forces.rows());
+  for (const Index r : poles) {
     integrals.compute(0.5 * cell.length * exponents_[r]);
-    Eigen::VectorXcd states = state[r] * integrals.decay();
-    for (const Part& part : cell.parts)
-      states += (0.5 * cell.length * left_(grid.panels[part.panel].contact, r)) *
-                (integrals.values() * (part.restriction * coefficients.col(Index(part.panel))));
+    Eigen::VectorXcd left(cell.parts.size());
+    for (std::size_t i = 0; i < cell.parts.size(); ++i)
+      left[Index(i)] = 0.5 * cell.length * left_(grid.panels[cell.parts[i].panel].contact, r);
+    const Eigen::VectorXcd force = forces * left;
+    const Eigen::VectorXcd states = state[r] * integrals.decay() + integrals.values() * force;
     result.displacement += (shapes_.col(r) * states.transpose()).real();
     result.velocity += (exponents_[r] * shapes_.col(r) * states.transpose()).real();
   }
-  return result;
 }
 
 ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients,

@@ -114,6 +114,11 @@ class PoleResponse {
   ContactMotion free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const;
   ContactMotion forced_flight(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
                               const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& since) const;
+  ContactMotion by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
+                         const Eigen::MatrixXd& forces, const Eigen::VectorXd& points) const;
+  void add_poles(const CellGrid& grid, const Cell& cell, const std::vector<Eigen::Index>& poles,
+                 const Eigen::VectorXcd& state, const Eigen::MatrixXd& forces, const Eigen::VectorXd& points,
+                 ContactMotion& result) const;
   Eigen::VectorXcd weights(int displaced, int forced) const;
 
   Eigen::VectorXcd exponents_;      // per period, one for each pair, by rising decay
