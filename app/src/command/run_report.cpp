@@ -93,8 +93,10 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
               folded_table(summary, "motions",
                            scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
                                                                         : "Motions at points of the curve")) +
-      section_html("Stability", paragraph(stability_sentences(summary, record.sweep, record.axis)) +
-                                    folded_table(summary, "special_points", "Special points")) +
+      section_html("Stability",
+                   paragraph(stability_sentences(summary, record.sweep, record.axis)) +
+                       folded_table(summary, "structure_special_points", "Special points of the structure") +
+                       folded_table(summary, "special_points", "Special points")) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked", asked(arguments, scene)) +
       section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +

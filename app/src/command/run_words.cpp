@@ -90,16 +90,44 @@ std::string solution_sentence(const Summary& summary) {
 /// How far a displacement passes the gap; empty where there is none.
 std::string beside_gap(double displacement, double gap) {
   if (!(gap > 0.0) || !std::isfinite(displacement)) return "";
+  constexpr double rounding = 1e-9;
   const double past = displacement / gap - 1.0;
+  if (std::abs(past) <= rounding) return fmt::format(", the gap of {}", quantity(gap, "m"));
   return fmt::format(", {} {} the gap of {}", percent(std::abs(past)), past < 0.0 ? "short of" : "past",
                      quantity(gap, "m"));
+}
+
+/// What impacts do in a motion, or at most along a curve.
+void append_impacts(std::vector<std::string>& sentences, const Summary& summary) {
+  const double impulse = number_in(summary, quantities::max_impulse),
+               count = number_in(summary, quantities::impacts),
+               share = number_in(summary, quantities::contact_fraction);
+  if (impulse == 0.0) {
+    sentences.emplace_back("There is no contact.");
+    return;
+  }
+  const std::string largest = quantity(impulse, "N s");
+  if (std::isfinite(count))
+    sentences.push_back(
+        fmt::format("There {} {:.0f} impact{} in the period of the motion, at up to {}; the largest "
+                    "impulse is {}, and impacts take {} in a period of the load.",
+                    count == 1.0 ? "is" : "are", count, count == 1.0 ? "" : "s",
+                    with_unit(summary, quantities::max_impact_velocity), largest,
+                    with_unit(summary, quantities::impact_energy)));
+  else
+    sentences.push_back(fmt::format("The largest impulse of an impact is {}.", largest));
+  if (share > 0.0)
+    sentences.push_back(fmt::format("Contact lasts for {} of the period; its largest force is {}.",
+                                    percent(share), with_unit(summary, quantities::max_contact_force)));
 }
 
 /// `limit` is "up to " for a curve, whose shares differ from point to point.
 void append_contact(std::vector<std::string>& sentences, const Summary& summary, const char* limit) {
   const double share = number_in(summary, quantities::contact_fraction),
                force = number_in(summary, quantities::max_contact_force);
-  if (share == 0.0) {
+  if (std::isfinite(number_in(summary, quantities::max_impulse))) {
+    append_impacts(sentences, summary);
+  } else if (share == 0.0) {
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
     sentences.push_back(fmt::format("Contact takes {}{} of the period; the largest contact force is {}.",

@@ -47,6 +47,20 @@ TEST(RunReport, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
   }
 }
 
+TEST(RunReport, ReportSaysWhatImpactsDo) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "impacts";
+  run(folder, {"run", scene / "oscillator.toml", "-o", folder / "once", "--quiet"});
+  const std::string once = read_file(folder / "once" / "report.html");
+  for (const char* words : {"There is 1 impact in the period of the motion, at up to 1.696 m/s",
+                            "the gap of 1 m", "href=\"impacts.csv\""})
+    EXPECT_NE(once.find(words), std::string::npos) << words;
+  EXPECT_EQ(once.find("There is no contact"), std::string::npos);
+  run(folder, {"run", scene / "bar_without_rebound.toml", "-o", folder / "lasts", "--quiet"});
+  EXPECT_NE(read_file(folder / "lasts" / "report.html").find("Contact lasts for 8.4 % of the period"),
+            std::string::npos);
+}
+
 TEST(RunReport, ReportSaysThatNothingWasFound) {
   const TemporaryFolder folder;
   const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "jones_legrand_2014" / "case2_sweep.toml";
