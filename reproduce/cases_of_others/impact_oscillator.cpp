@@ -18,7 +18,7 @@ std::vector<references::KnownPoint> grazing_points(double damping, double gap) {
   return {{references::Type::grazing, std::sqrt(middle + width)}};
 }
 
-std::vector<Row> motion_rows(const Curve& curve) {
+std::vector<Row> impact_rows(const Curve& curve) {
   app::Scene scene = curve.scene;
   scene.analysis.type = app::AnalysisType::forced_response;
   scene.forcing.frequency = 1.0 / turn;
@@ -43,7 +43,7 @@ void impact_oscillator(report::Artefact& artefact) {
   curve.sweep = app::impact_sweep(curve.scene, curve.model);
   if (!curve.sweep.converged()) throw report::NotConverged(curve.sweep.status());
   auto rows = compare(curve, grazing_points(0.1, 1.0), 1e-10, references::closed_form);
-  for (Row& row : motion_rows(curve)) rows.push_back(std::move(row));
+  for (Row& row : impact_rows(curve)) rows.push_back(std::move(row));
   artefact.data(curve_table(curve), "rad/s; displacements without unit");
   artefact.more_data("special_points", special_points_table(curve), "rad/s, without unit");
   app::Figure figure;
