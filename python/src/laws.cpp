@@ -120,6 +120,10 @@ solvers::ContactLaws laws_of(const py::object& laws) {
 solvers::ContactLaws laws_of(const py::object& laws, const solvers::LinearStructure& structure) {
   solvers::ContactLaws all = laws_of(laws);
   all.require(structure.contacts());
+  if (all.have_impacts())
+    throw std::invalid_argument(
+        "laws: motions with impacts (restitution) have no functions; expected wavebalance.run(structure.scene(law, "
+        "frequency=...)), or a rigid obstacle without restitution");
   if (!contacts_are_massless(structure, all.rigid(structure.contacts())))
     throw std::invalid_argument(
         "laws: a rigid obstacle needs contacts without mass; expected Structure(..., "
