@@ -232,11 +232,17 @@ void draw_phase_errors(const Files& files) {
   for (const std::string& file : files) {
     const app::Scene scene = app::load_scene(file);
     std::vector<double> functions, errors, unknowns, phase_errors;
-    for (const int number : {15, 31, 63, 127, 255, 511, 1023}) {
-      functions.push_back(number);
-      errors.push_back(Balance(scene, number, {.tolerance = exact}).phases.displacement_error);
-    }
     const Eigen::MatrixXd motion = Balance(scene, 63, {.tolerance = exact}).phases.motion.displacement(times);
+    for (const int number : {15, 31, 63, 127, 255, 511, 1023}) {
+      solvers::ContactProblem problem =
+          app::compose_problem(Balance::with_functions(scene, number), app::make_model(scene));
+      const solvers::PeriodicResponse response = problem.respond(scene.forcing.frequency);
+      if (!response.converged())
+        throw std::runtime_error("no balance with " + std::to_string(number) + " functions");
+      const Eigen::MatrixXd found = problem.motion(response, static_cast<int>(times.size())).displacement;
+      functions.push_back(number);
+      errors.push_back((found - motion).norm() / motion.norm());
+    }
     for (const int nodes : {6, 8, 10, 12, 14, 16, 20, 24, 28, 32}) {
       const Balance balance(scene, 63,
                             {.tolerance = 1e-15, .nodes = nodes, .max_nodes = nodes, .max_panels = 1});
@@ -304,8 +310,9 @@ void draw_stiff_stops(const Files& files) {
       stiffnesses.push_back(stiffness);
       distances.push_back((found->displacement(times) - exact_motion).norm() / exact_motion.norm());
     }
-    panel.add(
-        {std::filesystem::path(file).stem().string(), stiffnesses, distances, app::SeriesStyle::line_points});
+    std::string name = std::filesystem::path(file).stem().string();
+    std::replace(name.begin(), name.end(), '_', ' ');
+    panel.add({name, stiffnesses, distances, app::SeriesStyle::line_points});
   }
   app::write_pictures("stiff_stops", figure);
 }
@@ -315,7 +322,7 @@ void write_impacts_of_bars(const Files& files) {
   app::Scene scene = app::load_scene(files.at(0));
   scene.structure.massless_tip = false;
   scene.time = {};
-  app::Table table({"elements", "e = 0.2", "e = 0.8", "e = 1"});
+  app::Table table({"elements", "restitution_02", "restitution_08", "restitution_1"});
   for (const int elements : {2, 3, 5, 8, 12, 25}) {
     scene.structure.elements = elements;
     std::vector<app::Cell> row{std::int64_t{elements}};
