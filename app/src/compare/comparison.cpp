@@ -200,6 +200,10 @@ void check_scene_type(const Scene& scene) {
     throw std::invalid_argument("analysis.type = \"" + name_of(type) +
                                 "\": pairs of bases are compared in a \"forced_response\", a "
                                 "\"frequency_sweep\" or an \"amplitude_sweep\"");
+  if (has_impacts(scene.contact))
+    throw std::invalid_argument(
+        "contact.restitution is given, and motions with impacts have no functions to compare; expected none, or "
+        "wavebalance run");
   if (scene.analysis.subharmonic != 1)
     throw std::invalid_argument("analysis.subharmonic = " + std::to_string(scene.analysis.subharmonic) +
                                 ": motions of one period of the load are compared; expected 1");

@@ -11,6 +11,7 @@
 #include "support/scene_error.hpp"
 #include "support/summary_value.hpp"
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compare/comparison.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -195,6 +196,15 @@ TEST(ImpactScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
     EXPECT_NE(details.key.find(one.key), std::string::npos) << one.setting << ": " << details.key;
     EXPECT_NE((details.key + " " + details.allowed).find(one.expected), std::string::npos)
         << one.setting << ": " << details.allowed;
+  }
+}
+
+TEST(ImpactScene, HasNoFunctionsToCompare) {
+  try {
+    check_comparison(impact_scene("oscillator.toml"), {});
+    ADD_FAILURE() << "it was not refused";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("contact.restitution"), std::string::npos) << error.what();
   }
 }
 
