@@ -142,7 +142,7 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
 ImpactResponse ImpactSearch::ended(ImpactStatus status) {
   const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
-  if (status == ImpactStatus::lasting_contact && options_.solve) {
+  if (status == ImpactStatus::lasting_contact) {
     ImpactResponse lasting = lasting_response(problem_, options_);
     if (lasting.motion.converged() || lasting.motion.status == ImpactStatus::cancelled) return lasting;
   }

@@ -262,12 +262,20 @@ std::vector<PeriodicResponse> ContactProblem::responses_at(const FrequencySweep&
   return solvers::responses_at(condensed_, laws_, curve, value);
 }
 
+void ContactProblem::require_no_impacts() const {
+  if (laws_.have_impacts())
+    throw std::invalid_argument(
+        "the laws have a restitution, whose motions are integrated from impact to impact; take impacts()");
+}
+
 SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& options) {
+  require_no_impacts();
   load_fully(frequency);
   return solvers::settle(condensed_, laws_, options);
 }
 
 TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {
+  require_no_impacts();
   return integrate_to_periodic(structure(), laws_, frequency, options);
 }
 

@@ -1,6 +1,7 @@
 // One object for all questions about a structure with its contacts: the answers of the functions that it
 // calls, in any order.
 #include "wavebalance/solvers/problem/contact_problem.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <stdexcept>
 
 #include "constants.hpp"
+#include "support/impact_scenes.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
@@ -169,6 +171,20 @@ TEST(ContactProblem, RefusesWhatIsIllPosed) {
   EXPECT_THROW(stopped(0), std::invalid_argument);
   CondensedProblem parts(testing::fourier_pair(7, 32), impacting_oscillator, testing::cosine_load());
   EXPECT_THROW(parts.set_load_unit(0.0, "N"), std::invalid_argument);
+}
+
+TEST(ContactProblem, WithRestitutionHasImpactsAndNothingElse) {
+  const testing::ImpactScene scene = testing::impact_oscillator(0.1, 1.0, 0.8, 1.0);
+  const LinearStructure structure = scene.structure();
+  ContactProblem problem(testing::fourier_pair(7, 32), structure, contact::RigidLaw(1.0, 0.8));
+  const ImpactResponse found = problem.impacts(scene.frequency());
+  ASSERT_TRUE(found.motion.converged());
+  EXPECT_NEAR(found.motion.impacts.front().velocity_before, 1.69573294, 1e-8);
+  EXPECT_THROW(problem.respond(scene.frequency()), std::invalid_argument);
+  EXPECT_THROW(problem.settle(scene.frequency()), std::invalid_argument);
+  EXPECT_THROW(problem.integrate(scene.frequency()), std::invalid_argument);
+  EXPECT_THROW(ContactProblem(testing::fourier_pair(7, 32), structure, contact::RigidLaw(1.0)),
+               std::invalid_argument);
 }
 
 }  // namespace

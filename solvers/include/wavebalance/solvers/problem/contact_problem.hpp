@@ -139,6 +139,7 @@ class ContactProblem {
 
  private:
   void require_well_posed() const;
+  void require_no_impacts() const;
   const ContactDynamics& dynamics_of_impacts() const;
   ImpactsProblem impacts_here() const;
   ImpactFamily impact_family(SweepParameter parameter) const;
