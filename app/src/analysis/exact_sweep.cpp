@@ -89,19 +89,6 @@ void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability,
   if (!curve.points.empty()) phases.peak = phases.points[peak_of(sweep.curve)];
 }
 
-solvers::ExactCurveOptions options_of(const Scene& scene, const Observer& observer) {
-  const solvers::FrequencySweepOptions balance = sweep_options(scene);
-  solvers::ExactCurveOptions options;
-  options.from = balance.from;
-  options.to = balance.to;
-  options.max_points = balance.max_points;
-  options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
-  options.largest_step = balance.arc_length.max_step;
-  options.stability = scene.analysis.stability;
-  options.observer = observer;
-  return options;
-}
-
 }  // namespace
 
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
@@ -109,7 +96,7 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
   require_start_fits(start, scene);
   const auto begin = std::chrono::steady_clock::now();
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  const solvers::ExactCurveOptions options = options_of(scene, observer);
+  const solvers::ExactCurveOptions options = exact_options<solvers::ExactCurveOptions>(scene, observer);
   solvers::ContactProblem problem = compose_problem(scene, model);
   solvers::ForcedResponseOptions how;
   how.observer = observer;

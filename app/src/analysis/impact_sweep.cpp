@@ -73,19 +73,6 @@ void copy_impacts(const ImpactCurve& traced, const ImpactMeasure& measure, int p
   }
 }
 
-solvers::ImpactCurveOptions curve_options(const Scene& scene, const Observer& observer) {
-  const solvers::FrequencySweepOptions balance = sweep_options(scene);
-  solvers::ImpactCurveOptions options;
-  options.from = balance.from;
-  options.to = balance.to;
-  options.max_points = balance.max_points;
-  options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
-  options.largest_step = balance.arc_length.max_step;
-  options.stability = scene.analysis.stability;
-  options.observer = observer;
-  return options;
-}
-
 solvers::BranchEnd end_of(solvers::SweepStatus status) {
   using solvers::BranchEnd, solvers::SweepStatus;
   switch (status) {
@@ -130,7 +117,7 @@ void copy_branches(const std::vector<ImpactCurve>& curves, const ImpactMeasure& 
 Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
   const auto begin = std::chrono::steady_clock::now();
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  solvers::ImpactCurveOptions options = curve_options(scene, observer);
+  solvers::ImpactCurveOptions options = exact_options<solvers::ImpactCurveOptions>(scene, observer);
   Sweep sweep;
   if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
   sweep.curve.parameter =
@@ -148,6 +135,8 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
   const ImpactMeasure measure{sweep.curve.parameter, scene.forcing.frequency,
                               time_fractions(scene.analysis.output_points)};
   if (!first.motion.converged()) sweep.start_status = to_string(first.motion.status);
+  if (!first.motion.lasting.empty())
+    sweep.start_status = "contact lasts, and curves are those of motions with impacts alone";
   sweep.periods = sweep.motion_periods = options.periods = first.load_periods;
   copy_impacts(curve, measure, first.load_periods, scene.analysis.stability, sweep.curve, sweep.stability,
                sweep.impacts.front());

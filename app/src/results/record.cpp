@@ -200,7 +200,7 @@ void append_impacts(Record& record, const Sweep& sweep) {
   Summary& summary = record.summary;
   if (!sweep.start_status.empty() && !record.interrupted)
     record.warnings.push_back(fmt::format(
-        "Where the curve was to begin the structure settles to no periodic motion that is solved for: {}.",
+        "Where the curve was to begin the structure settles to no periodic motion that a curve begins with: {}.",
         sweep.start_status));
   double impulse = sweep.curve.points.empty() ? missing : 0.0;
   for (const PointImpacts& point : sweep.impacts.front()) impulse = std::max(impulse, point.largest_impulse);

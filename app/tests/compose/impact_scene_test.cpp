@@ -199,6 +199,18 @@ TEST(ImpactScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
   }
 }
 
+TEST(ImpactScene, WhoseContactLastsHasNoCurveAndSaysSo) {
+  const Record record = analyse(
+      load_scene(impact_scenes / "bar_without_rebound.toml",
+                 std::vector<std::string>{"analysis.type=frequency_sweep", "analysis.frequency_from=1275",
+                                          "analysis.frequency_to=1300"},
+                 std::vector<std::string>{"forcing.frequency"}));
+  EXPECT_EQ(record.status, "no_start");
+  EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const std::string& text) {
+    return text.find("contact lasts") != std::string::npos;
+  }));
+}
+
 TEST(ImpactScene, HasNoFunctionsToCompare) {
   try {
     check_comparison(impact_scene("oscillator.toml"), {});

@@ -150,9 +150,9 @@ class ImpactTracer {
     start.displacement += share * (beyond.point.displacement - start.displacement);
     std::optional<ImpactPlace> place = path_->at_value(start, value);
     if (!place || !place->motion.converged() || !path_->set_tangent(place->point, last_.point)) return false;
-    go_to(*place, share * std::sqrt(path_->inner(ImpactPath::chord(last_.point, beyond.point),
-                                                 ImpactPath::chord(last_.point, beyond.point))));
-    curve_.status = value == options_.to ? SweepStatus::reached_end : SweepStatus::returned;
+    go_to(*place, path_->inner(ImpactPath::chord(last_.point, place->point), last_.point));
+    if (curve_.status == SweepStatus::no_start)
+      curve_.status = value == options_.to ? SweepStatus::reached_end : SweepStatus::returned;
     return true;
   }
 
