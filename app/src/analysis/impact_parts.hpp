@@ -10,7 +10,8 @@ namespace wavebalance::app {
 /// What a scene with impacts has to ask: its pair, which takes no part, is a small one of its own.
 solvers::ContactProblem impacts_problem(const Scene& scene, const StructureModel& model);
 
-/// The contacts at analysis.output_points points of the motion's period, with the forces of those that stay closed.
+/// The contacts at analysis.output_points points of the motion's period, with the forces of those that stay
+/// closed.
 solvers::Motion contacts_of(const solvers::ImpactMotion& motion, int points);
 
 }  // namespace wavebalance::app

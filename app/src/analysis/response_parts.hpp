@@ -11,7 +11,8 @@ namespace wavebalance::app {
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 
-/// Sets Response::settled where the response of the problem's load period at the scene's frequency is unstable.
+/// Sets Response::settled where the response of the problem's load period at the scene's frequency is
+/// unstable.
 void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                   Response& result);
 

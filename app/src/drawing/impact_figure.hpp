@@ -6,8 +6,8 @@
 
 namespace wavebalance::app {
 
-/// The velocity of a contact over the period, sampled at uniform instants (m/s), with both values at each of its
-/// impacts, so that these are drawn as jumps.
+/// The velocity of a contact over the period, sampled at uniform instants (m/s), with both values at each of
+/// its impacts, so that these are drawn as jumps.
 void add_velocity_with_jumps(Figure& figure, const solvers::ImpactResponse& response, int contact,
                              const Eigen::VectorXd& velocity);
 

@@ -19,7 +19,9 @@ namespace {
 std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}", number); }
 
 /// Missing of a motion with impacts, which pass on impulses.
-double largest_force(const FoundMotion& one) { return one.impacts && one.impacts->lasting.empty() ? missing : one.contacts.force.maxCoeff(); }
+double largest_force(const FoundMotion& one) {
+  return one.impacts && one.impacts->lasting.empty() ? missing : one.contacts.force.maxCoeff();
+}
 
 Table motions_table(const Motions& all) {
   Table table({"file", "number", "period", "stability", "unstable_multipliers", "leading_multiplier_real",

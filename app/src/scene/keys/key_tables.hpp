@@ -20,9 +20,7 @@ inline Condition analysis_is(std::vector<std::string_view> types) {
   return {"analysis.type", std::move(types)};
 }
 /// Not of motions by phases of contact or with impacts, which have no functions.
-inline Condition by_balance() {
-  return Condition("time.method", {"balance"}).unless("contact.restitution");
-}
+inline Condition by_balance() { return Condition("time.method", {"balance"}).unless("contact.restitution"); }
 
 /// Each appends the keys of its section.
 void add_structure_keys(std::vector<SceneKey>& keys);

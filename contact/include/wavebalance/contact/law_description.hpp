@@ -29,8 +29,8 @@ inline constexpr LawRange at_least_zero{.lower = 0.0};
 inline constexpr LawRange zero_to_one{.lower = 0.0, .upper = 1.0};
 inline constexpr LawRange other_than_zero{.zero_excluded = true};
 
-/// One parameter of a law. One that has neither `fallback` nor `same_as` must be given unless it `may_lack`. Parameters of one
-/// name have the same unit, kind and default in all laws.
+/// One parameter of a law. One that has neither `fallback` nor `same_as` must be given unless it `may_lack`.
+/// Parameters of one name have the same unit, kind and default in all laws.
 struct LawParameter {
   enum class Kind { number, list, file };
 

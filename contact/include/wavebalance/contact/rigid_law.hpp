@@ -9,8 +9,9 @@ namespace wavebalance::contact {
 /// A rigid obstacle at a gap: u <= g0, f >= 0, f (u - g0) = 0 [LL10, eq. (2)].
 ///
 /// The force is not a function of the displacement: beyond the gap it is infinite. Its resolvent is, and the
-/// force form of the balance needs no more, where the contact has no mass. A contact with mass meets the obstacle
-/// in impacts, which leave it with the velocity -e v [Newton] where it arrives with v. O(1). Immutable, may be shared between threads.
+/// force form of the balance needs no more, where the contact has no mass. A contact with mass meets the
+/// obstacle in impacts, which leave it with the velocity -e v [Newton] where it arrives with v. O(1).
+/// Immutable, may be shared between threads.
 class RigidLaw {
  public:
   /// gap: g0, m; restitution: e of impacts, 0..1, or none of a contact without mass. Throws

@@ -170,8 +170,8 @@ bool acts_on_both_sides(std::string_view law);
 bool is_rigid(std::string_view law);
 /// Whether its force follows from the motion over a whole period: friction.
 bool has_friction(std::string_view law);
-/// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and have
-/// no functions.
+/// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
+/// have no functions.
 bool has_impacts(const Contact& contact);
 
 /// One entry of [[forcing.terms]], which acts beside Forcing::amplitude: amplitude cos(harmonic 2 pi
