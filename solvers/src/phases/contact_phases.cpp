@@ -95,11 +95,13 @@ class Search {
     for (std::vector<Layout> tried; !found.agrees() && !stopped() && result.changes < options_.max_changes;
          ++result.changes) {
       const bool lost = found.is_lost();
-      if (lost || is_among(tried, found.phases_of_motion)) {
+      const bool fewer = lost && leave_out_shortest();
+      if (!fewer && (lost || is_among(tried, found.phases_of_motion))) {
         if (nodes_.count() >= more_nodes) break;
         nodes_ = LegendreNodes(more_nodes);
         tried.clear();
       }
+      if (!fewer) least_ = 0.0;
       if (!lost) tried.push_back(found.phases_of_motion);
       found = at(lost ? first : found.reach, result);
     }
@@ -144,10 +146,21 @@ class Search {
     return {model_, std::move(found), nodes_, times_, free_};
   }
 
+  // Samples of a balance may open and close a contact within less than they resolve, above all one that is
+  // rigid, and equations with such an interval have no solution. If the motion has it, it is inserted later.
+  bool leave_out_shortest() {
+    constexpr double longest = 0.01, above = 1.0 + 1e-9;
+    if (!(shortest_ < longest)) return false;
+    least_ = above * shortest_;
+    return true;
+  }
+
   // Of many contacts that act together one panel for a phase at first takes far fewer unknowns than one for
   // each part between their passages.
-  Layout layout_of(const ContactMotion& motion) const {
-    Layout layout = detail::layout_of(model_.laws, model_.frequency, motion.displacement, motion.velocity);
+  Layout layout_of(const ContactMotion& motion) {
+    Layout layout =
+        detail::layout_of(model_.laws, model_.frequency, motion.displacement, motion.velocity, least_);
+    shortest_ = layout.shortest_interval();
     layout.cut_by_others = static_cast<int>(layout.grid().panels.size()) <= options_.max_cut_panels;
     return layout;
   }
@@ -240,6 +253,7 @@ class Search {
   LegendreNodes nodes_{options_.nodes};
   Observer observer_;  // that of the options, which is not called after it has returned false
   bool cancelled_ = false, exhausted_ = false;
+  double least_ = 0.0, shortest_ = 1.0;  // intervals between passages of the next start, and of the last one
 };
 
 }  // namespace

@@ -153,10 +153,32 @@ Passage passage_of(int contact, const LawPieces& law, const Step& step) {
   return {contact, step.time, law.breakpoint(std::min(from, to)), leaves};
 }
 
-void append_phases(Layout& layout, int contact, const LawPieces& law, std::vector<Step> steps) {
-  const int piece_at_start = steps.front().to;
+// From one instant to the next that follows it, in periods.
+double interval(double from, double to) { return to - from - std::floor(to - from); }
+
+// Leaves out what lasts less than `least` between two intervals on the same piece. Returns that piece if
+// nothing else is left, and `piece_at_start` otherwise.
+int join_over_short(std::vector<Step>& steps, double least, int piece_at_start) {
+  for (std::size_t i = 0; i < steps.size();) {
+    const std::size_t next = (i + 1) % steps.size();
+    const int piece = steps[i].from;
+    if (steps.size() < 2 || steps[next].to != piece || interval(steps[i].time, steps[next].time) >= least) {
+      ++i;
+      continue;
+    }
+    steps.erase(steps.begin() + Index(std::max(i, next)));
+    steps.erase(steps.begin() + Index(std::min(i, next)));
+    if (steps.empty()) return piece;
+    i = 0;
+  }
+  return piece_at_start;
+}
+
+void append_phases(Layout& layout, int contact, const LawPieces& law, std::vector<Step> steps, double least) {
+  int piece_at_start = steps.front().to;
   steps.erase(steps.begin());
   std::erase_if(steps, [&](const Step& step) { return !law.acts(step.from) && !law.acts(step.to); });
+  piece_at_start = join_over_short(steps, least, piece_at_start);
   if (steps.empty()) {
     if (law.acts(piece_at_start))
       layout.phases.push_back({contact, piece_at_start, -1, -1, 1.0, {0.25, 0.5, 0.75}});
@@ -263,13 +285,22 @@ Eigen::MatrixXd periodic_slopes(const Eigen::MatrixXd& samples) {
   return slopes;
 }
 
+double Layout::shortest_interval() const {
+  double shortest = 1.0;
+  for (std::size_t i = 0; i < passages.size(); ++i)
+    for (std::size_t j = 0; j < passages.size(); ++j)
+      if (i != j && passages[i].contact == passages[j].contact)
+        shortest = std::min(shortest, interval(passages[i].time, passages[j].time));
+  return shortest;
+}
+
 Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
-                 const Eigen::MatrixXd& velocity) {
+                 const Eigen::MatrixXd& velocity, double least) {
   Layout layout;
   for (Index c = 0; c < displacement.rows(); ++c) {
     const LawPieces& law = laws[static_cast<std::size_t>(c)];
     append_phases(layout, static_cast<int>(c), law,
-                  all_steps_of(law, frequency, {displacement.row(c), velocity.row(c)}));
+                  all_steps_of(law, frequency, {displacement.row(c), velocity.row(c)}), least);
   }
   return layout;
 }

@@ -33,6 +33,8 @@ struct Layout {
 
   double begin(const Phase& phase) const;
   double end(const Phase& phase) const;
+  /// Between two passages of one contact, in periods; 1 where no contact has two. O(passages^2).
+  double shortest_interval() const;
   /// The cells of the period, between all passages and cuts of all contacts, and the panels of the phases, by
   /// phase.
   CellGrid grid() const;
@@ -40,9 +42,10 @@ struct Layout {
 
 /// The phases of a motion that is sampled at times l / N: displacements, m, and velocities, m per period, C x
 /// N each. Between two samples it is the cubic that has both. Whether contacts graze between them is noticed.
-/// The frequency in Hz.
+/// What lasts less than `least` periods between two intervals on the same piece of a law is left out. The
+/// frequency in Hz.
 Layout layout_of(const std::vector<LawPieces>& laws, double frequency, const Eigen::MatrixXd& displacement,
-                 const Eigen::MatrixXd& velocity);
+                 const Eigen::MatrixXd& velocity, double least = 0.0);
 
 /// Slopes at times l / N of the cubic spline through periodic samples, C x N, that central differences of
 /// fourth order give, per period.
