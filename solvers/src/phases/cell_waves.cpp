@@ -11,12 +11,17 @@ namespace wavebalance::solvers::detail {
 using Complex = std::complex<double>;
 
 CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes)
-    : nodes_(nodes), decay_(z.size()), at_nodes_(nodes.count(), z.size()), at_end_(z.size(), nodes.count()) {
+    : nodes_(nodes),
+      points_(nodes.points),
+      decay_(z.size()),
+      at_nodes_(nodes.count(), z.size()),
+      at_end_(z.size(), nodes.count()) {
   sum_up(z, nodes.points);
 }
 
 CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes, const Eigen::VectorXd& points)
     : nodes_(nodes),
+      points_(points),
       own_points_(true),
       decay_(z.size()),
       at_nodes_(points.size(), z.size()),
@@ -93,6 +98,16 @@ Eigen::MatrixXd CellWaves::up_to_nodes(const Eigen::VectorXcd& weights, Index fi
     const Integrals& own = fast_integrals_[i];
     result += weight.real() * own.real.middleRows(first, count);
     if (own.imag.size() > 0) result -= weight.imag() * own.imag.middleRows(first, count);
+  }
+  return result;
+}
+
+std::vector<Eigen::MatrixXcd> CellWaves::integrals_of(const Eigen::VectorXcd& z) const {
+  std::vector<Eigen::MatrixXcd> result;
+  ExponentialIntegrals<Complex> integrals(points_, nodes_.count());
+  for (const Complex pole : z) {
+    integrals.compute(pole);
+    result.push_back(integrals.values());
   }
   return result;
 }

@@ -25,6 +25,10 @@ class CellWaves {
   /// -1 to x. O(N q (q + P / q)).
   Eigen::MatrixXd up_to_nodes(const Eigen::VectorXcd& weights, Index first, Index count) const;
 
+  /// For each pole, its integrals of exp(z_r (x - s)) P_k(s) over s from -1 to x at the nodes, N x q. z: as
+  /// the constructor has it. O(N P q).
+  std::vector<Eigen::MatrixXcd> integrals_of(const Eigen::VectorXcd& z) const;
+
   /// Legendre coefficients of Re sum w_r exp(z_r (x + 1)) over the slow poles.
   Eigen::VectorXd slow_series(const Eigen::VectorXcd& weights) const;
   Index series_length() const { return series_real_.rows(); }  ///< N
@@ -37,6 +41,7 @@ class CellWaves {
   void add_fast(Index pole, Scalar z, ExponentialIntegrals<Scalar>& integrals);
 
   const LegendreNodes& nodes_;
+  Eigen::VectorXd points_;  // of the nodes
   bool own_points_ = false;
   Eigen::MatrixXd own_values_;  // Legendre's polynomials at points of its own
   Eigen::VectorXcd decay_;

@@ -157,13 +157,20 @@ std::vector<PoleResponse::Sources> PoleResponse::sources_of(const CellGrid& grid
     const Cell& ending = cells[static_cast<std::size_t>(grid.before(begins))];
     sources[j].states.resize(exponents_.size(), count * Index(ending.parts.size()) + marks);
     Index column = 0;
+    Eigen::MatrixXd coefficients(count, count * Index(ending.parts.size()));
     for (const Part& part : ending.parts) {
-      const Eigen::VectorXcd left =
-          0.5 * ending.length * left_.row(grid.panels[part.panel].contact).transpose();
-      sources[j].states.middleCols(column, count) =
-          left.asDiagonal() * (ending.waves->at_end() * part.coefficients);
+      coefficients.middleCols(column, count) = part.coefficients;
       for (Index k = 0; k < count; ++k) sources[j].numbers.push_back(count * Index(part.panel) + k);
       column += count;
+    }
+    if (column > 0) {
+      sources[j].states.leftCols(column).real() = product(ending.waves->at_end().real(), coefficients);
+      sources[j].states.leftCols(column).imag() = product(ending.waves->at_end().imag(), coefficients);
+    }
+    for (Index i = 0; i < Index(ending.parts.size()); ++i) {
+      const int contact = grid.panels[ending.parts[std::size_t(i)].panel].contact;
+      sources[j].states.middleCols(count * i, count).array().colwise() *=
+          0.5 * ending.length * left_.row(contact).transpose().array();
     }
     for (std::size_t i = 0; i < grid.marks.size(); ++i) {
       if (grid.marks[i].boundary != begins) continue;
@@ -181,27 +188,74 @@ void PoleResponse::add_between(const CellGrid& grid, const Cell& cell, const Par
   const int forced = grid.panels[from.panel].contact, displaced = grid.panels[to.panel].contact;
   const Eigen::VectorXcd weight = (0.5 * cell.length) * weights(displaced, forced);
   const Index row = count * Index(to.panel) + to.first, column = count * Index(from.panel);
-  const auto add = [&](Index first, const Eigen::VectorXcd& of_poles, double at_once) {
+  const auto add = [&](Index first, const Eigen::VectorXcd& of_poles, double factor) {
     auto block = all.block(first, column, to.count, count);
     block += product(cell.waves->up_to_nodes(of_poles, to.row, to.count), from.coefficients);
-    if (at_once == 0.0) return;
-    if (to.count == count && from.count == count)
-      block.diagonal().array() += at_once;  // the same nodes
-    else
-      block += at_once * product(legendre_values(to.points, count), from.coefficients);
+    if (factor != 0.0) block += factor * at_once(from, to, count);
   };
   add(row, weight, constant_(displaced, forced));
   if (velocity) add(n + 2 * m + row, weight.cwiseProduct(exponents_), jump_(displaced, forced));
 }
 
-// What acts within the cell of an equation: up to each node, and at once.
+// The force of one panel at the nodes of another, by its values at its own nodes.
+Eigen::MatrixXd PoleResponse::at_once(const Part& from, const Part& to, Index count) {
+  if (to.count == count && from.count == count) return Eigen::MatrixXd::Identity(count, count);
+  return product(legendre_values(to.points, count), from.coefficients);
+}
+
+// The same of all panels of a cell, by each pole's integrals up to all nodes there.
+void PoleResponse::add_by_poles(const CellGrid& grid, const Cell& cell, const LegendreNodes& nodes,
+                                bool velocity, Eigen::MatrixXd& all) const {
+  const Index count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size()),
+              poles = exponents_.size(), parts = Index(cell.parts.size());
+  Eigen::MatrixXd left(2 * poles, parts);
+  for (Index i = 0; i < parts; ++i) {
+    const auto forced = left_.row(grid.panels[cell.parts[std::size_t(i)].panel].contact).transpose();
+    left.col(i).head(poles) = 0.5 * cell.length * forced.real();
+    left.col(i).tail(poles) = -0.5 * cell.length * forced.imag();
+  }
+  const std::vector<Eigen::MatrixXcd> integrals = cell.waves->integrals_of(0.5 * cell.length * exponents_);
+  const auto add = [&](const Part& to, Index first, const Eigen::VectorXcd& shape,
+                       const Eigen::MatrixXd& factors) {
+    Eigen::MatrixXd seen(to.count * count, 2 * poles);
+    for (Index r = 0; r < poles; ++r) {
+      const Eigen::MatrixXcd own = shape[r] * integrals[std::size_t(r)].middleRows(to.row, to.count);
+      seen.col(r) = own.real().reshaped();
+      seen.col(poles + r) = own.imag().reshaped();
+    }
+    const Eigen::MatrixXd by_parts = product(seen, left);
+    for (Index i = 0; i < parts; ++i) {
+      const Part& from = cell.parts[std::size_t(i)];
+      const double factor = factors(grid.panels[to.panel].contact, grid.panels[from.panel].contact);
+      auto block = all.block(first, count * Index(from.panel), to.count, count);
+      block += by_parts.col(i).reshaped(to.count, count) * from.coefficients;
+      if (factor != 0.0) block += factor * at_once(from, to, count);
+    }
+  };
+  for (const Part& to : cell.parts) {
+    if (to.count == 0) continue;
+    const Eigen::VectorXcd shape = shapes_.row(grid.panels[to.panel].contact).transpose();
+    const Index row = count * Index(to.panel) + to.first;
+    add(to, row, shape, constant_);
+    if (velocity) add(to, n + 2 * m + row, shape.cwiseProduct(exponents_), jump_);
+  }
+}
+
+// What acts within the cell of an equation: up to each node, and at once. Of many pairs of panels each pole
+// once takes far less than a series for each pair.
 void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells,
                                     const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const {
+  constexpr std::size_t few_pairs = 16;
   const auto count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size());
-  for (const Cell& cell : cells)
+  for (const Cell& cell : cells) {
+    if (cell.parts.size() * cell.parts.size() > few_pairs) {
+      add_by_poles(grid, cell, nodes, velocity, all);
+      continue;
+    }
     for (const Part& from : cell.parts)
       for (const Part& to : cell.parts)
         if (to.count > 0) add_between(grid, cell, from, to, nodes, velocity, all);
+  }
   for (Index i = 0; i < m; ++i) {
     const CellGrid::Mark& mark = grid.marks[static_cast<std::size_t>(i)];
     if (!mark.acts_before)
@@ -251,7 +305,8 @@ class MovingStates {
 
 }  // namespace
 
-// Once around the period from rest, which gives the periodic states at its begin, and once more.
+// What each source leaves at the end of the period gives the periodic states at its begin, with which the
+// states go around once.
 Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
   const auto n = nodes.count() * Index(grid.panels.size()), m = Index(grid.marks.size());
   const std::vector<Cell> cells = cells_of(grid, nodes);
@@ -264,8 +319,12 @@ Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nod
     states.multiply(cells[cell].decay);
     states.add(sources[next].states, sources[next].numbers);
   };
-  for (std::size_t j = 0; j < cells.size(); ++j) pass(j);
-  states.multiply(periodic_);
+  Eigen::VectorXcd left = periodic_;
+  for (std::size_t j = cells.size(); j-- > 0;) {
+    const Sources& source = sources[j + 1 < cells.size() ? j + 1 : 0];
+    states.add(left.asDiagonal() * source.states, source.numbers);
+    left.array() *= cells[j].decay.array();
+  }
   for (std::size_t j = 0; j < cells.size(); ++j) {
     if (!rows[j].numbers.empty())
       all(rows[j].numbers, Eigen::all) = states.seen_by(rows[j].real, rows[j].imag);

@@ -101,6 +101,9 @@ class PoleResponse {
                       const LegendreNodes& nodes);
   void add_between(const CellGrid& grid, const Cell& cell, const Part& from, const Part& to,
                    const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const;
+  static Eigen::MatrixXd at_once(const Part& from, const Part& to, Index count);
+  void add_by_poles(const CellGrid& grid, const Cell& cell, const LegendreNodes& nodes, bool velocity,
+                    Eigen::MatrixXd& all) const;
   std::vector<Cell> cells_of(const CellGrid& grid, const LegendreNodes& nodes) const;
   std::vector<Rows> rows_of(const CellGrid& grid, const std::vector<Cell>& cells, Index count,
                             bool velocity) const;

@@ -2,6 +2,9 @@
 
 #include <random>
 
+#include "phases/phase_layout.hpp"
+#include "phases/pole_response.hpp"
+#include "support/jl14_bar.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -91,6 +94,58 @@ TEST_P(RigidPhases, HoldTheGapAndPushOnly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAndWithoutDashpots, RigidPhases, ::testing::Values(0.0, 0.3));
+
+// With 127 functions the samples open the tip once more, for less than a sample.
+TEST(PhasesOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
+  const LinearStructure bar = testing::massless_tip(testing::jl14_case_2.structure());
+  const ContactLaws laws(AnyContactLaw(testing::Rigid{testing::jl14_case_2.law.start}));
+  const auto phases_of = [&](int functions) {
+    CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), bar, cosine_load());
+    problem.set_frequency(1275.0);
+    const PeriodicResponse response = forced_response(problem, laws, {});
+    EXPECT_TRUE(response.converged());
+    return response_phases(problem, laws, response, ContactDynamics(bar), {}).motion;
+  };
+  const PhaseMotion motion = phases_of(127), other = phases_of(255);
+  ASSERT_TRUE(motion.converged());
+  ASSERT_TRUE(other.converged());
+  ASSERT_EQ(motion.phases.size(), 1u);
+  EXPECT_NEAR(motion.phases[0].begin, other.phases[0].begin, 1e-9);
+  EXPECT_NEAR(motion.phases[0].end, other.phases[0].end, 1e-9);
+}
+
+// Of many panels within a cell each pole is taken once, of few a series for each pair: what one panel does to
+// itself is the same among many.
+TEST(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
+  constexpr int contacts = 6;
+  const Eigen::Index q = 9;
+  std::mt19937 generator(7);
+  LinearStructure chain = testing::random_chain(contacts, generator);
+  chain.contact_directions = Eigen::MatrixXd::Identity(contacts, contacts).sparseView();
+  const detail::PoleResponse response(ContactDynamics(chain), 1.7);
+  const detail::LegendreNodes nodes(q);
+  const auto influence_of = [&](int first, int count) {
+    detail::Layout layout;
+    layout.cut_by_others = false;
+    for (int c = first; c < first + count; ++c) {
+      const int passage = static_cast<int>(layout.passages.size());
+      layout.passages.push_back({c, 0.1 + 0.03 * c, 0.0});
+      layout.passages.push_back({c, 0.9 - 0.05 * c, 0.0});
+      layout.phases.push_back({c, 1, passage, passage + 1, 0.0, {}});
+    }
+    return response.influence(layout.grid(), nodes, true);
+  };
+  const detail::Influence many = influence_of(0, contacts);
+  for (int c = 0; c < contacts; ++c) {
+    const detail::Influence alone = influence_of(c, 1);
+    const auto expect_same = [&](const Eigen::MatrixXd& all, const Eigen::MatrixXd& own) {
+      const Eigen::MatrixXd block = own.topLeftCorner(q, q);
+      EXPECT_LT((all.block(q * c, q * c, q, q) - block).norm(), 1e-13 * block.norm()) << c;
+    };
+    expect_same(many.displacement, alone.displacement);
+    expect_same(many.node_velocity, alone.node_velocity);
+  }
+}
 
 TEST(ContactPhases, OfContactsThatPassTogetherAreThoseOfOne) {
   LinearStructure structure = with_massless_contacts();
