@@ -107,19 +107,21 @@ Eigen::VectorXcd PairTransform::spectrum(const Eigen::VectorXd& coefficients) co
   return result;
 }
 
-PairTransform make_pair_transform(const TimePair& pair, bool cosine_only) {
+namespace {
+
+/// All but the inertia. `who` begins messages.
+PairTransform transform_of(const TimePair& pair, bool cosine_only, const std::string& who) {
   const int highest = (pair.functions() - 1) / 2;
   if (highest < 1)
-    throw std::invalid_argument("ElasticMode: the pair has " + std::to_string(pair.functions()) +
+    throw std::invalid_argument(who + ": the pair has " + std::to_string(pair.functions()) +
                                 " functions; a mode needs at least 3");
   if (pair.first_sample() != 0.0)
     throw std::invalid_argument(
-        "ElasticMode: the pair has a sample_offset of 0.5; it must be 0, with which motions even in time have "
-        "even samples");
+        who +
+        ": the pair has a sample_offset of 0.5; it must be 0, with which motions even in time have even samples");
   if (cosine_only && !(pair.trial().band_limited() && pair.weight().band_limited()))
-    throw std::invalid_argument("ElasticMode: cosine_only is true; only Fourier bases have even motions");
+    throw std::invalid_argument(who + ": cosine_only is true; only Fourier bases have even motions");
   PairTransform transform;
-  transform.inertia = inertia_of(pair, highest);
   for (int k = 0; k <= highest; ++k) {
     transform.real_rows.push_back(transform.rows());
     for (int part = 0; part < (k == 0 || cosine_only ? 1 : 2); ++part) transform.order.push_back(k);
@@ -133,6 +135,30 @@ PairTransform make_pair_transform(const TimePair& pair, bool cosine_only) {
   transform.mean_square = transform.synthesis.colwise().squaredNorm().transpose() / points;
   set_harmonics(pair, transform);
   return transform;
+}
+
+}  // namespace
+
+PairTransform make_pair_transform(const TimePair& pair, bool cosine_only) {
+  PairTransform transform = transform_of(pair, cosine_only, "ElasticMode");
+  transform.inertia = inertia_of(pair, transform.highest());
+  return transform;
+}
+
+DampedTransform make_damped_transform(const TimePair& pair) {
+  constexpr double two_pi = 2.0 * std::numbers::pi;
+  DampedTransform damped{transform_of(pair, false, "DampedMode"), {}, {}, {}};
+  const Eigen::Index count = damped.pair.highest() + 1;
+  const auto zeroth = pair.symbol(0).head(count).array();
+  damped.first = pair.symbol(1).head(count).array() / zeroth / two_pi;
+  damped.second = pair.symbol(2).head(count).array() / zeroth / (two_pi * two_pi);
+  if (pair.trial().pointwise_derivatives() < 1) return damped;
+  spectral::RealFft fft(pair.points());
+  const Eigen::VectorXd rate = pair.trial().samples(pair.points(), 1);
+  Eigen::VectorXcd spectrum(pair.points() / 2 + 1);
+  fft.forward(span_of(rate), span_of(spectrum));
+  damped.rate = unit_samples(pair, spectrum, damped.pair) / (two_pi * pair.points());
+  return damped;
 }
 
 }  // namespace wavebalance::solvers

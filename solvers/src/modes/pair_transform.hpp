@@ -18,13 +18,13 @@ struct PairTransform {
   std::vector<int> real_rows;   ///< K + 1, the row of Re a(k)
   Eigen::MatrixXd synthesis;    ///< N x R, samples from coefficients
   Eigen::MatrixXd projection;   ///< R x N, coefficients in the trial functions from samples of a force
-  Eigen::VectorXd inertia;      ///< K + 1
+  Eigen::VectorXd inertia;      ///< K + 1; empty where free motions have damping
   Eigen::VectorXd mean_square;  ///< R, of the samples that a unit coefficient has
   Eigen::MatrixXcd harmonics;   ///< H + 1 x K + 1: harmonics n = 0..H of a motion from its spectrum
   Eigen::MatrixXcd conjugated;  ///< H + 1 x K + 1, the same for the conjugate spectrum
 
   int rows() const { return static_cast<int>(order.size()); }
-  int highest() const { return static_cast<int>(inertia.size()) - 1; }  ///< K
+  int highest() const { return static_cast<int>(real_rows.size()) - 1; }  ///< K
   bool has_sines() const { return rows() > highest() + 1; }
 
   /// The complex spectrum (K + 1) of R coefficients.
@@ -35,5 +35,16 @@ struct PairTransform {
 /// for a pair that damps a free motion, for one without a first harmonic, and for cosine_only with a basis
 /// that is not Fourier. O(N^2 log N).
 PairTransform make_pair_transform(const TimePair& pair, bool cosine_only);
+
+/// A pair for free motions with damping, of any symbols: symbol(1) f / symbol(0) = first[k] omega and
+/// symbol(2) f^2 / symbol(0) = second[k] omega^2. Two Fourier bases have i k and -k^2.
+struct DampedTransform {
+  PairTransform pair;
+  Eigen::VectorXcd first, second;  ///< K + 1
+  Eigen::MatrixXd rate;  ///< N x R, samples of the derivative by omega t; empty where there is none at points
+};
+
+/// Throws as make_pair_transform(), but for no damping.
+DampedTransform make_damped_transform(const TimePair& pair);
 
 }  // namespace wavebalance::solvers
