@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/modes/damped_mode.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
@@ -108,6 +110,53 @@ Backbone backbone(const Structure& structure, const py::object& laws, const solv
   });
 }
 
+/// A nonlinear mode of a structure that loses energy, over its amplitude.
+struct DampedCurve {
+  double linear_frequency = 0.0, linear_damping_ratio = 0.0, linear_amplitude = 0.0;  // Hz, 1, m
+  solvers::DampedBackbone curve;
+};
+
+/// Amplitudes of 0: half of that of first slip, and ten times it.
+DampedCurve damped_curve(const Structure& structure, const py::object& laws, const solvers::TimePair& pair,
+                         int mode, double first, double last, int points) {
+  const solvers::ContactLaws all = laws_of(laws);
+  all.require(structure.contacts());
+  return unlocked([&](const solvers::Observer& observer) {
+    const solvers::DampedMode damped(structure, pair, all, mode);
+    DampedCurve result{damped.linear_omega() / (2.0 * std::numbers::pi),
+                       damped.linear_damping_ratio(),
+                       damped.linear_amplitude(),
+                       {}};
+    const bool slips = std::isfinite(result.linear_amplitude) && result.linear_amplitude > 0.0;
+    if (!slips && !(first > 0.0 && last > 0.0))
+      throw std::invalid_argument(
+          "amplitudes: no contact begins to slip at a known amplitude; expected two in m");
+    solvers::DampedBackboneOptions options;
+    options.first_amplitude = first > 0.0 ? first : 0.5 * result.linear_amplitude;
+    options.last_amplitude = last > 0.0 ? last : 10.0 * result.linear_amplitude;
+    if (options.last_amplitude > options.first_amplitude)
+      options.max_step = std::log(options.last_amplitude / options.first_amplitude) / points;
+    options.initial_step = std::min(options.initial_step, options.max_step);
+    options.max_points = 1000 + 20 * points;
+    options.observer = observer;
+    result.curve = damped.backbone(options);
+    return result;
+  });
+}
+
+std::vector<double> damping_ratios(const DampedCurve& one) {
+  std::vector<double> ratios;
+  for (const solvers::DampedPoint& point : one.curve.points) ratios.push_back(point.damping_ratio());
+  return ratios;
+}
+
+template <class Member>
+auto damped_view(Member member) {
+  return [member](const py::object& self) {
+    return member_view(self.cast<const DampedCurve&>().curve.points, member, self);
+  };
+}
+
 template <class Member>
 auto points_view(Member member) {
   return [member](const py::object& self) {
@@ -147,6 +196,25 @@ void add_modes(py::module_& module) {
         return BackboneArguments{mode, energy, ratio, points, harmonics, samples, cosine_only, stability};
       }));
   module.def("backbone", &backbone);
+  py::class_<DampedCurve>(module, "DampedCurve")
+      .def_property_readonly("status",
+                             [](const DampedCurve& one) { return std::string(to_string(one.curve.status)); })
+      .def_readonly("linear_frequency", &DampedCurve::linear_frequency)
+      .def_readonly("linear_damping_ratio", &DampedCurve::linear_damping_ratio)
+      .def_readonly("linear_amplitude", &DampedCurve::linear_amplitude)
+      .def_property_readonly("omega", damped_view(&solvers::DampedPoint::omega))
+      .def_property_readonly("amplitude", damped_view(&solvers::DampedPoint::amplitude))
+      .def_property_readonly("damping_ratio",
+                             [](const DampedCurve& one) { return owned(damping_ratios(one)); })
+      .def("__len__", [](const DampedCurve& one) { return one.curve.points.size(); })
+      .def("displacement",
+           [](const DampedCurve& one, int index) {
+             return one.curve.points.at(static_cast<std::size_t>(index)).displacement;
+           })
+      .def("force", [](const DampedCurve& one, int index) {
+        return one.curve.points.at(static_cast<std::size_t>(index)).force;
+      });
+  module.def("damped_curve", &damped_curve);
 }
 
 }  // namespace wavebalance::python

@@ -9,7 +9,8 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 A structure of one's own is made of SciPy's sparse matrices:
 
 - :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
-- :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`;
+- :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`,
+  :func:`damped_mode`;
 - :mod:`wavebalance.wavelets`: values of bases and connection coefficients.
 
 Units are SI or any other consistent set. Frequencies are in Hz. Not to converge is a status of a result, never an
@@ -36,7 +37,7 @@ from .laws import (
     Rigid,
     Table,
 )
-from .modes import Backbone, backbone
+from .modes import Backbone, DampedMode, backbone, damped_mode
 from .record import Record
 from .responses import Motion, Problem, Response, Stability, forced_response, stability
 from .scenes import check, complete, run
@@ -50,6 +51,7 @@ __all__ = [
     "Clearance",
     "Comparison",
     "Cubic",
+    "DampedMode",
     "Exponential",
     "Function",
     "HuntCrossley",
@@ -78,6 +80,7 @@ __all__ = [
     "check",
     "compare",
     "complete",
+    "damped_mode",
     "forced_response",
     "frequency_sweep",
     "run",

@@ -12,7 +12,7 @@ from . import _core, _plots
 from .laws import LawLike, as_laws
 from .structure import Pair, Structure
 
-__all__ = ["Backbone", "backbone"]
+__all__ = ["Backbone", "DampedMode", "backbone", "damped_mode"]
 
 Numbers = npt.NDArray[np.float64]
 
@@ -131,3 +131,105 @@ def backbone(
         mode, largest_energy, largest_frequency_ratio, points, harmonics, count, cosine_only, stability
     )
     return Backbone(_core.backbone(structure, given, functions, [float(one) for one in gaps], arguments))
+
+
+class DampedMode:
+    """A nonlinear mode of a structure that loses energy: P motions over their amplitude.
+
+    Attributes
+    ----------
+    status: str
+        "reached_amplitude", or why it ended before: "lost", "no_start" or "point_limit".
+    linear_frequency, linear_damping_ratio: float
+        Of the linear mode with the contacts as they are at rest, Hz and over critical.
+    slip_amplitude: float
+        m, up to which contacts do what they do at rest; infinite where they always do, 0 where at no amplitude.
+    amplitude: numpy.ndarray
+        P values, m: of the first harmonic of the linear mode's coordinate, where the mode moves a contact most.
+    frequency, damping_ratio: numpy.ndarray
+        Hz, and xi / (2 omega) of the damping -xi M that makes the motion periodic.
+    """
+
+    def __init__(self, core: _core.DampedCurve) -> None:
+        self._core = core
+        self.status: str = core.status
+        self.linear_frequency: float = core.linear_frequency
+        self.linear_damping_ratio: float = core.linear_damping_ratio
+        self.slip_amplitude: float = core.linear_amplitude
+        self.amplitude: Numbers = core.amplitude
+        self.frequency: Numbers = core.omega / (2.0 * np.pi)
+        self.damping_ratio: Numbers = core.damping_ratio
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    def _place(self, index: int) -> int:
+        count = len(self)
+        if not -count <= index < count:
+            raise IndexError(f"point {index} of a curve of {count}")
+        return index % count
+
+    def displacement(self, index: int) -> Numbers:
+        """Displacements of the contacts over a period at a point, contacts × samples, m."""
+        return self._core.displacement(self._place(index))
+
+    def force(self, index: int) -> Numbers:
+        """Forces of the contacts over a period at a point, contacts × samples, N."""
+        return self._core.force(self._place(index))
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the damping ratio over the amplitude with Matplotlib, and returns the axes."""
+        ax = _plots.axes(ax)
+        ax.semilogx(self.amplitude, self.damping_ratio)
+        ax.set_xlabel("Amplitude (m)")
+        ax.set_ylabel("Damping ratio")
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<wavebalance.DampedMode of {len(self)} points: {self.status}>"
+
+
+def damped_mode(
+    structure: Structure,
+    laws: LawLike,
+    pair: Pair | None = None,
+    *,
+    mode: int = 1,
+    amplitudes: tuple[float, float] | None = None,
+    points: int = 100,
+    harmonics: int = 10,
+    samples: int | None = None,
+) -> DampedMode:
+    """Frequency and damping of a mode over its amplitude, with friction or dampers at the contacts.
+
+    The free motion is made periodic by a damping -xi M (the extended periodic motion concept). It continues the linear
+    mode of the structure at rest under its static forces, with the contacts stuck.
+
+    Parameters
+    ----------
+    structure, laws:
+        As for :func:`forced_response`; laws with a finite force. The vibrating load has no effect.
+    pair:
+        Trial and weight functions; by default Fourier functions of the `harmonics`, at the `samples`.
+    mode:
+        The linear mode, from 1.
+    amplitudes:
+        First and last amplitude of the curve, m; by default half of that at which a contact first slips, and ten times it.
+    points:
+        About so many, uniform in the logarithm of the amplitude.
+    harmonics, samples:
+        N of the motion, and points at which forces are evaluated, by default 32 N.
+
+    Raises
+    ------
+    ValueError
+        For arguments out of range, a rigid law, a mode that moves no contact, and where no amplitude of first slip is known.
+    """
+    count = samples if samples is not None else 32 * harmonics
+    functions = pair if pair is not None else Pair("fourier", 2 * harmonics + 1, max(count, 2 * harmonics + 1))
+    first, last = amplitudes if amplitudes is not None else (0.0, 0.0)
+    if amplitudes is not None and not 0.0 < first < last < np.inf:
+        raise ValueError(f"amplitudes is {amplitudes}; expected two numbers in m, 0 < first < last")
+    if points < 1:
+        raise ValueError(f"points is {points}; expected at least 1")
+    return DampedMode(_core.damped_curve(structure, as_laws(laws), functions, mode, first, last, points))

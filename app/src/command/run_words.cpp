@@ -187,7 +187,25 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
                                   beside_gap(highest, gap)));
 }
 
+void append_damped_mode(std::vector<std::string>& sentences, const Summary& summary) {
+  const double most = number_in(summary, quantities::largest_damping_ratio);
+  if (std::isfinite(most)) {
+    sentences.push_back(fmt::format(
+        "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips, and its frequency is {}.",
+        number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"),
+        with_unit(summary, quantities::slip_amplitude), with_unit(summary, quantities::linear_frequency)));
+    sentences.push_back(
+        fmt::format("Its frequency falls to {:.4g} of that, and its damping ratio is at most {:.4g}.",
+                    number_in(summary, quantities::least_frequency_ratio), most));
+  } else if (const double ratio = number_in(summary, quantities::damping_ratio); std::isfinite(ratio)) {
+    sentences.push_back(
+        fmt::format("The free motion of mode {:.0f} has the frequency {} and the damping ratio {:.4g}.",
+                    number_in(summary, quantities::mode), with_unit(summary, quantities::frequency), ratio));
+  }
+}
+
 void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
+  append_damped_mode(sentences, summary);
   const double ratio = number_in(summary, quantities::largest_energy_ratio);
   if (!std::isfinite(ratio)) return;
   sentences.push_back(fmt::format(

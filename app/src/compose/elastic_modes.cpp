@@ -4,10 +4,14 @@
 
 namespace wavebalance::app {
 
+bool is_damped_mode(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::nonlinear_mode && names_friction(scene.contact);
+}
+
 bool is_elastic_mode(const Scene& scene) {
   const std::string& law = scene.contact.law;
-  return scene.analysis.type == AnalysisType::nonlinear_mode && law != no_law && !is_damped(law) &&
-         !acts_on_both_sides(law) && (!is_rigid(law) || redistributes_mass(scene));
+  return !is_damped_mode(scene) && scene.analysis.type == AnalysisType::nonlinear_mode && law != no_law &&
+         !is_damped(law) && !acts_on_both_sides(law) && (!is_rigid(law) || redistributes_mass(scene));
 }
 
 Time mode_time(const Scene& scene) {
@@ -24,6 +28,10 @@ solvers::ElasticMode make_elastic_mode(const Scene& scene, const solvers::ModalM
   options.mode = scene.analysis.mode;
   options.cosine_only = scene.analysis.cosine_only;
   return {model, make_pair(mode_time(scene)), make_laws(scene), options};
+}
+
+solvers::DampedMode make_damped_mode(const Scene& scene, const StructureModel& model) {
+  return {model.structure, make_pair(mode_time(scene)), make_laws(scene), scene.analysis.mode};
 }
 
 }  // namespace wavebalance::app

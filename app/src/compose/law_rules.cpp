@@ -83,9 +83,11 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool balanced = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
                         type == AnalysisType::amplitude_sweep;
+  if (type == AnalysisType::nonlinear_mode) return;
   if (!balanced)
     fail_rule(document, {"analysis.type", "contact.law"},
-              "not with friction; expected \"forced_response\", \"frequency_sweep\" or \"amplitude_sweep\"");
+              "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\" or "
+              "\"nonlinear_mode\"");
   const auto refuse = [&](bool given, const char* key, const char* expected) {
     if (given)
       fail_rule(document, {key, "contact.law"},
@@ -143,7 +145,8 @@ void check_laws(const Document& document, const Scene& scene) {
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
   check_laws_exist(document, contacts);
   for (const SceneContact& contact : contacts) {
-    if (scene.analysis.type == AnalysisType::nonlinear_mode) check_law_of_mode(document, contact.law);
+    if (scene.analysis.type == AnalysisType::nonlinear_mode && !has_friction(scene))
+      check_law_of_mode(document, contact.law);
     if (is_damped(contact.law)) check_velocity(document, scene, contact.law);
   }
   check_form(document, scene);

@@ -250,7 +250,7 @@ void check_dense_size(const Document& document, const Scene& scene) {
 }
 
 /// The pair of bases of an elastic mode, where the scene names one.
-void check_mode_pair(const Document& document, const Scene& scene) {
+void check_mode_pair(const Document& document, const Scene& scene, bool damped) {
   if (scene.time.trial.empty() != scene.time.weight.empty())
     fail_rule(document, {"time.trial", "time.weight"}, "expected both time.trial and time.weight, or none");
   if (scene.time.trial.empty()) return;
@@ -260,6 +260,7 @@ void check_mode_pair(const Document& document, const Scene& scene) {
   check_time(document, scene);
   if (scene.analysis.cosine_only && (is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight)))
     fail_rule(document, {"analysis.cosine_only"}, "expected false for wavelets, which have no even motions");
+  if (damped) return;
   try {
     solvers::require_free_motions(make_pair(scene.time));
   } catch (const std::invalid_argument& error) {
@@ -272,16 +273,46 @@ void check_elastic_mode(const Document& document, const Scene& scene) {
   if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
-  check_mode_pair(document, scene);
+  check_mode_pair(document, scene, false);
+}
+
+/// A mode with friction: its curve is one over the amplitude.
+void check_damped_mode(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  const Analysis usual;
+  const auto refuse = [&](bool given, const char* key, const std::string& what) {
+    if (given) fail_rule(document, {key, "contact.law"}, "not with friction, " + what);
+  };
+  const std::string ends =
+      "of which the curve is one over the amplitude; expected none, or largest_amplitude";
+  refuse(analysis.cosine_only, "analysis.cosine_only",
+         "with which motions are not even in time; expected false");
+  refuse(analysis.energy_ratio > 0.0, "analysis.energy_ratio",
+         "whose motions are told by amplitude; expected 0, or amplitude_ratio");
+  refuse(analysis.largest_energy != usual.largest_energy, "analysis.largest_energy", ends);
+  refuse(analysis.last_frequency_ratio != usual.last_frequency_ratio, "analysis.last_frequency_ratio", ends);
+  if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
+    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
+              "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+  check_mode_pair(document, scene, true);
 }
 
 void check_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
+  const bool damped = is_damped_mode(scene);
+  const auto refuse = [&](bool given, const char* key) {
+    if (given)
+      fail_rule(
+          document, {key, "contact.law"},
+          "a mode without friction has no amplitude of first slip; expected none, or law = \"coulomb\"");
+  };
+  refuse(!damped && analysis.amplitude_ratio > 0.0, "analysis.amplitude_ratio");
+  refuse(!damped && analysis.largest_amplitude != Analysis().largest_amplitude, "analysis.largest_amplitude");
   if (scene.contact.law == no_law)
     fail_rule(document, {"contact.law"},
               "expected " + alternatives(laws_of_modes()) + " for a nonlinear mode");
   for (const SceneContact& contact : contacts_of(scene))
-    if (!(contact.gap > 0.0))
+    if (!damped && !(contact.gap > 0.0))
       fail_rule(document,
                 {contact.pair ? pair_section(*contact.pair) + ".gap" : "contact.gap", "contact.gap"},
                 "expected a number in m, > 0 for a nonlinear mode");
@@ -291,6 +322,7 @@ void check_mode(const Document& document, const Scene& scene) {
   if (analysis.samples < 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
+  if (damped) check_damped_mode(document, scene);
   if (is_elastic_mode(scene)) check_elastic_mode(document, scene);
 }
 

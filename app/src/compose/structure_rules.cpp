@@ -27,7 +27,7 @@ void check_damping(const Document& document, const Scene& scene) {
         document, {*first},
         "another damping is given as well; expected one of damping, modal_damping and stiffness_damping");
   }
-  if (given == 1 && scene.analysis.type == AnalysisType::nonlinear_mode)
+  if (given == 1 && scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact))
     fail_rule(document,
               {file                            ? "structure.damping"
                : structure.modal_damping > 0.0 ? "structure.modal_damping"
@@ -52,7 +52,7 @@ void check_free(const Document& document, const Scene& scene) {
 /// It is defined for periodic motions that are sought as such.
 void check_loss_factor(const Document& document, const Scene& scene) {
   if (scene.structure.loss_factor == 0.0) return;
-  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+  if (scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact))
     fail_rule(document, {"structure.loss_factor"},
               "expected 0 for a nonlinear mode, which is a motion without damping");
   const std::string instead =

@@ -34,7 +34,7 @@ std::string structure_title(const Scene& scene) {
 }
 
 std::string method_title(const Scene& scene) {
-  if (is_elastic_mode(scene)) {
+  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
     const Time time = mode_time(scene);
     return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
            basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
@@ -264,6 +264,24 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
                     SeriesStyle::points);
   resonances.colour = Colour::grey;
   panel.add(std::move(resonances)).mark_x(1.0);
+  return figure;
+}
+
+Figure damped_figure(const Scene& scene, const Table& backbone) {
+  Figure figure;
+  figure.title = method_title(scene);
+  figure.panel_width = 640;
+  figure.panel_height = 320;
+  for (const auto& [column, label] :
+       {std::pair{"frequency_Hz", "Frequency (Hz)"}, {"damping_ratio", "Damping ratio"}}) {
+    Panel& panel = figure.add_panel();
+    panel.x.label = "Amplitude over that of first slip";
+    panel.x.logarithmic = true;
+    panel.y.label = label;
+    Series series("", backbone, "amplitude_ratio", column);
+    series.colour = Colour::blue;
+    panel.add(std::move(series)).mark_x(1.0);
+  }
   return figure;
 }
 

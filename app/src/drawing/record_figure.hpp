@@ -16,6 +16,9 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
 /// quotient, and points on internal resonances as marks.
 Figure backbone_figure(const Scene& scene, const Table& backbone);
 
+/// Frequency and damping ratio over amplitude from a damped_table().
+Figure damped_figure(const Scene& scene, const Table& backbone);
+
 /// Largest and rms displacement over the frequency, with its turning points.
 Figure sweep_figure(const Scene& scene, const Sweep& sweep);
 

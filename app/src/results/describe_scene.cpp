@@ -247,11 +247,15 @@ std::string size_line(const Scene& scene) {
 std::string mode_lines(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const std::string range =
-      analysis.energy_ratio > 0.0
+      analysis.amplitude_ratio > 0.0
+          ? "the motion of amplitude ratio " + number_text(analysis.amplitude_ratio)
+      : is_damped_mode(scene) ? fmt::format("about {} points up to amplitude ratio {}", analysis.points,
+                                            number_text(analysis.largest_amplitude))
+      : analysis.energy_ratio > 0.0
           ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
           : fmt::format("{} points up to energy ratio {} or frequency ratio {}", analysis.points,
                         number_text(analysis.largest_energy), number_text(analysis.last_frequency_ratio));
-  if (is_elastic_mode(scene)) {
+  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
     const Time time = mode_time(scene);
     const std::int64_t functions = time.functions;
     return fmt::format(

@@ -69,6 +69,11 @@ inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{
     largest_energy_ratio{"largest_energy_ratio", result},
     largest_frequency_ratio{"largest_frequency_ratio", result},
     max_penetration_over_gap{"max_penetration_over_gap", result};
+// Those of modes with friction.
+inline constexpr Quantity linear_damping_ratio{"linear_damping_ratio", setting},
+    slip_amplitude{"slip_amplitude_m", result, "m", "amplitude of first slip"},
+    damping_ratio{"damping_ratio", result}, largest_damping_ratio{"largest_damping_ratio", result},
+    least_frequency_ratio{"least_frequency_ratio", result};
 
 /// Where a curve is highest: at a frequency, or at an amplitude in the unit of its load.
 inline constexpr std::array peak_places{
@@ -87,7 +92,7 @@ constexpr const Quantity& peak_place(std::string_view unit) {
 constexpr const Quantity* find_in_words(std::string_view column) {
   for (const Quantity* one : {&frequency, &linear_frequency, &max_displacement, &min_displacement,
                               &rms_displacement, &max_contact_force, &contact_dissipation, &friction_work,
-                              &wear, &max_penetration, &min_contact_force})
+                              &wear, &slip_amplitude, &max_penetration, &min_contact_force})
     if (one->name == column) return one;
   for (const Quantity& one : peak_places)
     if (one.name == column) return &one;

@@ -11,6 +11,7 @@
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
 #include "results/curve_motion_files.hpp"
+#include "results/damped_mode_record.hpp"
 #include "results/friction_record.hpp"
 #include "results/impacts_record.hpp"
 #include "results/mode_record.hpp"
@@ -24,6 +25,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -329,6 +331,7 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
     case AnalysisType::amplitude_sweep:
       return stable_sweep_record(scene, model, how.start, how.observer);
     case AnalysisType::nonlinear_mode:
+      if (is_damped_mode(scene)) return damped_mode_record(scene, model, how.observer);
       return mode_record(scene, model, how.observer);
     case AnalysisType::time_stepping:
       return response_record(scene, model,

@@ -1,5 +1,6 @@
 #include "wavebalance/app/scene/scene.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -36,6 +37,12 @@ bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap(); }
 bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velocity; }
 bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
+bool names_friction(const Contact& contact) {
+  return has_friction(contact.law) ||
+         std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                     [](const ContactPair& pair) { return has_friction(pair.law); });
+}
+
 bool has_friction(std::string_view law) { return contact::law_entry(law).acts_over_period; }
 bool has_impacts(const Contact& contact) {
   return is_rigid(contact.law) && contact.values.contains("restitution");

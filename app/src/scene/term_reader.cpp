@@ -80,10 +80,10 @@ std::size_t count_terms(const Document& document) {
 
 void read_terms(const Document& document, Scene& scene) {
   if (scene.forcing.terms.empty()) return;
-  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+  if (scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact))
     throw SceneError({document.name, document.section_line(term_section(0)), "", "forcing.terms", "",
                       "does not belong to a scene with analysis.type = \"nonlinear_mode\", a motion without "
-                      "any load"});
+                      "any load, unless friction makes it begin at rest under static ones"});
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) TermReader(document, i, scene);
 }
 

@@ -120,6 +120,41 @@ TEST(FrictionScene, ThatNeverSlipsSaysThatHistoryDecides) {
   EXPECT_NE(record.warnings[0].find("neither slips nor opens"), std::string::npos) << record.warnings[0];
 }
 
+// m = k = k_t = 1 and a limit of 1: exact motions have omega 1.225867690198, xi / (2 omega) 0.105752880426
+// where the mass turns back at 2; the damping of the structure adds 0.05 / (2 omega).
+TEST(FrictionScene, OfAModeHasFrequencyAndDampingOverAmplitude) {
+  const std::vector<std::string> mode{"analysis.type=nonlinear_mode", "analysis.points=40",
+                                      "structure.stiffness_damping=0"};
+  const Record record = analyse(changed("slider.toml", mode));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_NEAR(value_of<double>(record.summary, "slip_amplitude_m"), 1.0, 1e-8);
+  EXPECT_NEAR(value_of<double>(record.summary, "linear_frequency_Hz"), std::sqrt(2.0) / 6.283185307179586,
+              1e-9);
+  // Between 2 and 3 the exact damping ratio is 0.1103178 at most.
+  EXPECT_NEAR(value_of<double>(record.summary, "largest_damping_ratio"), 0.1110, 2e-3);
+  EXPECT_GT(record.backbone.rows(), 30U);
+  EXPECT_EQ(record.figure.panels.size(), 2U);
+  std::vector<std::string> one = mode;
+  one.push_back("analysis.amplitude_ratio=2.000767809");
+  const Record motion = analyse(changed("slider.toml", one));
+  ASSERT_TRUE(motion.converged) << motion.status;
+  EXPECT_NEAR(value_of<double>(motion.summary, "damping_ratio"), 0.105752880426, 1e-5);
+  EXPECT_NEAR(value_of<double>(motion.summary, "frequency_Hz"), 1.225867690198 / 6.283185307179586, 1e-6);
+  EXPECT_NEAR(value_of<double>(motion.summary, "max_displacement_m"), 2.0, 1e-3);
+  EXPECT_NEAR(value_of<double>(motion.summary, "friction_work_J"), 4.0, 1e-3);  // 4 L (X - L / k_t)
+  EXPECT_FALSE(motion.response.empty());
+}
+
+TEST(FrictionScene, OfAModeWithLiftOffStartsAtItsStaticState) {
+  const Record record =
+      analyse(changed("lift_off.toml", {"analysis.type=nonlinear_mode", "analysis.points=40"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  const std::vector<double> open = record.backbone.numbers("open_fraction");
+  EXPECT_EQ(open.front(), 0.0);
+  EXPECT_GT(open.back(), 0.3);
+  EXPECT_EQ(record.backbone.numbers("friction_work_J").front(), 0.0);
+}
+
 TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
   struct Case {
     const char *scene, *setting, *key, *expected;
@@ -140,6 +175,30 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
     const std::string all = details.key + " " + details.allowed;
     EXPECT_NE(details.key.find(one.key), std::string::npos) << one.setting << ": " << details.key;
     EXPECT_NE(all.find(one.expected), std::string::npos) << one.setting << ": " << all;
+  }
+}
+
+TEST(FrictionScene, OfAModeWithWrongKeysNamesTheKey) {
+  struct Case {
+    const char *scene, *setting, *key, *expected;
+  };
+  for (const Case& one : {
+           Case{"slider.toml", "analysis.cosine_only=true", "analysis.cosine_only", "false"},
+           Case{"slider.toml", "analysis.energy_ratio=2", "analysis.energy_ratio", "amplitude_ratio"},
+           Case{"slider.toml", "analysis.largest_energy=20", "analysis.largest_energy", "largest_amplitude"},
+           Case{"slider.toml", "analysis.largest_amplitude=0.9", "analysis.largest_amplitude", "> 1"},
+           Case{"slider.toml", "analysis.amplitude_ratio=-1", "analysis.amplitude_ratio", ">= 0"},
+           Case{"slider.toml", "analysis.mode=2", "analysis.mode", "at most 1"},
+       }) {
+    try {
+      changed(one.scene, {"analysis.type=nonlinear_mode", one.setting});
+      ADD_FAILURE() << one.setting << " was not refused";
+      continue;
+    } catch (const SceneError& found) {
+      const std::string all = found.details().key + " " + found.details().allowed;
+      EXPECT_NE(found.details().key.find(one.key), std::string::npos) << one.setting << ": " << all;
+      EXPECT_NE(all.find(one.expected), std::string::npos) << one.setting << ": " << all;
+    }
   }
 }
 

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/modes/damped_mode.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
+
+namespace wavebalance::app {
+
+/// A scene's nonlinear mode with friction. Immutable.
+class DampedStudy {
+ public:
+  /// O(n^3). Throws as solvers::DampedMode does, and std::invalid_argument where no contact slips at any
+  /// amplitude, so that there is none to begin at, or one slips at all.
+  DampedStudy(const Scene& scene, const StructureModel& model);
+
+  const Scene& scene() const { return scene_; }
+  const solvers::DampedMode& mode() const { return mode_; }
+  double slip_amplitude() const { return slip_amplitude_; }  ///< m, at which a contact first slips or opens
+
+  /// From half the amplitude of first slip to `largest` times it.
+  solvers::DampedBackbone curve(double largest, const solvers::Observer& observer) const;
+  /// One period of the contacts at analysis.output_points times.
+  solvers::Motion contact_motion(const solvers::DampedPoint& point) const;
+
+ private:
+  Scene scene_;
+  solvers::DampedMode mode_;
+  double slip_amplitude_;
+};
+
+/// amplitude_ratio, amplitude_m, frequency_Hz, frequency_ratio, damping_ratio, friction_work_J, the means
+/// over contacts of stick_fraction, slip_fraction and open_fraction, status, residual; max_, min_, rms_ and
+/// max_abs_displacement_m of the contacts. O(points contacts output_points).
+Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve);
+
+}  // namespace wavebalance::app

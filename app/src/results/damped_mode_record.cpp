@@ -1,0 +1,133 @@
+#include "results/damped_mode_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "drawing/mode_figure.hpp"
+#include "drawing/record_figure.hpp"
+#include "files/missing.hpp"
+#include "results/friction_record.hpp"
+#include "results/quantities.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/damped_modes.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/results/tables.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string status_of(const DampedStudy& study, const solvers::DampedBackbone& curve, double largest) {
+  using solvers::DampedBackboneStatus;
+  if (curve.status == DampedBackboneStatus::reached_amplitude) return "converged";
+  const std::string reason(to_string(curve.status));
+  if (curve.points.empty()) return reason;
+  return fmt::format("ended at {:.4g} times the amplitude of first slip, before the {:.4g} asked for: {}",
+                     curve.points.back().amplitude / study.slip_amplitude(), largest, reason);
+}
+
+void append_setting(Summary& summary, const DampedStudy& study, const StructureModel& model) {
+  const Scene& scene = study.scene();
+  summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
+  summary.emplace_back(quantities::mode, std::int64_t{scene.analysis.mode});
+  append_discretisation(summary, mode_time(scene));
+  summary.emplace_back(quantities::linear_frequency, study.mode().linear_omega() / (2.0 * std::numbers::pi));
+  summary.emplace_back(quantities::linear_damping_ratio, study.mode().linear_damping_ratio());
+  summary.emplace_back(quantities::slip_amplitude, study.slip_amplitude());
+  append_structure(summary, model);
+}
+
+template <class Number>
+double largest(const solvers::DampedBackbone& curve, Number number) {
+  double value = missing;
+  for (const solvers::DampedPoint& point : curve.points) value = std::fmax(value, number(point));
+  return value;
+}
+
+Record solution_record(const DampedStudy& study, const solvers::DampedBackbone& curve, double asked,
+                       double wall_seconds) {
+  Record record;
+  record.converged = curve.status == solvers::DampedBackboneStatus::reached_amplitude;
+  record.interrupted = curve.status == solvers::DampedBackboneStatus::cancelled;
+  record.status = record.interrupted ? "interrupted" : status_of(study, curve, asked);
+  int iterations = 0;
+  for (const solvers::DampedPoint& point : curve.points) iterations += point.iterations;
+  record.summary = solution_entries(record.converged, record.status,
+                                    largest(curve, [](const auto& point) { return point.residual; }),
+                                    iterations, study.mode().unknowns(), wall_seconds);
+  return record;
+}
+
+Record curve_record(const DampedStudy& study, const StructureModel& model, const Observer& observer) {
+  const auto start = Clock::now();
+  const double asked = study.scene().analysis.largest_amplitude;
+  const solvers::DampedBackbone curve = study.curve(asked, observer);
+  Record record = solution_record(study, curve, asked, seconds_since(start));
+  record.summary.emplace_back(quantities::max_displacement, largest(curve, [](const auto& point) {
+                                return point.displacement.maxCoeff();
+                              }));
+  append_setting(record.summary, study, model);
+  record.summary.emplace_back(quantities::points, static_cast<std::int64_t>(curve.points.size()));
+  record.summary.emplace_back(quantities::largest_damping_ratio,
+                              largest(curve, [](const auto& point) { return point.damping_ratio(); }));
+  record.summary.emplace_back(quantities::least_frequency_ratio, -largest(curve, [&](const auto& point) {
+                                return -point.omega / study.mode().linear_omega();
+                              }));
+  record.backbone = damped_table(study, curve);
+  record.figure = damped_figure(study.scene(), record.backbone);
+  if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
+  return record;
+}
+
+Record motion_record(const DampedStudy& study, const StructureModel& model, const Observer& observer) {
+  const auto start = Clock::now();
+  const Scene& scene = study.scene();
+  const double asked = scene.analysis.amplitude_ratio;
+  const solvers::DampedBackbone curve = study.curve(asked, observer);
+  Record record = solution_record(study, curve, asked, seconds_since(start));
+  Response response;
+  response.converged = response.moves = record.converged;
+  const solvers::DampedPoint* point = record.converged ? &curve.points.back() : nullptr;
+  if (point != nullptr) response.contacts = study.contact_motion(*point);
+  response.contact = leading_contact(response.contacts, model.gaps);
+  append_motion(record.summary, point != nullptr ? response.leading() : solvers::Motion{});
+  append_setting(record.summary, study, model);
+  const auto value = [&](auto number) { return point != nullptr ? number(*point) : missing; };
+  const double frequency = value([](const auto& one) { return one.omega / (2.0 * std::numbers::pi); });
+  record.summary.emplace_back(quantities::frequency, frequency);
+  record.summary.emplace_back(quantities::frequency_ratio, value([&](const auto& one) {
+                                return one.omega / study.mode().linear_omega();
+                              }));
+  record.summary.emplace_back(quantities::damping_ratio,
+                              value([](const auto& one) { return one.damping_ratio(); }));
+  append_friction(record, scene, response);
+  if (point == nullptr) return record;
+  record.response = response_table(response.leading());
+  add_contacts(record, response.contacts, response.contact);
+  record.figure = motion_figure(scene, response, frequency);
+  return record;
+}
+
+}  // namespace
+
+Record damped_mode_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  goes_on(observer, {"linear modes"});
+  const DampedStudy study(scene, model);
+  goes_on(observer, {"backbone"});
+  Record record = scene.analysis.amplitude_ratio > 0.0 ? motion_record(study, model, observer)
+                                                       : curve_record(study, model, observer);
+  record.summary.emplace_back(quantities::warnings, record.warnings);
+  return record;
+}
+
+}  // namespace wavebalance::app
