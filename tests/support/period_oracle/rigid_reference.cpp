@@ -1,15 +1,14 @@
 #include "period_oracle/rigid_reference.hpp"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 #include <vector>
 
+#include "linalg/dense.hpp"
 #include "period_oracle/shooting_modes.hpp"
 
 namespace wavebalance::oracle {
@@ -40,14 +39,14 @@ class Flows {
     Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, size);
     forces << -k.topLeftCorner(n, n), -c.topLeftCorner(n, n), -k.col(n).head(n), structure.load.head(n),
         Eigen::VectorXd::Zero(n);
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(m.topLeftCorner(n, n));
-    fastest_ = std::sqrt(lu.solve(k.topLeftCorner(n, n)).norm());
+    const solvers::detail::Lu<double> lu(m.topLeftCorner(n, n));
+    fastest_ = std::sqrt(lu.solve(Eigen::MatrixXd(k.topLeftCorner(n, n))).norm());
     for (const bool closed : {false, true}) {
       Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
       const Eigen::RowVectorXd tip =
           closed ? Eigen::RowVectorXd::Zero(size) : Eigen::RowVectorXd(force_ / c(n, n));
       a.block(0, n, n, n).setIdentity();
-      a.middleRows(n, n) = lu.solve(forces - c.col(n).head(n) * tip);
+      a.middleRows(n, n) = lu.solve(Eigen::MatrixXd(forces - c.col(n).head(n) * tip));
       a.row(2 * n) = tip;
       a.middleRows(n, n) /= fastest_;
       a.middleCols(n, n) *= fastest_;
@@ -55,7 +54,7 @@ class Flows {
       a(2 * n + 1, 2 * n + 2) = -2.0 * std::numbers::pi;
       a(2 * n + 2, 2 * n + 1) = 2.0 * std::numbers::pi;
       for (int h = 0; h <= halvings; ++h)
-        steps_[closed].push_back(Eigen::MatrixXd((a * std::ldexp(1.0 / points, -h)).exp()));
+        steps_[closed].push_back(solvers::detail::exponential(a * std::ldexp(1.0 / points, -h)));
     }
     force_.segment(n, n) *= fastest_;
   }

@@ -1,7 +1,5 @@
 #include "period_oracle/shooting.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "linalg/damped_newton.hpp"
+#include "linalg/dense.hpp"
 #include "period_oracle/shooting_propagator.hpp"
 
 namespace wavebalance::oracle {
@@ -78,7 +77,7 @@ class Shooting {
       Eigen::MatrixXd sensitivity;
       if (!std::isfinite(shooting_.residual(state_, change_, &sensitivity))) return false;
       sensitivity.diagonal().array() -= 1.0;
-      direction = sensitivity.partialPivLu().solve(change_);
+      direction = solvers::detail::Lu<double>(sensitivity).solve(change_);
       return direction.allFinite();
     }
     bool goes_on(int) const { return std::isfinite(norm_); }
@@ -169,7 +168,7 @@ class Shooting {
     Eigen::VectorXd change;
     Eigen::MatrixXd sensitivity;
     residual(state, change, &sensitivity);
-    result.floquet_multipliers = sensitivity.eigenvalues();
+    result.floquet_multipliers = solvers::detail::eigenvalues(sensitivity);
     std::stable_sort(result.floquet_multipliers.begin(), result.floquet_multipliers.end(),
                      [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
   }

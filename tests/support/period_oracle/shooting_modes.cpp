@@ -1,13 +1,13 @@
 #include "period_oracle/shooting_modes.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "linalg/dense.hpp"
 
 namespace wavebalance::oracle {
 
@@ -46,7 +46,7 @@ void require_single_contact(const solvers::LinearStructure& structure, const cha
 ModalStructure::ModalStructure(const LinearStructure& structure, double frequency_hz)
     : angular_frequency(2.0 * std::numbers::pi * frequency_hz) {
   const Eigen::MatrixXd mass = structure.mass;
-  if (Eigen::LLT<Eigen::MatrixXd>(mass).info() != Eigen::Success)
+  if (!solvers::detail::cholesky(mass))
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
@@ -55,12 +55,11 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument(
         "shoot: stiffness is not symmetric, so that no real modes decouple the structure; "
         "integrate_to_periodic takes any damping and stiffness");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(structure.stiffness),
-                                                                        mass);
-  if (modes.info() != Eigen::Success)
+  const auto modes = solvers::detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), mass);
+  if (!modes)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");
-  stiffness = modes.eigenvalues();
-  shapes = modes.eigenvectors();
+  stiffness = modes->values;
+  shapes = modes->vectors;
   const Eigen::MatrixXd modal_damping = shapes.transpose() * (structure.damping * shapes);
   require_modal_damping(modal_damping);
   damping = modal_damping.diagonal();

@@ -1,9 +1,9 @@
 #include "period_oracle/shooting_step_table.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "linalg/dense.hpp"
 
 namespace wavebalance::oracle {
 namespace {
@@ -17,8 +17,7 @@ using NodeMatrix = StepTable::NodeMatrix;
 NodeVector gauss_points() {
   NodeMatrix jacobi = NodeMatrix::Zero();
   for (int k = 1; k < nodes; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  const Eigen::SelfAdjointEigenSolver<NodeMatrix> eigen(jacobi, Eigen::EigenvaluesOnly);
-  return 0.5 * (1.0 + eigen.eigenvalues().array());
+  return 0.5 * (1.0 + solvers::detail::symmetric_eigen(jacobi)->values.array());
 }
 
 /// Polynomials of degree nodes - 1 on [0, 1] by their values at the Gauss points.
@@ -91,7 +90,7 @@ class ModeResponse {
   }
 
   Blocks at(double fraction) const {
-    const Eigen::MatrixXd propagated = (fraction * system_).exp();
+    const Eigen::MatrixXd propagated = solvers::detail::exponential(fraction * system_);
     Blocks blocks;
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) blocks.state(i, j) = scale_[i] * propagated(i, j) / scale_[j];
