@@ -23,8 +23,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A few seconds of one processor. A response with few contacts takes a thousandth of them, or less.
-constexpr double most_operations_of_phases = 3e10;
+// Less than a minute of one processor, for 200 phases. A response with few contacts takes a thousandth of
+// them, or less.
+constexpr double most_operations_of_phases = 2e11;
 constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
 
 double seconds_since(Clock::time_point start) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -116,12 +117,13 @@ class Search {
 
  private:
   using NewtonMethod = PhaseNewtonResult (*)(const PhaseModel&, PhaseIterate, const LegendreNodes&,
-                                             const detail::NewtonLimits&);
+                                             const detail::NewtonLimits&, std::optional<detail::Influence>);
 
   bool stopped() const { return cancelled_ || exhausted_; }
 
   // As many steps as the operations allow; none where they do not allow three.
-  PhaseNewtonResult newton(NewtonMethod method, PhaseIterate iterate, double tolerance, PhaseMotion& result) {
+  PhaseNewtonResult newton(NewtonMethod method, PhaseIterate iterate, double tolerance, PhaseMotion& result,
+                           std::optional<detail::Influence> known = {}) {
     constexpr double least_steps = 3.0;
     const double poles = double(model_.response.poles()),
                  n = double(nodes_.count()) * double(iterate.layout.grid().panels.size()) +
@@ -135,14 +137,17 @@ class Search {
       return none;
     }
     const int most = static_cast<int>(std::min<double>(options_.max_iterations, steps));
-    PhaseNewtonResult solved = method(model_, std::move(iterate), nodes_, {most, tolerance, observer_});
+    PhaseNewtonResult solved =
+        method(model_, std::move(iterate), nodes_, {most, tolerance, observer_}, std::move(known));
     result.iterations += solved.iterations;
     operations_left_ -= of_step * (solved.iterations + 1);
     return solved;
   }
 
-  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result) {
-    PhaseNewtonResult found = newton(&detail::solve_phases, std::move(iterate), tolerance, result);
+  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result,
+               std::optional<detail::Influence> known = {}) {
+    PhaseNewtonResult found =
+        newton(&detail::solve_phases, std::move(iterate), tolerance, result, std::move(known));
     return {model_, std::move(found), nodes_, times_, free_};
   }
 
@@ -173,20 +178,23 @@ class Search {
     Layout layout = layout_of(motion);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
+    std::optional<detail::Influence> known;
     for (int level = 0; level < 6; ++level) {
       PhaseNewtonResult held = newton(&detail::solve_forces, iterate, rough, result);
+      known = std::move(held.influence);
       if (!held.converged) break;
       iterate = std::move(held.iterate);
       const Eigen::MatrixXd& coefficients = iterate.forces.coefficients();
       if (coefficients.size() == 0 ||
           coefficients.bottomRows(2).cwiseAbs().maxCoeff() < rough * coefficients.cwiseAbs().maxCoeff())
         break;
+      known.reset();
       if (nodes_.count() < many_nodes)
         nodes_ = LegendreNodes(many_nodes);
       else
         detail::divide(iterate, rough);
     }
-    return solved(std::move(iterate), start_of_newton, result);
+    return solved(std::move(iterate), start_of_newton, result, std::move(known));
   }
 
   // Layers of fast modes and laws that are not analytic where contact begins have errors that their

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
@@ -76,13 +77,13 @@ void set_errors(PhaseNewtonResult& result, const Evaluation& now, const Legendre
 }
 
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits) {
+                               const NewtonLimits& limits, std::optional<Influence> known) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
   double before = std::numeric_limits<double>::infinity();
   std::optional<Lu<double>> factor;
   for (;; ++result.iterations) {
-    Evaluation now = evaluate(model, result.iterate, nodes);
+    Evaluation now = evaluate(model, result.iterate, nodes, std::exchange(known, std::nullopt));
     result.residual = now.error();
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     if (result.residual < limits.tolerance || now.is_rounding(before)) {
@@ -110,23 +111,26 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
 }
 
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits) {
+                               const NewtonLimits& limits, std::optional<Influence> known) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
-  std::optional<Influence> influence;
+  result.influence = std::move(known);
   for (;; ++result.iterations) {
-    Evaluation now = evaluate(model, result.iterate, nodes, std::move(influence));
+    Evaluation now = evaluate(model, result.iterate, nodes, std::move(result.influence));
     result.residual = now.force_error();
     result.converged = result.residual < limits.tolerance;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
-    if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
-      return result;
-    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
-    const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
-    const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
-    if (!step.allFinite()) return result;
+    const bool ends = result.converged || result.iterations == limits.max_iterations ||
+                      !std::isfinite(result.residual) ||
+                      !goes_on(limits.observer, {"contact phases", result.iterations, result.residual});
+    Eigen::VectorXd step;
+    if (!ends) {
+      const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
+      step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
+    }
+    result.influence = std::move(now.influence);
+    if (ends || !step.allFinite()) return result;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);
-    influence = std::move(now.influence);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "phases/phase_equations.hpp"
 #include "phases/phase_evaluation.hpp"
@@ -16,6 +17,7 @@ struct PhaseNewtonResult {
   /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
   /// missing, and by the residual, with what forces and passages do in answer.
   double resolution_error = 0.0, residual_error = 0.0;
+  std::optional<Influence> influence;  ///< at the instants and nodes of the iterate, of solve_forces
   Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
 };
 
@@ -26,12 +28,13 @@ struct NewtonLimits {
 };
 
 /// Newton's method on the forces at q nodes of each panel and the instants of all passages. That with
-/// the residual of rounding, Evaluation::is_rounding(), is converged, too.
+/// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: the influence at the
+/// instants and nodes of the start.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits);
+                               const NewtonLimits& limits, std::optional<Influence> known);
 /// The same on the forces alone.
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits);
+                               const NewtonLimits& limits, std::optional<Influence> known);
 
 /// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
 /// more than a fiftieth of the period behind.

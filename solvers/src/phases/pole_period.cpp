@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "linalg/dense.hpp"
@@ -97,35 +98,28 @@ FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& 
   const Index equations = n + 2 * m + (velocity ? n : 0);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(equations, n + m), by_states(equations, states.size());
   FreePeriod result;
-  result.states_by.setZero(states.size(), n + m);
-  // From the beginning of the period, of the states, and from each boundary on, of what has left it.
-  Eigen::VectorXcd gone = Eigen::VectorXcd::Ones(exponents_.size());
+  // At its beginning the period has impulses, and at its end what the last cell leaves.
+  const Sources& at_begin = sources[at(0)];
+  const auto nodes_there = Index(std::count_if(at_begin.numbers.begin(), at_begin.numbers.end(),
+                                               [n](Index number) { return number < n; }));
+  const auto split_at = at_begin.numbers.begin() + nodes_there;
+  const std::vector<Index> of_nodes(at_begin.numbers.begin(), split_at),
+      impulses(split_at, at_begin.numbers.end());
+  MovingStates moving(exponents_.size(), n + m);
+  moving.add(at_begin.states.rightCols(Index(impulses.size())), impulses);
+  Eigen::VectorXcd gone = Eigen::VectorXcd::Ones(exponents_.size());  // of the states at the beginning
   for (std::size_t t = 0; t < count; ++t) {
-    by_states(rows[at(t)].numbers, Eigen::all) =
-        states.columns(rows[at(t)].real.leftCols(left), rows[at(t)].imag.leftCols(left), gone.head(left));
+    const Rows& seen = rows[at(t)];
+    by_states(seen.numbers, Eigen::all) =
+        states.columns(seen.real.leftCols(left), seen.imag.leftCols(left), gone.head(left));
+    if (!seen.numbers.empty()) all(seen.numbers, Eigen::all) = moving.seen_by(seen.real, seen.imag);
     gone.array() *= cells[at(t)].decay.array();
+    moving.multiply(cells[at(t)].decay);
+    if (t + 1 < count) moving.add(sources[at(t + 1)].states, sources[at(t + 1)].numbers);
   }
+  moving.add(at_begin.states.leftCols(nodes_there), of_nodes);
   result.states_by_states = states.diagonal(gone.head(left));
-  for (std::size_t s = 0; s <= count; ++s) {
-    const Sources& source = sources[at(s)];
-    // At its beginning the period has impulses, and at its end what the last cell leaves.
-    std::vector<Index> chosen;
-    for (Index k = 0; k < Index(source.numbers.size()); ++k) {
-      const bool impulse = source.numbers[static_cast<std::size_t>(k)] >= n;
-      if (s == 0 ? impulse : s < count || !impulse) chosen.push_back(k);
-    }
-    if (chosen.empty()) continue;
-    std::vector<Index> numbers;
-    for (const Index k : chosen) numbers.push_back(source.numbers[static_cast<std::size_t>(k)]);
-    Eigen::MatrixXcd moving = source.states(Eigen::all, chosen);
-    for (std::size_t t = s; t < count; ++t) {
-      if (!rows[at(t)].numbers.empty())
-        all(rows[at(t)].numbers, numbers) +=
-            product(rows[at(t)].real, moving.real()) - product(rows[at(t)].imag, moving.imag());
-      moving = cells[at(t)].decay.asDiagonal() * moving;
-    }
-    result.states_by(Eigen::all, numbers) += states.rows(moving.topRows(left));
-  }
+  result.states_by = states.rows(moving.top(left));
   add_within_cells(grid, cells, nodes, velocity, all);
   result.influence = split(all, n, m, velocity);
   result.displacement_by = by_states.topRows(n + m);

@@ -270,41 +270,6 @@ void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell
   }
 }
 
-namespace {
-
-// States of all poles by all unknowns, which move from boundary to boundary.
-class MovingStates {
- public:
-  MovingStates(Index poles, Index unknowns)
-      : real_(Eigen::MatrixXd::Zero(poles, unknowns)), imag_(Eigen::MatrixXd::Zero(poles, unknowns)) {}
-
-  void multiply(const Eigen::VectorXcd& factors) {
-    const Eigen::ArrayXd re = factors.real(), im = factors.imag();
-    Eigen::ArrayXd before(re.size());
-    for (Index k = 0; k < real_.cols(); ++k) {
-      auto own_re = real_.col(k).array(), own_im = imag_.col(k).array();
-      before = own_re;
-      own_re = re * before - im * own_im;
-      own_im = re * own_im + im * before;
-    }
-  }
-  void add(const Eigen::MatrixXcd& states, const std::vector<Index>& numbers) {
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-      real_.col(numbers[k]) += states.col(Index(k)).real();
-      imag_.col(numbers[k]) += states.col(Index(k)).imag();
-    }
-  }
-  // Of equations by the states.
-  Eigen::MatrixXd seen_by(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag) const {
-    return product(real, real_) - product(imag, imag_);
-  }
-
- private:
-  Eigen::MatrixXd real_, imag_;
-};
-
-}  // namespace
-
 // What each source leaves at the end of the period gives the periodic states at its begin, with which the
 // states go around once.
 Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
