@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "dense_algebra.hpp"
 #include "sparse_product.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
@@ -25,9 +25,8 @@ Blade lanczos_blade() {
 
 /// The eigenvalues of K^-1 M, descending, by the dense solver.
 Eigen::VectorXd dense_values(const Matrices& matrices) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense{
-      Eigen::MatrixXd(matrices.mass), Eigen::MatrixXd(matrices.stiffness), Eigen::EigenvaluesOnly};
-  return dense.eigenvalues().reverse();
+  return oracle::generalized_eigen(Eigen::MatrixXd(matrices.mass), Eigen::MatrixXd(matrices.stiffness))
+      .values.reverse();
 }
 
 /// K v = M v / value, to a few times the rounding of K: a solve with K, by whatever factor, is exact for a

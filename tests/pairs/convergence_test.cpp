@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
+#include "dense_algebra.hpp"
 #include "pairs.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
@@ -28,7 +28,7 @@ Eigen::VectorXcd exact_harmonics(const solvers::LinearStructure& bar) {
     const Complex rate(0.0, 2.0 * std::numbers::pi * n * frequency);
     const Eigen::MatrixXcd stiffness = rate * rate * Eigen::MatrixXd(bar.mass) +
                                        rate * Eigen::MatrixXd(bar.damping) + Eigen::MatrixXd(bar.stiffness);
-    tip[n] *= stiffness.partialPivLu().solve(bar.load.cast<Complex>())[bar.selected_dof(0)];
+    tip[n] *= oracle::solve(stiffness, Eigen::VectorXcd(bar.load.cast<Complex>()))[bar.selected_dof(0)];
   }
   return tip;
 }

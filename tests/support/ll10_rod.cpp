@@ -1,6 +1,6 @@
 #include "ll10_rod.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "dense_algebra.hpp"
 
 namespace wavebalance::solvers::testing {
 
@@ -19,9 +19,9 @@ UnitRod::UnitRod(int elements, double lumped_fraction) {
     stiffness(right, right - 1) = stiffness(right - 1, right) = -1.0 / length;
     mass(right, right - 1) = mass(right - 1, right) = off;
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(stiffness, mass);
-  shapes = modes.eigenvectors();
-  model = {modes.eigenvalues(), shapes.row(elements - 1), Eigen::VectorXd::Ones(1)};
+  const auto modes = oracle::generalized_eigen(stiffness, mass);
+  shapes = modes.vectors;
+  model = {modes.values, shapes.row(elements - 1), Eigen::VectorXd::Ones(1)};
 }
 
 }  // namespace wavebalance::solvers::testing

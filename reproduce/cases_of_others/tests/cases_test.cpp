@@ -1,7 +1,6 @@
 // Holds the cases to their references, and the references to closed forms and to shooting.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "constants.hpp"
 #include "curve.hpp"
+#include "dense_algebra.hpp"
 #include "event_shooting.hpp"
 #include "figures.hpp"
 #include "paper_results.hpp"
@@ -118,7 +118,7 @@ double free_amplitude(const SpringSystem& system, double omega) {
   const Eigen::MatrixXcd dynamic =
       (system.stiffness - omega * omega * system.mass).cast<std::complex<double>>() +
       i * omega * system.damping.cast<std::complex<double>>();
-  return std::abs(dynamic.partialPivLu().solve(system.load.cast<std::complex<double>>())[0]);
+  return std::abs(oracle::solve(dynamic, Eigen::VectorXcd(system.load.cast<std::complex<double>>()))[0]);
 }
 
 /// The system and the special points of a case without units.
@@ -162,7 +162,7 @@ Eigen::VectorXcd multipliers(const Curve& curve, const SpringSystem& system, dou
   const EventShooting shooting(system, omega);
   const testing::Period period = shooting.periodic(state);
   EXPECT_LT((period.end - state).norm(), 1e-10 * (1.0 + state.norm())) << omega;
-  return period.monodromy.eigenvalues();
+  return oracle::eigenvalues(period.monodromy);
 }
 
 // Beside a grazing, multipliers change like the square root of the distance.

@@ -1,8 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "dense_algebra.hpp"
 
 /// Shooting for M u'' + C u' + K u = F cos(w t) with a spring at the first degree of freedom. Motions with
 /// and without contact are exponentials of matrices, and the instants between them roots of the first
@@ -31,7 +32,8 @@ class EventShooting {
   Period period(const Eigen::VectorXd& start) const {
     constexpr int steps = 4000;  // contact that opens and closes within one of them is missed
     const double step = period_ / steps;
-    const Eigen::MatrixXd whole[2] = {(matrix_[0] * step).exp(), (matrix_[1] * step).exp()};
+    const Eigen::MatrixXd whole[2] = {oracle::exponential(matrix_[0] * step),
+                                      oracle::exponential(matrix_[1] * step)};
     const Eigen::Index states = 2 * size_;
     Eigen::VectorXd y(states + 3);
     y << start, 1.0, 0.0, 1.0;  // then cos, sin and 1
@@ -42,12 +44,12 @@ class EventShooting {
       Eigen::MatrixXd move = whole[contact];
       while (((move * y)[0] > gap_) != contact) {
         const double until = crossing(y, left, contact);
-        const Eigen::MatrixXd part = (matrix_[contact] * until).exp();
+        const Eigen::MatrixXd part = oracle::exponential(matrix_[contact] * until);
         y = part * y;
         map = part * map;
         left -= until;
         contact = !contact;
-        move = (matrix_[contact] * left).exp();
+        move = oracle::exponential(matrix_[contact] * left);
       }
       y = move * y;
       map = move * map;
@@ -60,7 +62,7 @@ class EventShooting {
     Period one = period(state);
     for (int i = 0; i < 12 && (one.end - state).norm() > 1e-13 * (1.0 + state.norm()); ++i) {
       const Eigen::MatrixXd jacobian = one.monodromy - Eigen::MatrixXd::Identity(state.size(), state.size());
-      state -= jacobian.partialPivLu().solve(one.end - state);
+      state -= oracle::solve(jacobian, Eigen::VectorXd(one.end - state));
       one = period(state);
     }
     return one;
@@ -69,7 +71,7 @@ class EventShooting {
  private:
   static Eigen::MatrixXd matrix(const SpringSystem& system, double omega, bool contact) {
     const Eigen::Index n = system.load.size();
-    const Eigen::MatrixXd inverse = system.mass.inverse();
+    const Eigen::MatrixXd inverse = oracle::inverse(system.mass);
     Eigen::MatrixXd stiffness = system.stiffness;
     if (contact) stiffness(0, 0) += system.spring;
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n + 3, 2 * n + 3);
@@ -86,7 +88,7 @@ class EventShooting {
   double crossing(const Eigen::VectorXd& y, double left, bool contact) const {
     double low = 0.0, high = left, at = 0.5 * left;
     for (int i = 0; i < 60; ++i) {
-      const Eigen::VectorXd there = (matrix_[contact] * at).exp() * y;
+      const Eigen::VectorXd there = oracle::exponential(matrix_[contact] * at) * y;
       const double beyond = there[0] - gap_;
       ((beyond > 0.0) == contact ? low : high) = at;
       const double newton = at - beyond / there[size_];

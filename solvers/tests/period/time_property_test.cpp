@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "dense_algebra.hpp"
 #include "period_oracle/shooting.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
@@ -33,7 +33,7 @@ Eigen::Matrix<Scalar, Eigen::Dynamic, 1> rate(const LinearStructure& bar, double
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   const int n = bar.size();
   const double omega = 2.0 * std::numbers::pi * bar_frequency;
-  const Eigen::MatrixXd inverse = Eigen::MatrixXd(bar.mass).inverse() / bar_frequency;
+  const Eigen::MatrixXd inverse = oracle::inverse(Eigen::MatrixXd(bar.mass)) / bar_frequency;
   const Eigen::MatrixXd stiffness(bar.stiffness), damping(bar.damping);
   Vector displacement(n), force(n), result(2 * n);
   for (int i = 0; i < n; ++i) displacement[i] = state[i] / omega;

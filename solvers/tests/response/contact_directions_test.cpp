@@ -2,13 +2,13 @@
 // both sides.
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "dense_algebra.hpp"
 #include "ll10_rod.hpp"
 #include "period_oracle/shooting.hpp"
 #include "support/condensation_cases.hpp"
@@ -61,7 +61,7 @@ Eigen::MatrixXd rotation(int size, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> normal;
   const Eigen::MatrixXd random = Eigen::MatrixXd::NullaryExpr(size, size, [&] { return normal(generator); });
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
+  return oracle::orthonormal_factor(random);
 }
 
 // A rotation, and a rotation of coordinates in other units.

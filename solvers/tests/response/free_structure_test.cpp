@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <numeric>
 
 #include "constants.hpp"
+#include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
@@ -323,7 +323,7 @@ TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
     Eigen::Matrix2d map;
     for (int i = 0; i < 2; ++i)
       map.col(i) = (integrated(law, omega, start + 1e-6 * Eigen::Vector2d::Unit(i)) - end) / 1e-6;
-    const Eigen::VectorXcd exact = map.eigenvalues();
+    const Eigen::VectorXcd exact = oracle::eigenvalues(map);
     const ContactDynamics dynamics(problem.structure());
     EXPECT_GT(dynamics.holding(), 0.0);
     for (const Complex multiplier :

@@ -1,11 +1,11 @@
 // Curves that come back to an earlier point of themselves.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 
 #include "continuation/return_detector.hpp"
+#include "dense_algebra.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -25,12 +25,12 @@ LinearStructure shaken_beam() {
   mass << 156.0, -22.0 * length, -22.0 * length, 4.0 * length * length;
   stiffness *= bending;
   mass *= inertia;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(stiffness, mass);
-  const Eigen::Matrix2d shapes = mass * modes.eigenvectors();
+  const auto modes = oracle::generalized_eigen(stiffness, mass);
+  const Eigen::Matrix2d shapes = mass * modes.vectors;
   LinearStructure beam;
   beam.mass = mass.sparseView();
   beam.stiffness = stiffness.sparseView();
-  const Eigen::Vector2d damping = 2.0 * ratio * modes.eigenvalues().cwiseSqrt();
+  const Eigen::Vector2d damping = 2.0 * ratio * modes.values.cwiseSqrt();
   beam.damping = Eigen::MatrixXd(shapes * damping.asDiagonal() * shapes.transpose()).sparseView();
   beam.load = -inertia * Eigen::Vector2d(210.0, -35.0 * length);
   beam.contact_directions = contact_rows({0}, 2);

@@ -2,7 +2,6 @@
 // a period in time.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <random>
 
 #include "campaign.hpp"
+#include "dense_algebra.hpp"
 #include "period/modal_map.hpp"
 #include "stability/friction_monodromy.hpp"
 #include "support/friction_scenes.hpp"
@@ -94,7 +94,7 @@ Eigen::VectorXd moduli_by_differences(const FrictionScene& scene, CondensedProbl
   };
   Eigen::MatrixXd slope(size, size);
   for (Eigen::Index i = 0; i < size; ++i) slope.col(i) = (end(i, change) - end(i, -change)) / (2.0 * change);
-  Eigen::VectorXd moduli = slope.eigenvalues().cwiseAbs();
+  Eigen::VectorXd moduli = oracle::eigenvalues(slope).cwiseAbs();
   std::sort(moduli.begin(), moduli.end(), std::greater<>());
   return moduli;
 }

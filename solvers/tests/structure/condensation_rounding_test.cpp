@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
+#include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -13,7 +12,7 @@ using Complex = std::complex<double>;
 using testing::all_methods;
 using testing::shuffled;
 using LongComplex = std::complex<long double>;
-using LongMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
+using LongMatrix = oracle::LongComplexMatrix;
 
 // Z^-1 S^T and Z^-1 load at the contacts by an elimination in long double.
 LongMatrix by_long_double(const LinearStructure& s, const ImpedanceCoefficients& factors) {
@@ -27,7 +26,7 @@ LongMatrix by_long_double(const LinearStructure& s, const ImpedanceCoefficients&
   const LongMatrix directions = precise(s.contact_directions);
   right.leftCols(s.contacts()) = directions.transpose();
   right.col(s.contacts()) = s.load.cast<LongComplex>();
-  return directions * stiffness.partialPivLu().solve(right);
+  return directions * oracle::solve(stiffness, right);
 }
 
 // Equal oscillators of 10 kN/m and 1 kg; each is coupled to the next by a spring of that share. The load acts

@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
+#include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
 
@@ -29,7 +26,7 @@ struct Dense {
 
 Dense by_dense_lu(const LinearStructure& s, const ImpedanceCoefficients& factors,
                   const ImpedanceCoefficients& rates, Complex load, const Eigen::VectorXcd& contact) {
-  const Eigen::MatrixXcd inverse = dense(s, factors).inverse();
+  const Eigen::MatrixXcd inverse = oracle::inverse(dense(s, factors));
   const Eigen::MatrixXcd slope = -inverse * dense(s, rates) * inverse;
   const Eigen::VectorXcd forces = s.load.cast<Complex>();
   const Eigen::MatrixXcd rows = Eigen::MatrixXd(s.contact_directions).cast<Complex>();
@@ -168,7 +165,7 @@ TEST(Condensation, TakesTheFastestMethodThatTheMatricesAdmit) {
   EXPECT_EQ(Condensation(other).method(), CondensationMethod::sparse);
   EXPECT_THROW(Condensation(other, CondensationMethod::modal), std::invalid_argument);
   other.stiffness =
-      Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness).llt().solve(Eigen::MatrixXd::Identity(120, 120)))
+      oracle::solve_positive_definite(Eigen::MatrixXd(chain.stiffness), Eigen::MatrixXd::Identity(120, 120))
           .sparseView();
   other.stiffness = 0.5 * (other.stiffness + Eigen::SparseMatrix<double>(other.stiffness.transpose()));
   EXPECT_EQ(Condensation(other).method(), CondensationMethod::dense);
@@ -294,11 +291,10 @@ TEST(Condensation, UndampedStructureAtItsNaturalFrequencyIsSingular) {
   std::mt19937 generator(3);
   for (const int size : {1, 2, 25}) {
     LinearStructure bar = testing::jl14_bar(size, 0.0);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(bar.stiffness),
-                                                                          Eigen::MatrixXd(bar.mass));
+    const auto modes = oracle::generalized_eigen(Eigen::MatrixXd(bar.stiffness), Eigen::MatrixXd(bar.mass));
     for (const LinearStructure& structure : {bar, shuffled(bar, generator)}) {
       Condensation condensation(structure);
-      const Complex at = -modes.eigenvalues()[0];
+      const Complex at = -modes.values[0];
       EXPECT_THROW(condensation.dynamic_compliance({at, 0.0, 1.0}, {1.0, 0.0, 0.0}), SingularSystem) << size;
       EXPECT_THROW(condensation.recover({at, 0.0, 1.0}, 1.0, Eigen::VectorXcd::Zero(1)), SingularSystem)
           << size;

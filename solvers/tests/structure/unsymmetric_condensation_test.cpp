@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "constants.hpp"
+#include "dense_algebra.hpp"
 #include "support/refusal.hpp"
 #include "support/unsymmetric_cases.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -12,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using LongComplex = std::complex<long double>;
-using LongMatrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
+using LongMatrix = oracle::LongComplexMatrix;
 
 const ImpedanceCoefficients given_factors{Complex(-3.0, 0.2), Complex(0.1, 2.0), Complex(1.0, 0.05)};
 const ImpedanceCoefficients given_rates{Complex(-1.0, 0.1), Complex(0.0, 1.0), Complex(0.3, -0.2)};
@@ -33,7 +32,7 @@ struct Exact {
     const LongMatrix directions = Eigen::MatrixXd(s.contact_directions).cast<LongComplex>();
     LongMatrix right(s.size(), s.contacts() + 1);
     right << directions.transpose(), Eigen::MatrixXd(s.load).cast<LongComplex>();
-    const LongMatrix inverse = combined(s, given_factors).inverse();
+    const LongMatrix inverse = oracle::inverse(combined(s, given_factors));
     response = directions * inverse * right;
     slope = -directions * inverse * combined(s, given_rates) * inverse * right;
     full = inverse * right;

@@ -1,9 +1,9 @@
 #pragma once
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <random>
 
+#include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
 
@@ -60,11 +60,11 @@ inline Eigen::MatrixXd state_matrix(const LinearStructure& structure, const Eige
   const Eigen::MatrixXd rows(structure.contact_directions);
   const Eigen::MatrixXd stiffness =
       Eigen::MatrixXd(structure.stiffness) + rows.transpose() * contact.asDiagonal() * rows;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> mass{Eigen::MatrixXd(structure.mass)};
+  const Eigen::MatrixXd inertia(structure.mass), damping(structure.damping);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   matrix.topRightCorner(n, n).setIdentity();
-  matrix.bottomLeftCorner(n, n) = -mass.solve(stiffness);
-  matrix.bottomRightCorner(n, n) = -mass.solve(Eigen::MatrixXd(structure.damping));
+  matrix.bottomLeftCorner(n, n) = -oracle::solve(inertia, stiffness);
+  matrix.bottomRightCorner(n, n) = -oracle::solve(inertia, damping);
   return matrix;
 }
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <complex>
 
 #include "constants.hpp"
+#include "dense_algebra.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -36,7 +36,8 @@ Eigen::VectorXd free_motion(const LinearStructure& chain, int points) {
   const Eigen::MatrixXcd impedance = Eigen::MatrixXcd(chain.stiffness.cast<std::complex<double>>()) +
                                      rate * Eigen::MatrixXcd(chain.damping.cast<std::complex<double>>()) +
                                      rate * rate * Eigen::MatrixXcd(chain.mass.cast<std::complex<double>>());
-  const Eigen::VectorXcd amplitudes = impedance.partialPivLu().solve(chain.load.cast<std::complex<double>>());
+  const Eigen::VectorXcd amplitudes =
+      oracle::solve(impedance, Eigen::VectorXcd(chain.load.cast<std::complex<double>>()));
   return Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index l) {
     return std::real(amplitudes[2] * std::polar(1.0, two_pi * double(l) / points));
   });
