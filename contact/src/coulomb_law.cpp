@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -46,12 +47,22 @@ void close_period(FrictionMarch& march) {
 // A step of the tangents in series with flexibilities: f = return(f_before, k (travel - h f)).
 struct SeriesStep {
   double stiffness, first_limit, last_limit;
+  double share;  // of the step in contact
   Pair force, travel, flexibility;
 };
 
 Pair increment_for(const SeriesStep& step, const Pair& force) {
   return {step.stiffness * (step.travel[0] - step.flexibility[0] * force[0]),
           step.stiffness * (step.travel[1] - step.flexibility[1] * force[1])};
+}
+
+// Rigid friction in series with springs: v goes straight, and f = return(f_before, (v - v_before) / h).
+Pair end_of_rigid(const SeriesStep& step, int tangents) {
+  Pair increment{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(tangents); ++i)
+    increment[i] = step.share * (step.travel[i] / step.flexibility[i] - step.force[i]);
+  return detail::return_mapping({step.force, increment, step.first_limit, step.last_limit}, tangents, false)
+      .force;
 }
 
 // The cut at the limit commutes with the series.
@@ -87,7 +98,8 @@ CoulombLaw::CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> n
     : parameters_(std::move(parameters)), normal_(normal) {
   constexpr const char* who = "CoulombLaw";
   detail::require_at_least(who, "friction", parameters_.friction, 0.0, detail::Bound::closed);
-  detail::require_positive(who, "tangential_stiffness", parameters_.tangential_stiffness);
+  if (!std::isinf(parameters_.tangential_stiffness) || parameters_.tangential_stiffness < 0.0)
+    detail::require_positive(who, "tangential_stiffness", parameters_.tangential_stiffness);
   detail::require_at_least(who, "normal_load", parameters_.normal_load, 0.0, detail::Bound::closed);
   if (parameters_.tangents < 1 || parameters_.tangents > 2)
     detail::reject(who, "tangents", parameters_.tangents, "1 or 2");
@@ -105,11 +117,30 @@ double CoulombLaw::raw_normal_force(double normal_displacement) const {
   return parameters_.normal_load + normal_->stiffness() * (normal_displacement - normal_->gap());
 }
 
+CoulombLaw CoulombLaw::resolvent(std::span<const double> flexibility) const {
+  constexpr const char* who = "CoulombLaw";
+  constexpr double rounding = 1e-12;
+  detail::require_length(who, "flexibility", flexibility.size(), static_cast<std::size_t>(rows()));
+  for (const double one : flexibility) detail::require_positive(who, "flexibility", one);
+  const std::span<const double> tangential = flexibility.subspan(static_cast<std::size_t>(normal_rows()));
+  if (tangents() == 2 && std::abs(tangential[1] - tangential[0]) > rounding * tangential[0])
+    detail::reject(who, "flexibility of the second tangent", tangential[1], "that of the first one");
+  FrictionParameters series = parameters_;
+  series.tangential_stiffness = 1.0 / (1.0 / tangential_stiffness() + tangential[0]);
+  if (!normal_) return CoulombLaw(std::move(series));
+  const double yielding = 1.0 + normal_stiffness() * flexibility[0];
+  series.normal_load /= yielding;
+  return CoulombLaw(std::move(series), LinearLaw(normal_stiffness() / yielding, normal_->gap()));
+}
+
 // The first period begins with the slider at rest. With one tangent the force at the end of a period is a
 // translation and cuts of that at its start, the translations adding up to zero, so that a second period
 // changes it no more.
 FrictionPeriod CoulombLaw::over_period(int points, std::span<const double> displacement,
                                        bool with_slopes) const {
+  if (rigid())
+    throw std::invalid_argument(
+        "CoulombLaw: rigid friction has no force at a displacement; take its resolvent, the force form");
   detail::require_length("CoulombLaw", "displacement", displacement.size(),
                          static_cast<std::size_t>(points * rows()));
   FrictionMarch march(*this, points, displacement, with_slopes);
@@ -149,13 +180,15 @@ void CoulombLaw::advance(std::span<const double> before, std::span<const double>
     last = force[0] = std::max(0.0, now);
   }
   const auto begin = static_cast<std::size_t>(normal_rows());
-  SeriesStep step{share * tangential_stiffness(), friction() * first, friction() * last, {}, {}, {}};
+  SeriesStep step{share * tangential_stiffness(), friction() * first, friction() * last, share, {}, {}, {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(tangents()); ++i) {
     step.force[i] = force[begin + i];
     step.travel[i] = v[begin + i] - before[begin + i];
     step.flexibility[i] = flexibility[begin + i];
   }
-  const Pair result = tangents() == 1 ? end_of_one(step) : end_of_two(step);
+  const Pair result = rigid()           ? end_of_rigid(step, tangents())
+                      : tangents() == 1 ? end_of_one(step)
+                                        : end_of_two(step);
   std::copy_n(result.begin(), tangents(), force.begin() + normal_rows());
 }
 
@@ -168,8 +201,11 @@ LawDescription CoulombLaw::description() {
           "normal_gap), 0) of the displacement u along a normal direction",
       .parameters =
           {{"friction", "", "coefficient of friction", at_least_zero},
-           {"tangential_stiffness", "N/m", "stiffness along the tangents while the contact sticks",
-            above_zero},
+           may_lack(
+               {"tangential_stiffness", "N/m",
+                "stiffness along the tangents while the contact sticks; without it friction is rigid, and the "
+                "contact has no mass",
+                above_zero}),
            {"normal_load", "N", "normal force at zero displacement", at_least_zero},
            with_default({"normal_stiffness", "N/m",
                          "stiffness along the normal direction; 0: there is none, and the normal force is "
@@ -187,7 +223,10 @@ LawDescription CoulombLaw::description() {
 }
 
 CoulombLaw CoulombLaw::of(const LawValues& values) {
-  FrictionParameters parameters{number_of(values, "friction"), number_of(values, "tangential_stiffness"),
+  const double stiffness_of_slider = values.contains("tangential_stiffness")
+                                         ? number_of(values, "tangential_stiffness")
+                                         : std::numeric_limits<double>::infinity();
+  FrictionParameters parameters{number_of(values, "friction"), stiffness_of_slider,
                                 number_of(values, "normal_load"),
                                 static_cast<int>(number_of(values, "tangents"))};
   parameters.slider.assign(static_cast<std::size_t>(parameters.tangents), number_of(values, "slider"));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -246,6 +247,47 @@ TEST(CoulombLaw, RefusesWhatMakesNoLaw) {
   EXPECT_NE(message({0.1, 1.0, 0.0}).find("normal_load is 0"), std::string::npos);
   EXPECT_NE(message({0.1, 1.0, 1.0, 3}).find("tangents is 3"), std::string::npos);
   EXPECT_NE(message({0.1, 1.0, 1.0, 2, {0.0}}).find("slider has 1 entries"), std::string::npos);
+}
+
+// v = u + h f: the forces of the law at u are those of its resolvent at v, along straight steps of either.
+TEST(CoulombLaw, ResolventHasTheForcesOfTheLawAtTheEndOfSprings) {
+  std::mt19937 generator(7);
+  constexpr int points = 4096;
+  for (int tangents = 1; tangents <= 2; ++tangents) {
+    const CoulombLaw law = random_law(tangents, true, generator);
+    const std::vector<double> u = random_motion(law.rows(), points, generator);
+    const std::vector<double> flexibility(std::size_t(law.rows()), 0.4);
+    const FrictionPeriod own = law.over_period(points, u, false);
+    std::vector<double> v = u;
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.4 * own.force[i];
+    const FrictionPeriod series = law.resolvent(flexibility).over_period(points, v, false);
+    double largest = 0.0, error = 0.0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      largest = std::max(largest, std::abs(own.force[i]));
+      error = std::max(error, std::abs(series.force[i] - own.force[i]));
+    }
+    EXPECT_LT(error, 2e-3 * largest) << tangents;
+  }
+}
+
+TEST(CoulombLaw, RigidFrictionIsElasticInSeriesWithASpring) {
+  const CoulombLaw rigid({0.5, std::numeric_limits<double>::infinity(), 2.0});
+  EXPECT_TRUE(rigid.rigid());
+  const std::vector<double> flexibility{0.25};
+  const CoulombLaw series = rigid.resolvent(flexibility);
+  EXPECT_FALSE(series.rigid());
+  EXPECT_EQ(series.tangential_stiffness(), 4.0);
+  EXPECT_THROW(rigid.over_period(2, std::vector<double>{0.0, 1.0}, false), std::invalid_argument);
+  EXPECT_THROW(rigid.resolvent(std::vector<double>{0.0}), std::invalid_argument);
+  EXPECT_THROW(rigid.resolvent(std::vector<double>{1.0, 1.0}), std::invalid_argument);
+  // A step of rigid friction behind a spring is that of the elastic law along v.
+  for (const double travel : {0.1, 0.3, 2.0}) {
+    std::vector<double> force{0.4}, other{0.4};
+    const std::vector<double> before{0.2}, v{0.2 + 0.25 * 0.4 + travel}, start{0.2 + 0.25 * 0.4}, none{0.0};
+    rigid.advance(before, v, flexibility, force);
+    series.advance(start, v, none, other);
+    EXPECT_NEAR(force[0], other[0], 1e-14);
+  }
 }
 
 }  // namespace

@@ -132,6 +132,7 @@ def test_friction_rubs_as_the_exact_motion_does():
     one = np.eye(1)
     structure = wb.Structure(one, 0.05 * one, one, [2.0], contacts=[0])
     law = wb.Coulomb(0.5, 1.0, 2.0)
+    assert repr(law).startswith("Coulomb(friction=0.5, tangential_stiffness=1.0, normal_load=2.0")
     response = wb.forced_response(structure, law, 0.6 / np.pi, pair=wb.Pair("fourier", 63, 1024))
     assert response.converged
     motion = response.motion(4096)

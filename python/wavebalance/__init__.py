@@ -25,6 +25,7 @@ from .comparison import Comparison, compare
 from .laws import (
     Bilinear,
     Clearance,
+    Coulomb,
     Cubic,
     Exponential,
     Function,
@@ -50,6 +51,7 @@ __all__ = [
     "Bilinear",
     "Clearance",
     "Comparison",
+    "Coulomb",
     "Cubic",
     "DampedMode",
     "Exponential",

@@ -15,6 +15,7 @@ from . import _core
 __all__ = [
     "Bilinear",
     "Clearance",
+    "Coulomb",
     "Cubic",
     "Exponential",
     "Function",
@@ -124,6 +125,40 @@ class Rigid(Law):
             self._make(gap=gap)
         else:
             self._make(gap=gap, restitution=restitution)
+
+
+class Coulomb(Law):
+    """Coulomb friction along one or two tangents, of a contact that has a normal direction before them or none.
+
+    Parameters: `friction` >= 0; `tangential_stiffness` > 0, N/m, in series with the slider, or None for rigid friction, which
+    needs contacts without mass; `normal_load` >= 0, N, at zero displacement; `normal_stiffness`, N/m, 0 without a normal
+    direction; `slider`, m, its position at rest; `wear_coefficient`, 1/Pa; `tangents`, 1 or 2; `normal_gap`, m.
+    """
+
+    _row = "coulomb"
+
+    def __init__(
+        self,
+        friction: float,
+        tangential_stiffness: float | None,
+        normal_load: float,
+        normal_stiffness: float = 0.0,
+        slider: float = 0.0,
+        wear_coefficient: float = 0.0,
+        tangents: int = 1,
+        normal_gap: float = 0.0,
+    ) -> None:
+        values = {
+            "friction": friction,
+            "tangential_stiffness": tangential_stiffness,
+            "normal_load": normal_load,
+            "normal_stiffness": normal_stiffness,
+            "slider": slider,
+            "wear_coefficient": wear_coefficient,
+            "tangents": tangents,
+            "normal_gap": normal_gap,
+        }
+        self._make(**{name: value for name, value in values.items() if value is not None})
 
 
 class Bilinear(Law):

@@ -37,21 +37,6 @@ Eigen::MatrixXcd waves(Eigen::Index harmonics, int points, Factor factor) {
   return result;
 }
 
-struct MeanShares {
-  double work = 0.0, stick = 0.0, slip = 0.0, open = 0.0;
-};
-
-MeanShares mean_shares(const std::vector<FrictionMeasures>& contacts) {
-  MeanShares mean;
-  for (const FrictionMeasures& one : contacts) {
-    mean.work += one.period.work;
-    mean.stick += one.stick_fraction / double(contacts.size());
-    mean.slip += one.slip_fraction / double(contacts.size());
-    mean.open += one.open_fraction / double(contacts.size());
-  }
-  return mean;
-}
-
 }  // namespace
 
 DampedStudy::DampedStudy(const Scene& scene, const StructureModel& model)
@@ -93,7 +78,7 @@ Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curv
                "max_displacement_m", "min_displacement_m", "rms_displacement_m", "max_abs_displacement_m"});
   for (const solvers::DampedPoint& point : curve.points) {
     const solvers::Motion contacts{point.displacement, {}, point.force};
-    const MeanShares shares = mean_shares(friction_measures(study.scene(), contacts));
+    const FrictionShares shares = friction_shares(friction_measures(study.scene(), contacts));
     const Eigen::MatrixXd& u = point.displacement;
     table.append_row({point.amplitude / study.slip_amplitude(), point.amplitude,
                       point.omega / (2.0 * std::numbers::pi), point.omega / study.mode().linear_omega(),

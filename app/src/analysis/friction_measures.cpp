@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <variant>
 
 #include "wavebalance/app/scene/contacts.hpp"
@@ -10,21 +11,44 @@
 namespace wavebalance::app {
 namespace {
 
-FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers::Motion& contacts) {
-  contact::CoulombLaw law =
-      std::get<contact::CoulombLaw>(contact::law_entry(contact.law).make(contact.values));
-  const Eigen::MatrixXd rows = contacts.displacement.middleRows(row, law.rows()).transpose();
-  contact::FrictionPeriod period =
-      law.over_period(contacts.points(), {rows.data(), static_cast<std::size_t>(rows.size())}, false);
-  const auto share = [&](contact::FrictionState state) {
-    return double(std::count(period.state.begin(), period.state.end(), state)) / contacts.points();
+double share_of(const contact::FrictionPeriod& period, contact::FrictionState state) {
+  return double(std::count(period.state.begin(), period.state.end(), state)) / double(period.state.size());
+}
+
+contact::CoulombLaw law_of(const SceneContact& contact) {
+  return std::get<contact::CoulombLaw>(contact::law_entry(contact.law).make(contact.values));
+}
+
+/// Rigid friction in series with springs has the same motion of the slider, of displacements u + flexibility
+/// f: springs so stiff that their deflection is small, and so soft that errors of u while it sticks are small
+/// forces.
+contact::FrictionPeriod period_of(const contact::CoulombLaw& law, int row, const solvers::Motion& contacts) {
+  constexpr double share = 0.05;
+  Eigen::MatrixXd rows = contacts.displacement.middleRows(row, law.rows()).transpose();
+  const auto values = [&] {
+    return std::span<const double>(rows.data(), static_cast<std::size_t>(rows.size()));
   };
+  if (!law.rigid()) return law.over_period(contacts.points(), values(), false);
+  const Eigen::MatrixXd force = contacts.force.middleRows(row, law.rows()).transpose();
+  const Eigen::Index first = law.normal_rows();
+  const double largest = force.rightCols(law.tangents()).cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd tangential = rows.rightCols(law.tangents());
+  const double range = (tangential.colwise().maxCoeff() - tangential.colwise().minCoeff()).maxCoeff();
+  const double flexibility = largest > 0.0 && range > 0.0 ? share * range / largest : 1.0;
+  rows += flexibility * force;
+  const std::vector<double> springs(static_cast<std::size_t>(first + law.tangents()), flexibility);
+  return law.resolvent(springs).over_period(contacts.points(), values(), false);
+}
+
+FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers::Motion& contacts) {
+  contact::CoulombLaw law = law_of(contact);
+  contact::FrictionPeriod period = period_of(law, row, contacts);
   FrictionMeasures measures{row,
                             std::move(law),
                             {},
-                            share(contact::FrictionState::stick),
-                            share(contact::FrictionState::slip),
-                            share(contact::FrictionState::open)};
+                            share_of(period, contact::FrictionState::stick),
+                            share_of(period, contact::FrictionState::slip),
+                            share_of(period, contact::FrictionState::open)};
   measures.slip = std::accumulate(period.slip.begin(), period.slip.end(), 0.0);
   if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end())
     measures.wear = std::get<double>(wears->second) * period.normal_work;
@@ -41,6 +65,48 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
     if (has_friction(places[i].law) && places[i].place == 0)
       all.push_back(measures_of(places[i], static_cast<int>(i), contacts));
   return all;
+}
+
+FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
+  FrictionShares shares;
+  const double count = double(contacts.size());
+  for (const FrictionMeasures& one : contacts) {
+    shares.work += one.period.work;
+    shares.stick += one.stick_fraction / count;
+    shares.slip += one.slip_fraction / count;
+    shares.open += one.open_fraction / count;
+  }
+  return shares;
+}
+
+// In the force form the unknown is that of the laws in series with its springs.
+std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::FrequencySweep& curve) {
+  if (!has_friction(scene)) return {};
+  const std::vector<SceneContact> places = contacts_of(scene);
+  std::vector<std::pair<std::size_t, contact::CoulombLaw>> laws;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!has_friction(places[i].law) || places[i].place != 0) continue;
+    contact::CoulombLaw law = law_of(places[i]);
+    if (curve.series_flexibility.size() > 0)
+      law = law.resolvent({curve.series_flexibility.data() + i, static_cast<std::size_t>(law.rows())});
+    laws.emplace_back(i, std::move(law));
+  }
+  std::vector<FrictionShares> along;
+  for (const solvers::SweepPoint& point : curve.points) {
+    const std::size_t points = static_cast<std::size_t>(point.unknown.size()) / places.size();
+    FrictionShares shares;
+    for (const auto& [row, law] : laws) {
+      const std::span<const double> rows(point.unknown.data() + row * points,
+                                         static_cast<std::size_t>(law.rows()) * points);
+      const contact::FrictionPeriod period = law.over_period(static_cast<int>(points), rows, false);
+      shares.work += period.work;
+      shares.stick += share_of(period, contact::FrictionState::stick) / double(laws.size());
+      shares.slip += share_of(period, contact::FrictionState::slip) / double(laws.size());
+      shares.open += share_of(period, contact::FrictionState::open) / double(laws.size());
+    }
+    along.push_back(shares);
+  }
+  return along;
 }
 
 }  // namespace wavebalance::app

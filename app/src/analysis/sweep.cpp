@@ -6,13 +6,15 @@
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 bool keeps_unknowns(const Scene& scene) {
-  return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty();
+  return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty() ||
+         has_friction(scene);
 }
 
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.
@@ -46,6 +48,10 @@ Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Ob
   return sweep;
 }
 
+void add_friction(const Scene& scene, Sweep& sweep) {
+  if (has_friction(scene)) sweep.friction = {friction_along(scene, sweep.curve)};
+}
+
 }  // namespace
 
 bool Sweep::stopped() const {
@@ -77,6 +83,7 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
   require_start_fits(start, scene);
   const auto begin = std::chrono::steady_clock::now();
   Sweep sweep = arc_length_sweep(scene, model, observer, start);
+  add_friction(scene, sweep);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }
@@ -94,6 +101,7 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
   Sweep sweep;
   sweep.curve = compose_problem(scene, model).amplitude_sweep(scene.forcing.frequency, options);
   sweep.amplitude_unit = load.unit;
+  add_friction(scene, sweep);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return sweep;
 }
@@ -112,6 +120,8 @@ void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Ob
   options.observer = observer;
   const auto pairs = [&](int periods) { return make_pair(with_longer_period(scene, periods).time); };
   sweep.branches = problem.branches(sweep.curve, sweep.stability, pairs, options);
+  for (const solvers::Branch& branch : sweep.branches)
+    if (has_friction(scene)) sweep.friction.push_back(friction_along(scene, branch.curve));
 }
 
 }  // namespace

@@ -269,6 +269,7 @@ std::string type_in_words(const std::string& type) {
       {"neimark_sacker", "Neimark-Sacker points, where quasi-periodic motions begin"},
       {"grazing", "Grazing points, where an interval of contact appears, vanishes, splits or joins another"},
       {"branch", "Branch points, where another curve begins"},
+      {"slip", "First slip, where all contacts stick up to there or from there on"},
       {"krein_collision",
        "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it, so that a small "
        "disturbance begins to oscillate and grow"}};
@@ -295,7 +296,8 @@ std::vector<double> changes_of_stability(const Summary& summary, const std::stri
   const auto* points = value_in<Table>(summary, quantities::special_points.name);
   for (std::size_t i = 0; points != nullptr && i < points->rows(); ++i)
     if (const auto* place = std::get_if<double>(&points->at(i, column));
-        place != nullptr && cell_text(points->at(i, "type")) != "grazing")
+        place != nullptr && cell_text(points->at(i, "type")) != "grazing" &&
+        cell_text(points->at(i, "type")) != "slip")
       places.push_back(*place);
   return places;
 }

@@ -98,6 +98,24 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
   refuse(scene.analysis.exact, "analysis.exact", "false");
 }
 
+/// Rigid friction is solved in the form of the force, at contacts without mass.
+void check_rigid_friction(const Document& document, const Scene& scene) {
+  if (!names_rigid_friction(scene.contact)) return;
+  const std::string rigid = "not with friction without contact.tangential_stiffness, which is rigid: ";
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document, {"analysis.type", "contact.law"},
+              rigid + "a mode begins with contacts that stick; expected contact.tangential_stiffness");
+  if (scene.contact.form == ContactForm::displacement)
+    fail_rule(document, {"contact.form"},
+              rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
+  if (scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
+    fail_rule(
+        document, {"contact.mass"},
+        rigid +
+            "a contact with mass reverses at once, which a balance resolves slowly; expected \"redistribute\", "
+            "or contact.tangential_stiffness");
+}
+
 /// The directions of a contact with friction fit its law.
 void check_friction_pair(const Document& document, const Scene& scene, const SceneContact& contact) {
   const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
@@ -143,6 +161,7 @@ void check_laws(const Document& document, const Scene& scene) {
   if (has_friction(scene)) check_friction_analysis(document, scene);
   for (const SceneContact& contact : contacts)
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
+  check_rigid_friction(document, scene);
   check_laws_exist(document, contacts);
   for (const SceneContact& contact : contacts) {
     if (scene.analysis.type == AnalysisType::nonlinear_mode && !has_friction(scene))

@@ -11,11 +11,12 @@ namespace {
 using Type = solvers::SpecialPointType;
 
 /// The kinds in the order of the legend, with their names there.
-constexpr std::array<std::pair<Type, const char*>, 6> kinds{{{Type::fold, "fold"},
+constexpr std::array<std::pair<Type, const char*>, 7> kinds{{{Type::fold, "fold"},
                                                              {Type::period_doubling, "period doubling"},
                                                              {Type::neimark_sacker, "Neimark-Sacker point"},
                                                              {Type::branch, "branch point"},
                                                              {Type::grazing, "grazing"},
+                                                             {Type::slip, "first slip"},
                                                              {Type::krein_collision, "Krein collision"}}};
 
 struct Vertex {

@@ -110,7 +110,7 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
                               }));
   record.summary.emplace_back(quantities::damping_ratio,
                               value([](const auto& one) { return one.damping_ratio(); }));
-  append_friction(record, scene, response);
+  append_friction(record, scene, response, frequency);
   if (point == nullptr) return record;
   record.response = response_table(response.leading());
   add_contacts(record, response.contacts, response.contact);

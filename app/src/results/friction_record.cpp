@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
@@ -57,9 +58,36 @@ void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contac
       stuck.size() == 1 ? "s" : ""));
 }
 
+/// The friction work beside the work that the contact forces take from the motion in a period, which is that
+/// of the load less that of the damping: their difference is an error of the discretisation. Missing without
+/// slip and for trial functions without velocities.
+double energy_error(const std::vector<FrictionMeasures>& contacts, const solvers::Motion& motion,
+                    double period) {
+  double work = 0.0, power = 0.0;
+  for (const FrictionMeasures& one : contacts) {
+    work += one.period.work;
+    power += motion.force.middleRows(one.row, one.law.rows())
+                 .cwiseProduct(motion.velocity.middleRows(one.row, one.law.rows()))
+                 .sum() /
+             motion.points();
+  }
+  if (!(work > 0.0) || power == 0.0) return missing;
+  return std::abs(power * period - work) / work;
+}
+
+void append_energy_error(Record& record, double error) {
+  constexpr double large = 1e-3;
+  record.summary.emplace_back(quantities::friction_energy_error, error);
+  if (error > large)
+    record.warnings.push_back(fmt::format(
+        "The friction work and the work of the load less that of the damping differ by {:.2g} of it: more "
+        "time.functions and time.quadrature_points resolve where the contacts stick and slip.",
+        error));
+}
+
 }  // namespace
 
-void append_friction(Record& record, const Scene& scene, const Response& response) {
+void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
   if (!has_friction(scene)) return;
   const std::vector<FrictionMeasures> contacts =
       friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
@@ -73,6 +101,8 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   if (wear > 0.0) record.summary.emplace_back(quantities::wear, wear);
   record.summary.emplace_back(quantities::friction, table_of(contacts));
   if (!known) return;
+  if (frequency > 0.0)
+    append_energy_error(record, energy_error(contacts, response.contacts, response.periods / frequency));
   warn_of_history(record, contacts);
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});

@@ -49,7 +49,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     contact_fraction{"contact_fraction", result},
     contact_dissipation{"contact_dissipation_J", result, "J", "contact dissipation"},
     friction_work{"friction_work_J", result, "J", "friction work"}, wear{"wear_m3", result, "m3", "wear"},
-    friction{"friction", result}, impacts{"impacts", result},
+    friction{"friction", result}, friction_energy_error{"friction_energy_error"}, impacts{"impacts", result},
     max_impulse{"max_impulse_Ns", result, "N s", "max impulse"},
     max_impact_velocity{"max_impact_velocity_m_per_s", result, "m/s", "max impact velocity"},
     impact_energy{"impact_energy_J", result, "J", "impact energy"},

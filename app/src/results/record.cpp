@@ -109,7 +109,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
                                     response.iterations, response.unknowns, response.wall_seconds);
   append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
-  append_friction(record, scene, response);
+  append_friction(record, scene, response, scene.forcing.frequency);
   append_impacts(record, scene, response);
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);

@@ -48,7 +48,7 @@ std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepPa
 
 /// Which columns a curve's table has beside those of its points.
 struct MoreColumns {
-  bool stability, phases, branches, impacts;
+  bool stability, phases, branches, impacts, friction;
 };
 
 std::vector<std::string> columns_of(const std::string& place, const MoreColumns& more) {
@@ -56,6 +56,8 @@ std::vector<std::string> columns_of(const std::string& place, const MoreColumns&
   columns.front() = place;
   if (more.stability) columns.insert(columns.end(), {"unstable", "contacts"});
   if (more.impacts) columns.insert(columns.end(), {"impacts", "max_impulse_Ns", "impact_energy_J"});
+  if (more.friction)
+    columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
   if (more.branches) columns.insert(columns.end(), {"branch", "period"});
   if (!more.phases) return columns;
   for (std::string& column : phases_columns()) columns.push_back(std::move(column));
@@ -80,6 +82,10 @@ void append_rows(Table& table, const Sweep& sweep, std::size_t number, const Mor
       const PointImpacts& impacts = sweep.impacts[number][i];
       row.insert(row.end(), {std::int64_t{impacts.count}, impacts.largest_impulse, impacts.energy_lost});
     }
+    if (more.friction) {
+      const FrictionShares& friction = sweep.friction[number][i];
+      row.insert(row.end(), {friction.work, friction.stick, friction.slip, friction.open});
+    }
     if (more.branches)
       row.insert(row.end(), {static_cast<std::int64_t>(number), std::int64_t{periods * sweep.periods}});
     if (more.phases) {
@@ -103,7 +109,8 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   const SweepPhases* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
-                         phases != nullptr && !phases->points.empty(), with_branches, !sweep.impacts.empty()};
+                         phases != nullptr && !phases->points.empty(), with_branches, !sweep.impacts.empty(),
+                         !sweep.friction.empty()};
   Table table(columns_of(sweep_axis(sweep).column(), more));
   append_rows(table, sweep, 0, more);
   for (std::size_t i = 1; with_branches && i <= sweep.branches.size(); ++i)

@@ -43,6 +43,14 @@ bool names_friction(const Contact& contact) {
                      [](const ContactPair& pair) { return has_friction(pair.law); });
 }
 
+bool names_rigid_friction(const Contact& contact) {
+  const auto rigid = [](const auto& one) {
+    return has_friction(one.law) && !one.values.contains("tangential_stiffness");
+  };
+  return contact.pairs.empty() ? rigid(contact)
+                               : std::any_of(contact.pairs.begin(), contact.pairs.end(), rigid);
+}
+
 bool has_friction(std::string_view law) { return contact::law_entry(law).acts_over_period; }
 bool has_impacts(const Contact& contact) {
   return is_rigid(contact.law) && contact.values.contains("restitution");
@@ -90,7 +98,8 @@ std::vector<std::string> input_files(const Scene& scene) {
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (integrates_in_time(type) || has_impacts(scene.contact)) return false;
-  const bool rigid = is_rigid(scene.contact.law) && type != AnalysisType::nonlinear_mode;
+  const bool rigid = (is_rigid(scene.contact.law) || names_rigid_friction(scene.contact)) &&
+                     type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||
          (scene.contact.mass == ContactMass::automatic && rigid && !scene.structure.massless_tip);
 }

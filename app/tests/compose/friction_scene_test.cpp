@@ -88,7 +88,7 @@ TEST(FrictionScene, OfASliderThatBeginsToSlipIsSweptToTheEndByLongSteps) {
 }
 
 TEST(FrictionScene, IsWrittenAndReadBackEqual) {
-  for (const char* name : {"slider.toml", "lift_off.toml", "bolted_beam.toml"}) {
+  for (const char* name : {"slider.toml", "lift_off.toml", "bolted_beam.toml", "bolted_beam_mode.toml"}) {
     const Scene scene = scene_of(name);
     EXPECT_EQ(parse_scene(write_scene(scene), (scenes / "written.toml").string()), scene) << name;
     EXPECT_EQ(complete_scene(scene), scene) << name;
@@ -169,13 +169,64 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
            Case{"lift_off.toml", "contact.law=linear", "contact.friction", ""},
            Case{"slider.toml", "analysis.type=motions", "analysis.type", "forced_response"},
            Case{"slider.toml", "analysis.phases=true", "analysis.phases", "false"},
-           Case{"slider.toml", "contact.form=force", "contact.form", "displacement"},
+           Case{"slider.toml", "contact.tangential_stiffness=inf", "contact.tangential_stiffness", "> 0"},
        }) {
     const SceneError::Details details = error(one.scene, {one.setting});
     const std::string all = details.key + " " + details.allowed;
     EXPECT_NE(details.key.find(one.key), std::string::npos) << one.setting << ": " << details.key;
     EXPECT_NE(all.find(one.expected), std::string::npos) << one.setting << ": " << all;
   }
+}
+
+// Two beams glued at the joint and two that slide there bound the frequency; both have hardly any damping.
+TEST(FrictionScene, OfTheModeOfABoltedBeamHasItsDampingFromTheJoint) {
+  const Record record =
+      analyse(changed("bolted_beam_mode.toml", {"analysis.points=20", "analysis.largest_amplitude=4"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  const std::vector<double> damping = record.backbone.numbers("damping_ratio");
+  EXPECT_NEAR(damping.front(), value_of<double>(record.summary, "linear_damping_ratio"), 1e-6);
+  EXPECT_GT(value_of<double>(record.summary, "largest_damping_ratio"), 0.05);
+  EXPECT_LT(value_of<double>(record.summary, "least_frequency_ratio"), 0.95);
+}
+
+// The beams of ten contacts whose springs of 2e7 N/m are left out: the mass of the contacts goes to the
+// beams, which give way there by springs of their own.
+TEST(FrictionScene, WithoutTangentialStiffnessIsRigidAndMovesTheMassOfItsContacts) {
+  const std::vector<std::string> settings{"analysis.type=forced_response", "forcing.frequency=145",
+                                          "structure.kept_modes=30"};
+  std::vector<std::string> sweeping{"analysis.frequency_from", "analysis.frequency_to", "analysis.first_step",
+                                    "analysis.largest_step"};
+  const auto at = [&](std::vector<std::string> removed) {
+    removed.insert(removed.end(), sweeping.begin(), sweeping.end());
+    return load_scene((scenes / "bolted_beam.toml").string(), settings, removed);
+  };
+  const Record rigid = analyse(at({"contact.tangential_stiffness"}));
+  ASSERT_TRUE(rigid.converged) << rigid.status;
+  EXPECT_EQ(value_of<std::string>(rigid.summary, "form"), "force");
+  EXPECT_LT(value_of<double>(rigid.summary, "contact_mass_frequency_change"), 0.05);
+  EXPECT_GT(value_of<double>(rigid.summary, "friction_work_J"), 0.0);
+  const Record elastic = analyse(at({}));
+  ASSERT_TRUE(elastic.converged) << elastic.status;
+  EXPECT_EQ(value_of<std::string>(elastic.summary, "form"), "displacement");
+  EXPECT_LT(value_of<double>(elastic.summary, "friction_energy_error"), 0.05);
+}
+
+TEST(FrictionScene, OfASweepHasWorkAndSharesAtEachPointAndItsFirstSlip) {
+  const double omega = 1.2, exact = std::hypot(2.0 - omega * omega, 0.05 * omega);
+  const Record record =
+      analyse(changed("slider.toml", {"analysis.type=amplitude_sweep", "analysis.amplitude_from=0.2",
+                                      "analysis.amplitude_to=2", "time.functions=31",
+                                      "time.quadrature_points=256", "analysis.largest_step=0.1"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  const std::vector<double> work = record.sweep.numbers("friction_work_J"),
+                            slip = record.sweep.numbers("slip_fraction");
+  EXPECT_EQ(work.front(), 0.0);
+  EXPECT_NEAR(work.back(), 16.12103657, 1e-2);
+  EXPECT_NEAR(slip.back(), 0.711779414, 1e-2);
+  const Table points = *value_in<Table>(record.summary, "special_points");
+  const Table slips = points.where("type", "slip");
+  ASSERT_EQ(slips.rows(), 1U);
+  EXPECT_NEAR(slips.numbers("amplitude_N")[0], exact, 1e-7 * exact);
 }
 
 TEST(FrictionScene, OfAModeWithWrongKeysNamesTheKey) {

@@ -36,6 +36,24 @@ Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
   return problem.contact_free_response().segment(contact * problem.points(), problem.points());
 }
 
+// Friction is exact where the springs are those that the structure itself has there at high frequencies, with
+// its masses held: K - E P / epsilon then decays with the frequency. Tangents of one contact take their mean.
+void set_flexibility_of_friction(const CondensedProblem& problem, const ContactLaws& laws,
+                                 Eigen::VectorXd& flexibility) {
+  const Eigen::VectorXd held = compliance_beside_masses(problem.structure());
+  for (int c = 0; c < problem.contacts(); c += laws[c].rows()) {
+    const auto friction = laws[c].friction();
+    if (!friction) continue;
+    const Eigen::Index first = c + friction->normal_rows;
+    const double own = held.segment(first, friction->tangents).mean();
+    if (own > 0.0)
+      flexibility.segment(first, friction->tangents).setConstant(own);
+    else
+      flexibility.segment(first, friction->tangents)
+          .setConstant(flexibility.segment(first, friction->tangents).mean());
+  }
+}
+
 }  // namespace
 
 std::string_view to_string(ContactForm form) {
@@ -79,7 +97,10 @@ Eigen::VectorXd contact_series_flexibility(const CondensedProblem& problem, cons
   for (int c = 0; c < problem.contacts() && !needed && laws.unilateral(); ++c)
     needed = compliance[c] * working_stiffness(laws[c], free_of(problem, c), compliance[c]) > stiff;
   if (!needed) return {};
-  return (2.0 * problem.high_frequency_compliance()).cwiseMin(compliance / relative_epsilon);
+  Eigen::VectorXd flexibility =
+      (2.0 * problem.high_frequency_compliance()).cwiseMin(compliance / relative_epsilon);
+  if (laws.act_over_period()) set_flexibility_of_friction(problem, laws, flexibility);
+  return flexibility;
 }
 
 }  // namespace wavebalance::solvers

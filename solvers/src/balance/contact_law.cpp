@@ -39,7 +39,7 @@ void AnyContactLaw::refuse_steps() {
 }
 
 bool AnyContactLaw::is_rigid() const {
-  if (acts_over_period()) return false;
+  if (acts_over_period()) return model_->is_rigid_over_period();
   const double at = gap();
   return std::isfinite(at) && std::isinf(tangent(at));
 }

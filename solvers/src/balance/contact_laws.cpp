@@ -49,8 +49,12 @@ bool ContactLaws::have_finite_force() const {
 
 std::vector<int> ContactLaws::rigid(int contacts) const {
   std::vector<int> found;
-  for (int c = 0; c < contacts; ++c)
-    if ((*this)[c].is_rigid()) found.push_back(c);
+  for (int c = 0; c < contacts; c += (*this)[c].rows()) {
+    const AnyContactLaw& law = (*this)[c];
+    if (!law.is_rigid()) continue;
+    const auto friction = law.friction();
+    for (int row = friction ? friction->normal_rows : 0; row < law.rows(); ++row) found.push_back(c + row);
+  }
   return found;
 }
 
@@ -98,7 +102,14 @@ bool ContactLaws::advance_in_steps() const {
 
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
   std::vector<AnyContactLaw> laws;
-  for (int c = 0; c < flexibility.size(); ++c) laws.emplace_back(ResolventLaw((*this)[c], flexibility[c]));
+  for (int c = 0; c < flexibility.size(); c += (*this)[c].rows()) {
+    const AnyContactLaw& law = (*this)[c];
+    if (law.acts_over_period())
+      laws.push_back(
+          law.over_period_resolvent({flexibility.data() + c, static_cast<std::size_t>(law.rows())}));
+    else
+      laws.emplace_back(ResolventLaw(law, flexibility[c]));
+  }
   return ContactLaws(std::move(laws));
 }
 

@@ -52,10 +52,10 @@ ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen:
       jacobian_(std::make_unique<JacobianSolver>(rates_.get())) {
   laws_.require(problem.contacts());
   if (operator_.is_force_form()) {
-    if (laws_.depend_on_velocity() || laws_.act_over_period())
+    if (laws_.depend_on_velocity() || (laws_.act_over_period() && !laws_.have_force_form()))
       throw std::invalid_argument(
-          "ContactSystem: the force of a law depends on the velocity or on the whole period; it is solved in the "
-          "displacement form");
+          "ContactSystem: the force of a law depends on the velocity, or on the whole period without a resolvent; it is "
+          "solved in the displacement form");
     laws_ = laws_.resolvents(operator_.series_flexibility());
   }
   for (int c = 0; c < problem.contacts(); ++c) {

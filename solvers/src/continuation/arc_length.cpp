@@ -152,6 +152,16 @@ bool ArcLength::is_ahead(const CurvePoint& candidate, double max_turn) const {
          inner(point_, way) >= std::cos(options_.max_angle) * std::sqrt(inner(way, way));
 }
 
+// Where contacts begin to slip the curve has a corner that no sample says beforehand: a short step passes it,
+// to a point that is not behind.
+bool ArcLength::is_beyond_corner(const CurvePoint& candidate) const {
+  constexpr double short_steps = 10.0, longest_chord = 3.0;  // over min_step, over the step
+  if (!system_.laws().act_over_period() || step_ > short_steps * options_.min_step) return false;
+  const CurvePoint way = chord(point_, candidate);
+  const double length = std::sqrt(inner(way, way));
+  return length <= longest_chord * step_ && inner(point_, way) > 0.0 && inner(candidate, way) > 0.0;
+}
+
 // The tangents of a curve with many kinks vary about its direction, which the chord shows.
 double ArcLength::max_turn() const {
   return curve().many_samples ? 2.0 * options_.max_angle : options_.max_angle;
@@ -206,8 +216,8 @@ bool ArcLength::step_far() {
   double nearest = options_.max_step;
   crossing_ahead(nearest);
   return halve_until_taken(step_, options_.min_step, [&] {
-    const bool found =
-        correct(point_, step_, nullptr, candidate, corrections) && is_ahead(candidate, max_turn());
+    const bool found = correct(point_, step_, nullptr, candidate, corrections) &&
+                       (is_ahead(candidate, max_turn()) || is_beyond_corner(candidate));
     if (!found || (!orientation_unknown_ && candidate.orientation * point_.orientation < 0))
       return step_ < few * nearest ? StepAttempt::lost : StepAttempt::too_long;
     const bool turns = point_.parameter_tangent * candidate.parameter_tangent <= 0.0;

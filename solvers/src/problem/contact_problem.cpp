@@ -7,6 +7,7 @@
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
+#include "wavebalance/solvers/stability/slip_points.hpp"
 #include "wavebalance/solvers/stability/subharmonic_response.hpp"
 
 namespace wavebalance::solvers {
@@ -234,7 +235,21 @@ CurveStability ContactProblem::stability(const FrequencySweep& curve, int output
   options.output_points = output_points;
   options.observer = observer;
   condensed_.set_load_scale(curve.points.front().load_scale);
-  return curve_stability(condensed_, laws_, curve, *dynamics(), options);
+  CurveStability stability = curve_stability(condensed_, laws_, curve, *dynamics(), options);
+  if (!stability.cancelled) add_slip_points(curve, output_points, stability);
+  return stability;
+}
+
+// In the order of the curve; what else happens between the same neighbours comes after the first slip.
+void ContactProblem::add_slip_points(const FrequencySweep& curve, int output_points,
+                                     CurveStability& stability) {
+  condensed_.set_load_scale(curve.points.front().load_scale);
+  for (SpecialPoint& point : slip_points(condensed_, laws_, curve, output_points)) {
+    const auto after =
+        std::find_if(stability.special_points.begin(), stability.special_points.end(),
+                     [&](const SpecialPoint& other) { return other.next_point >= point.next_point; });
+    stability.special_points.insert(after, std::move(point));
+  }
 }
 
 std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const CurveStability& stability,

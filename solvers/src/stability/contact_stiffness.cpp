@@ -286,6 +286,12 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   PeriodicStiffness stiffness;
   int rigid = 0, elastic = 0;  // intervals of contact
   const auto contacts = std::make_shared<std::vector<ContactAlong>>();
+  for (int c = 0; c < count; ++c)
+    if (laws[c].acts_over_period() && unknowns.flexibility.size() > 0) {
+      stiffness.status =
+          laws[c].is_rigid() ? StabilityStatus::no_finite_stiffness : StabilityStatus::unsupported_law;
+      return stiffness;
+    }
   if (!add_friction(trial, laws, unknowns, stiffness)) {
     stiffness.status = StabilityStatus::unsupported_law;
     return stiffness;

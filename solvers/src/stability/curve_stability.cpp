@@ -282,6 +282,7 @@ std::string_view to_string(SpecialPointType type) {
                                             {neimark_sacker, "neimark_sacker"},
                                             {grazing, "grazing"},
                                             {branch, "branch"},
+                                            {slip, "slip"},
                                             {krein_collision, "krein_collision"}},
                                            type);
 }

@@ -71,4 +71,26 @@ bool contacts_are_massless(const LinearStructure& structure, const std::vector<i
   return rank_of(detail::product(part.directions, moved), size) == rank;
 }
 
+Eigen::VectorXd compliance_beside_masses(const LinearStructure& structure) {
+  std::vector<int> massless;
+  for (int i = 0; i < structure.size(); ++i)
+    if (!has_mass(structure.mass, i)) massless.push_back(i);
+  Eigen::VectorXd compliance = Eigen::VectorXd::Zero(structure.contacts());
+  if (massless.empty()) return compliance;
+  const Eigen::MatrixXd rows = Eigen::MatrixXd(structure.contact_directions)(Eigen::all, massless);
+  const auto count = static_cast<Index>(massless.size());
+  std::vector<Index> place(static_cast<std::size_t>(structure.size()), -1);
+  for (Index i = 0; i < count; ++i)
+    place[static_cast<std::size_t>(massless[static_cast<std::size_t>(i)])] = i;
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(count, count);
+  for (Index i = 0; i < count; ++i)
+    for (Sparse::InnerIterator entry(structure.stiffness, massless[static_cast<std::size_t>(i)]); entry;
+         ++entry)
+      if (const Index row = place[static_cast<std::size_t>(entry.row())]; row >= 0)
+        stiffness(row, i) = entry.value();
+  const detail::Lu<double> held(stiffness);
+  if (held.is_singular()) return compliance;
+  return rows.cwiseProduct(held.solve(Eigen::MatrixXd(rows.transpose())).transpose()).rowwise().sum();
+}
+
 }  // namespace wavebalance::solvers

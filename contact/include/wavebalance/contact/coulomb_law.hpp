@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,10 +12,10 @@ namespace wavebalance::contact {
 /// What a contact with friction does at an instant.
 enum class FrictionState { open, stick, slip };
 
-/// Elastic Coulomb friction along one or two directions.
+/// Coulomb friction along one or two directions.
 struct FrictionParameters {
   double friction = 0.0;              ///< mu >= 0, the coefficient of friction
-  double tangential_stiffness = 0.0;  ///< k_t > 0, N/m, in series with the slider
+  double tangential_stiffness = 0.0;  ///< k_t > 0, N/m, in series with the slider; infinite: rigid friction
   double normal_load = 0.0;           ///< N0 >= 0, N, the normal force at zero displacement
   int tangents = 1;                   ///< 1 or 2 orthogonal directions
   std::vector<double> slider = {};    ///< m, position of the slider at rest, one per tangent; empty: 0
@@ -49,6 +50,10 @@ struct FrictionPeriod {
 /// of the step; a radial return is of first order. With one tangent the force after one period is periodic
 /// exactly; with two, Newton's method closes the period.
 ///
+/// With an infinite k_t friction is rigid: what its force is at a displacement is not determined, and the law
+/// in series with springs, resolvent(), takes its place. That of a spring h is elastic friction with k_t = 1
+/// / h.
+///
 /// O(rows N), with two tangents and slopes O(rows N memory), memory the samples back to the last reversal of
 /// some. Immutable, may be shared between threads.
 class CoulombLaw {
@@ -67,19 +72,27 @@ class CoulombLaw {
   int normal_rows() const { return normal_ ? 1 : 0; }
   double friction() const { return parameters_.friction; }
   double tangential_stiffness() const { return parameters_.tangential_stiffness; }
+  bool rigid() const { return std::isinf(parameters_.tangential_stiffness); }  ///< along its tangents
   double gap() const { return normal_ ? normal_->gap() : 0.0; }  ///< g0, m; 0 without a normal direction
   /// k_n, N/m; 0 without a normal direction.
   double normal_stiffness() const { return normal_ ? normal_->stiffness() : 0.0; }
   /// N, without the bound at zero: negative where the contact is open. Without a normal direction N0.
   double raw_normal_force(double normal_displacement) const;
 
-  /// The periodic forces of `points` samples of the displacements of all rows, row after row, m.
+  /// The law in series with a spring along each row (flexibility > 0, m/N), of the displacements u +
+  /// flexibility f. Throws std::invalid_argument for another number of flexibilities than rows(), one that is
+  /// not positive and finite, and two tangents of which they differ.
+  CoulombLaw resolvent(std::span<const double> flexibility) const;
+
+  /// The periodic forces of `points` samples of the displacements of all rows, row after row, m. Throws
+  /// std::invalid_argument for rigid friction.
   FrictionPeriod over_period(int points, std::span<const double> displacement, bool with_slopes) const;
 
   /// The forces at the end of a step, over which displacements go straight from `before` and which they
   /// change: the displacements at its end are v - flexibility f, f the force along the same row (flexibility
   /// >= 0, m/N). `force` holds those before the step and receives those after it. All spans have rows()
-  /// entries. With flexibilities of 0 it is the step of over_period().
+  /// entries. With flexibilities of 0 it is the step of over_period(). Rigid friction takes positive ones
+  /// along tangents, and the straight step is then that of v.
   void advance(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
                std::span<double> force) const;
   /// The same of displacements at rest, reached from the slider's position at rest.

@@ -4,6 +4,7 @@
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/contact/coulomb_law.hpp"
+#include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
@@ -21,5 +22,17 @@ struct FrictionMeasures {
 /// The measures of all contacts with friction along a motion of one period, whose rows are the directions of
 /// contact. Empty without such contacts. O(directions instants).
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts);
+
+/// What all contacts with friction do in a period: their work, and the means of their shares of it.
+struct FrictionShares {
+  double work = 0.0;                           ///< J
+  double stick = 0.0, slip = 0.0, open = 0.0;  ///< of the period
+};
+
+FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);
+
+/// The same at each point of a curve of the scene that keeps its unknowns, at the quadrature points. Empty
+/// without such contacts. O(points samples).
+std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::FrequencySweep& curve);
 
 }  // namespace wavebalance::app

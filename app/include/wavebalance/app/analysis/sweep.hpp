@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/analysis/sweep_phases.hpp"
@@ -41,6 +42,8 @@ struct Sweep {
   std::vector<SweepPhases> phases = {};   ///< set by add_phases(): of the curve, then of each branch
   /// Of scenes with impacts: of each point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
+  /// Of scenes with friction: of each point of the curve, then of each branch.
+  std::vector<std::vector<FrictionShares>> friction = {};
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
   /// Set by add_phases() with analysis.stability, where the curve has special points: those of the structure.
   std::optional<solvers::StructurePoints> structure_points = {};

@@ -172,6 +172,8 @@ bool is_rigid(std::string_view law);
 bool has_friction(std::string_view law);
 /// Whether a law of [contact] or of a pair has it.
 bool names_friction(const Contact& contact);
+/// Whether one of these has friction without tangential_stiffness, which is rigid.
+bool names_rigid_friction(const Contact& contact);
 /// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
 /// have no functions.
 bool has_impacts(const Contact& contact);

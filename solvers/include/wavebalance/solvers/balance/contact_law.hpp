@@ -74,8 +74,8 @@ concept SaysItsBreakpoints = requires(const Law& law) {
   { law.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// A rigid law that says with which share of its velocity a contact with mass leaves the obstacle after an impact,
-/// 0..1; nothing of a contact without mass, which has no impacts.
+/// A rigid law that says with which share of its velocity a contact with mass leaves the obstacle after an
+/// impact, 0..1; nothing of a contact without mass, which has no impacts.
 template <class Law>
 concept SaysItsRestitution = requires(const Law& law) {
   { law.restitution() } -> std::convertible_to<std::optional<double>>;
@@ -104,7 +104,8 @@ struct ForceSlopes {
 /// makes the indirection free; copies share the (immutable) law and may be used from several threads.
 ///
 /// A PeriodLaw has forces over a period only: what asks for its force at one displacement throws
-/// std::invalid_argument. It has no gap (0), no kinks and no form of the force.
+/// std::invalid_argument. It has no gap (0) and no kinks, and the form of the force where it
+/// OffersPeriodResolvent.
 class AnyContactLaw {
  public:
   /// No contact: force, tangent and potential are zero and the gap is infinite.
@@ -161,6 +162,11 @@ class AnyContactLaw {
   /// f with f = force(v - flexibility f), and df/dv, for flexibility > 0 in m/N: the law in series with a
   /// spring. A monotone law has exactly one; for a falling one any is returned.
   ForceSlope resolvent(double v, double flexibility) const { return model_->resolvent(v, flexibility); }
+  /// The law in series with springs along its rows, of a law that OffersPeriodResolvent; others throw
+  /// std::invalid_argument.
+  AnyContactLaw over_period_resolvent(std::span<const double> flexibility) const {
+    return model_->over_period_resolvent(flexibility);
+  }
   /// Whether the force beyond the gap is infinite, so that only the force form can solve for it.
   bool is_rigid() const;
   /// The restitution of a law that SaysItsRestitution; nothing for others.
@@ -168,8 +174,11 @@ class AnyContactLaw {
   /// Whether the force vanishes below the gap and is never negative.
   bool unilateral() const { return model_->unilateral(); }
   /// Whether the force form may solve for it: a unilateral law, or one that says that it is monotone, of the
-  /// displacement alone.
-  bool has_force_form() const { return !depends_on_velocity() && (unilateral() || model_->monotone()); }
+  /// displacement alone; one that OffersPeriodResolvent.
+  bool has_force_form() const {
+    return acts_over_period() ? model_->offers_period_resolvent()
+                              : !depends_on_velocity() && (unilateral() || model_->monotone());
+  }
 
   /// Force (N) and tangent (N/m) at each displacement (m); the three spans have one length. O(n).
   void evaluate(std::span<const double> displacement, std::span<double> force,
@@ -213,6 +222,9 @@ class AnyContactLaw {
     virtual std::vector<double> breakpoints() const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
     virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
+    virtual bool offers_period_resolvent() const { return false; }
+    virtual bool is_rigid_over_period() const { return false; }
+    virtual AnyContactLaw over_period_resolvent(std::span<const double>) const { refuse_steps(); }
   };
 
   template <class Law>
@@ -334,6 +346,19 @@ class AnyContactLaw {
         law_.start(v, flexibility, force);
       else
         refuse_steps();
+    }
+    bool offers_period_resolvent() const override { return OffersPeriodResolvent<Law>; }
+    bool is_rigid_over_period() const override {
+      if constexpr (OffersPeriodResolvent<Law>)
+        return law_.rigid();
+      else
+        return false;
+    }
+    AnyContactLaw over_period_resolvent(std::span<const double> flexibility) const override {
+      if constexpr (OffersPeriodResolvent<Law>)
+        return AnyContactLaw(law_.resolvent(flexibility));
+      else
+        refuse_instant();
     }
     std::optional<FrictionConstants> friction() const override {
       if constexpr (IsElasticFriction<Law>)

@@ -44,7 +44,7 @@ class ContactLaws {
 
   /// Whether no law is rigid: one whose force beyond the gap is infinite.
   bool have_finite_force() const;
-  /// Those of `contacts` contacts whose law is rigid.
+  /// Those of `contacts` contacts whose law is rigid; of friction the tangents.
   std::vector<int> rigid(int contacts) const;
   /// Whether one has a restitution, so that motions have impacts.
   bool have_impacts() const;

@@ -53,6 +53,15 @@ concept AdvancesInSteps = PeriodLaw<Law> &&
   law.start(rows, rows, force);          // v, flexibility, force
 };
 
+/// A law over a period that the force form may solve for: it says whether it is rigid, so that no force
+/// follows from displacements, and offers the law in series with springs, which is not, of displacements u +
+/// flexibility f along its rows.
+template <class Law>
+concept OffersPeriodResolvent = PeriodLaw<Law> && requires(const Law& law, std::span<const double> rows) {
+  { law.rigid() } -> std::convertible_to<bool>;
+  { law.resolvent(rows) } -> PeriodLaw;
+};
+
 /// The numbers of an elastic Coulomb contact, of which the stability of its motions follows. Its rows are the
 /// normal direction, where there is one, then the tangents.
 struct FrictionConstants {

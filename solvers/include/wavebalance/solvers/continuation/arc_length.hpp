@@ -151,6 +151,7 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
  private:
   using Plane = CurvePlane;
 
+  bool is_beyond_corner(const CurvePoint& candidate) const;
   bool is_ahead(const CurvePoint& candidate, double max_turn) const;
   double max_turn() const;
   double growth(int corrections, double turn) const;

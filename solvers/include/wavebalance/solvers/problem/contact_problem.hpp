@@ -103,8 +103,8 @@ class ContactProblem {
                          const ResponseStart& start = {});
   ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
                                    const ForcedResponseOptions& how = {}, const ResponseStart& start = {});
-  /// The stability along a curve that was traced with keep_unknowns; without points where the structure has
-  /// no modes.
+  /// The stability along a curve that was traced with keep_unknowns, and its slip_points(); without points
+  /// where the structure has no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
                            const Observer& observer = {});
   /// Makes the pair for motions of so many periods of the curve's, as BranchProblems says.
@@ -146,6 +146,7 @@ class ContactProblem {
   ImpactCurve traced_impacts(SweepParameter parameter, ImpactCurveOptions options, ImpactResponse* first);
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
+  void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
   std::optional<PhaseMotion> motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                          const ResponseStart& start);
   PhaseMotion phases_here(const SettledMotion& settled, const ContactPhasesOptions& options);

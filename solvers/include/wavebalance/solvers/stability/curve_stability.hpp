@@ -25,7 +25,8 @@ enum class SpecialPointType {
   neimark_sacker,   ///< a complex pair leaves the unit circle: a quasi-periodic motion begins
   grazing,          ///< an interval of contact appears, vanishes, splits or joins another
   branch,           ///< a real multiplier passes 1 where the frequency goes on: another curve begins
-  krein_collision   ///< of free motions: two pairs of multipliers meet on the unit circle and leave it
+  krein_collision,  ///< of free motions: two pairs of multipliers meet on the unit circle and leave it
+  slip              ///< the first contact with friction begins to slip or to open, or the last ceases to
 };
 
 std::string_view to_string(SpecialPointType type);
@@ -35,7 +36,7 @@ struct SpecialPoint {
   SpecialPointType type = SpecialPointType::fold;
   double frequency = 0.0;             ///< Hz, in the middle of the bracket
   double bracket = 0.0;               ///< Hz, between the ends of the bracket
-  std::complex<double> multiplier;    ///< the one at the unit circle, Im >= 0; NaN at a grazing
+  std::complex<double> multiplier;    ///< the one at the unit circle, Im >= 0; NaN at a grazing and a slip
   double max_displacement = 0.0;      ///< m, as in SweepPoint
   double max_abs_displacement = 0.0;  ///< m
   bool located = false;               ///< to the tolerance; otherwise no point within the bracket was found
