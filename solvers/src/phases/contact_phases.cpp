@@ -41,6 +41,8 @@ PhasesStatus refusal(const PhasesProblem& problem) {
 void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start) {
   const int contacts = problem.dynamics.contacts();
   problem.laws.require(contacts);
+  if (problem.laws.act_over_period())
+    throw std::invalid_argument("contact_phases: a law acts over a period; take friction_phases()");
   if (problem.contact_free.rows() != contacts || problem.contact_free.cols() < 1)
     throw std::invalid_argument("contact_phases: contact_free has " +
                                 std::to_string(problem.contact_free.rows()) + " rows; the structure has " +
@@ -287,6 +289,9 @@ std::string_view to_string(PhasesStatus status) {
                                         {too_many_phases, "too_many_phases"},
                                         {resonant, "resonant"},
                                         {structural_damping, "structural_damping"},
+                                        {slip_in_a_plane, "slip_in_a_plane"},
+                                        {mixed_laws, "mixed_laws"},
+                                        {free_structure, "free_structure"},
                                         {cancelled, "cancelled"}},
                                        status);
 }

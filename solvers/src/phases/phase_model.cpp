@@ -36,6 +36,7 @@ PhaseModel::PhaseModel(const PhasesProblem& problem, double length)
     : response(problem.dynamics, 1.0 / problem.frequency),
       contact_free(problem.contact_free),
       frequency(problem.frequency) {
+  if (problem.laws.act_over_period()) return;
   for (int c = 0; c < problem.dynamics.contacts(); ++c) {
     const Yielding yielding{response.displacement_at_once(c), frequency * response.velocity_at_once(c)};
     laws.emplace_back(problem.laws[c], length, problem.dynamics.holding(), yielding);

@@ -18,7 +18,7 @@ struct PhaseModel {
   PhaseModel(const PhasesProblem& problem, double length);
 
   PoleResponse response;
-  std::vector<LawPieces> laws;    // one per contact
+  std::vector<LawPieces> laws;    // one per contact; none of laws over a period
   Eigen::MatrixXcd contact_free;  // C x (H + 1), m
   double frequency;               // Hz
   bool velocity = false;          // whether a force depends on it

@@ -5,8 +5,35 @@
 #include "linalg/dense.hpp"
 #include "phases/phase_count.hpp"
 #include "phases/phase_motion_parts.hpp"
+#include "stability/friction_monodromy.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
 namespace wavebalance::solvers {
+namespace {
+
+// By the map of a perturbation and of the sliders over a period, with the instants of the phases.
+Eigen::VectorXcd multipliers_with_friction(const PhaseMotion& motion, int max_states) {
+  const ContactDynamics& dynamics = *motion.parts->dynamics;
+  std::size_t states = static_cast<std::size_t>(dynamics.contacts());
+  for (const ContactPole& pole : dynamics.poles()) states += pole.exponent.imag() > 0.0 ? 2 : 1;
+  if (states > static_cast<std::size_t>(max_states)) return {};
+  const Eigen::VectorXcd values =
+      friction_monodromy(dynamics, contact_stiffness(motion), motion.parts->model.frequency);
+  return values.allFinite() ? values : Eigen::VectorXcd();
+}
+
+// By the determinant with memory.
+int count_with_friction(const PhaseMotion& motion, int max_evaluations) {
+  StabilityOptions options;
+  options.harmonics = 255;
+  options.max_evaluations = max_evaluations;
+  const UnstableMultipliers count = unstable_multipliers(*motion.parts->dynamics, contact_stiffness(motion),
+                                                         motion.parts->model.frequency, options);
+  return count.status == StabilityStatus::converged ? count.count : -1;
+}
+
+}  // namespace
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
   return parts->model.motion(parts->iterate.forces, parts->nodes, times).displacement;
@@ -25,6 +52,7 @@ Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
 
 Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
+  if (!friction.empty()) return multipliers_with_friction(*this, max_states);
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
   if (!parts->iterate.forces.panels().empty()) {
     const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);
@@ -38,6 +66,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
 }
 
 int PhaseMotion::count_unstable(int max_evaluations) const {
+  if (!friction.empty()) return count_with_friction(*this, max_evaluations);
   if (parts->iterate.forces.panels().empty())
     return static_cast<int>((parts->model.response.free_multipliers().array().abs() > 1.0).count());
   const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);

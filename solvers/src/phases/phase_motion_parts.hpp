@@ -8,7 +8,8 @@ struct PhaseMotion::Parts {
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
   detail::LegendreNodes nodes;
-  detail::PanelForces tangent, damping;  // slopes of the laws, N/m and N s/m
+  detail::PanelForces tangent, damping;                  // slopes of the laws, N/m and N s/m
+  std::shared_ptr<const ContactDynamics> dynamics = {};  // of motions with friction
 };
 
 namespace detail {

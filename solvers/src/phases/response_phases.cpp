@@ -40,13 +40,12 @@ PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws&
 
 ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
                                const PeriodicResponse& response, const ContactDynamics& dynamics,
-                               const ContactPhasesOptions& options) {
+                               const ContactPhasesOptions& options, PhaseFinder find) {
   constexpr int least_points = 256, most_points = 1024;  // a start needs no more
   const int points = std::clamp(problem.points(), least_points, most_points);
   const Motion balance = contact_motion(problem, response, laws, points);
   const PhasesProblem phases = phases_problem(problem, laws, dynamics);
-  ResponsePhases result{contact_phases(phases, balance.displacement, options, balance.force), missing,
-                        missing};
+  ResponsePhases result{find(phases, balance.displacement, options, balance.force), missing, missing};
   if (result.motion.parts == nullptr) return result;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
   result.displacement_error = result.motion.start_error;
@@ -58,6 +57,10 @@ PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {
   PeriodicStiffness result;
   if (!motion.converged()) {
     result.status = StabilityStatus::no_response;
+    return result;
+  }
+  if (!motion.friction.empty()) {
+    result.friction = motion.friction;
     return result;
   }
   for (const ContactPhase& phase : motion.phases)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wavebalance/solvers/balance/contact_form.hpp"
+#include "wavebalance/solvers/friction/friction_phases.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/slip_points.hpp"
@@ -111,7 +112,7 @@ std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& res
                                                      const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   hold(response);
-  return response_phases(condensed_, laws_, response, *dynamics(), options);
+  return response_phases(condensed_, laws_, response, *dynamics(), options, phases_of_any_law);
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
@@ -126,16 +127,16 @@ PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const Cont
   const auto samples = [&](const Eigen::MatrixXd& values) {
     return by_contact(resample(values, points, settled.start), contacts());
   };
-  return contact_phases(phases_problem(condensed_, laws_, *dynamics()), samples(settled.last.displacement),
-                        options, samples(settled.last.force));
+  return phases_of_any_law(phases_problem(condensed_, laws_, *dynamics()), samples(settled.last.displacement),
+                           options, samples(settled.last.force));
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,
                                                   const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   load_fully(frequency);
-  return contact_phases(phases_problem(condensed_, laws_, *dynamics()), start.displacement, options,
-                        start.force);
+  return phases_of_any_law(phases_problem(condensed_, laws_, *dynamics()), start.displacement, options,
+                           start.force);
 }
 
 StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,

@@ -6,6 +6,7 @@
 
 #include "stability/friction_monodromy.hpp"
 #include "support/friction_scenes.hpp"
+#include "support/friction_table.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
@@ -69,36 +70,16 @@ TEST(FrictionStability, HasTheMultipliersOfTheExactMotions) {
   }
 }
 
-struct Modulus {
-  const char* name;
-  FrictionScene scene;
-  double largest, second;
-};
-
 TEST(FrictionStability, HasTheTwoLargestModuliOfTheExactMotions) {
-  using namespace testing;
-  const std::vector<Modulus> rows{{"Jenkins 1", slider_on_oscillator(2.0, 1.0, 1.0), 0.85325385, 0.65482821},
-                                  {"Jenkins 2", slider_on_oscillator(2.0, 1.0, 1.2), 0.64754840, 0.64754840},
-                                  {"Jenkins 4", slider_on_oscillator(0.5, 1.0, 1.41), 0.22235916, 0.22235916},
-                                  {"Jenkins 6", slider_on_oscillator(1.5, 10.0, 1.1), 0.50867709, 0.50867709},
-                                  {"masses 2", rubbing_masses(1.0, 2.0, 0.3, 1.0), 0.93907670, 0.90339657},
-                                  {"masses 3", rubbing_masses(1.0, 2.0, 0.3, 1.7), 0.92230190, 0.92230190},
-                                  {"masses 4", rubbing_masses(1.0, 2.0, 0.3, 0.6), 0.77228987, 0.73216139},
-                                  {"masses 5", rubbing_masses(0.3, 20.0, 1.0, 1.4), 0.90334314, 0.90334314},
-                                  {"lift-off 2", lift_off(2.0, 0.3, 0.8, 0.5, 3.6), 0.68426516, 0.68426516},
-                                  {"lift-off 3", lift_off(1.0, 1.0, 0.6, 0.5, 2.4), 0.60672739, 0.60672739},
-                                  {"lift-off 4", lift_off(3.0, 3.0, 0.6, 0.3, 4.5), 0.73159211, 0.73159211},
-                                  {"lift-off 5", lift_off(2.0, 2.0, 0.6, 0.5, 5.2), 0.73791930, 0.73791930},
-                                  {"beam 1", cantilever(200.0, 1e7, 500.0, 21.0), 0.71382433, 0.71382433},
-                                  {"beam 4", cantilever(200.0, 1e8, 300.0, 25.0), 0.64718010, 0.64718010},
-                                  {"chain 1", chain_of_three(6.0, 1.0), 0.83426451, 0.83426451},
-                                  {"chain 2", chain_of_three(3.0, 0.85), 0.78746749, 0.78746749}};
-  for (const Modulus& row : rows) {
+  for (const testing::FrictionRow& row : testing::friction_rows()) {
+    if (row.scene.laws.front().tangents() > 1) continue;
     const Solved solved = solve(row.scene, 127, 2048);
     ASSERT_TRUE(solved.response.converged()) << row.name;
     ASSERT_EQ(solved.stiffness.status, StabilityStatus::converged);
-    EXPECT_NEAR(std::abs(solved.multipliers[0]), row.largest, 1e-4) << row.name;
-    EXPECT_NEAR(std::abs(solved.multipliers[1]), row.second, 1e-4) << row.name;
+    const double allowed =
+        row.name == "Jenkins 7" ? 5e-4 : 1e-4;  // the stiffest slider, at the lowest frequency
+    EXPECT_NEAR(std::abs(solved.multipliers[0]), row.largest, allowed) << row.name;
+    EXPECT_NEAR(std::abs(solved.multipliers[1]), row.second, allowed) << row.name;
   }
 }
 

@@ -43,7 +43,7 @@ inline FrictionScene slider_on_oscillator(double load, double kt, double omega, 
 
 // Two unit masses between springs of 1, damping 0.02 K, the load on the second, the slider on the first.
 inline FrictionScene rubbing_masses(double load, double kt, double limit, double omega,
-                                double damper_on_second = 0.0) {
+                                    double damper_on_second = 0.0) {
   const Eigen::Matrix2d stiffness{{2.0, -1.0}, {-1.0, 2.0}};
   Eigen::Matrix2d damping = 0.02 * stiffness;
   damping(1, 1) += damper_on_second;

@@ -7,6 +7,7 @@
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
 namespace wavebalance::solvers {
 
@@ -33,6 +34,9 @@ enum class PhasesStatus {
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
   resonant,              ///< the structure without contact has a motion of this period of its own
   structural_damping,    ///< it has no equation in time
+  slip_in_a_plane,       ///< friction along two tangents
+  mixed_laws,            ///< friction beside laws of another kind
+  free_structure,        ///< friction at a structure that is free to move
   cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 
@@ -54,8 +58,8 @@ struct ContactPhasesOptions {
   int nodes = 12;  ///< of a panel, at first
   int max_nodes = 32;
   int max_panels = 400;
-  /// Up to so many panels, phases are cut where other contacts change theirs, since their forces have kinks in
-  /// high derivatives there. Of many contacts that act together these cuts make most of the unknowns.
+  /// Up to so many panels, phases are cut where other contacts change theirs, since their forces have kinks
+  /// in high derivatives there. Of many contacts that act together these cuts make most of the unknowns.
   int max_cut_panels = 100;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
@@ -76,6 +80,8 @@ class PhaseMotion {
  public:
   PhasesStatus status = PhasesStatus::no_motion_near;
   std::vector<ContactPhase> phases;  ///< by contact, then by begin
+  /// Contacts with friction by the parts of the period in which they are open, stick and slip.
+  std::vector<FrictionAlong> friction;
   int unknowns = 0, iterations = 0, changes = 0;
   double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
   /// Relative rms error of the displacements, by the last Legendre coefficients and the residual.
@@ -135,8 +141,8 @@ class PhaseMotion {
 /// Phases that the motion found does not have are removed, and those that it has are inserted, until both
 /// agree.
 ///
-/// Throws std::invalid_argument for sizes that do not fit. A Newton step costs O(n^3 + n^2 poles) for n
-/// unknowns.
+/// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose phases
+/// friction_phases() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                            const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 

@@ -19,12 +19,16 @@ struct ResponsePhases {
 PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
                              const ContactDynamics& dynamics);
 
-/// contact_phases() from a response of `problem` to `laws`, at the frequency and load of the problem.
-/// `dynamics` are those of its structure. O(n^3) for each harmonic of the load, beside what contact_phases()
-/// takes.
+/// What seeks a motion by phases from displacements and forces of the contacts, as contact_phases() does.
+using PhaseFinder = PhaseMotion (*)(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                                    const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force);
+
+/// contact_phases() from a response of `problem` to `laws`, at the frequency and load of the problem, or what
+/// `find` does in its place. `dynamics` are those of its structure. O(n^3) for each harmonic of the load,
+/// beside what contact_phases() takes.
 ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
                                const PeriodicResponse& response, const ContactDynamics& dynamics,
-                               const ContactPhasesOptions& options = {});
+                               const ContactPhasesOptions& options = {}, PhaseFinder find = contact_phases);
 
 /// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
 /// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not

@@ -1,0 +1,294 @@
+// Motions with elastic friction by phases against event-driven exact motions.
+#include "wavebalance/solvers/friction/friction_phases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "campaign.hpp"
+#include "support/friction_motions.hpp"
+#include "support/friction_oracle.hpp"
+#include "support/friction_table.hpp"
+#include "support/phase_cases.hpp"
+#include "support/random_friction.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::FrictionMotion, testing::FrictionOracle, testing::FrictionRow, testing::FrictionScene;
+
+double work_of(const PhaseMotion& motion) {
+  double work = 0.0;
+  for (const FrictionCycle& cycle : friction_cycles(motion)) work += cycle.work;
+  return work;
+}
+
+TEST(FrictionPhases, HaveTheHarmonicTheWorkAndTheMultipliersOfExactMotions) {
+  constexpr int points = 16384;
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
+  for (const FrictionRow& row : testing::friction_rows()) {
+    if (row.scene.laws.front().tangents() > 1) continue;
+    const PhaseMotion motion = FrictionMotion(row.scene, {.tolerance = 1e-10}).phases.motion;
+    ASSERT_EQ(to_string(motion.status), "converged") << row.name;
+    EXPECT_LE(motion.unknowns, 400) << row.name;
+    const Eigen::VectorXd samples = motion.displacement(times).row(row.compared);
+    EXPECT_LE(std::abs(testing::first_harmonic(samples) - exact_of(row)), 1e-9 * row.amplitude) << row.name;
+    EXPECT_NEAR(work_of(motion), row.work, 1e-9 * row.work) << row.name;
+    const Eigen::VectorXcd multipliers = motion.multipliers();
+    // The last digit of the beams' rows is that of matrix exponentials with fast poles.
+    const double allowed = row.name.starts_with("beam") ? 2e-8 : 1e-8;
+    EXPECT_NEAR(std::abs(multipliers[0]), row.largest, allowed) << row.name;
+    EXPECT_NEAR(std::abs(multipliers[1]), row.second, allowed) << row.name;
+    EXPECT_EQ(motion.count_unstable(), 0) << row.name;
+  }
+}
+
+TEST(FrictionPhases, BeginAndEndAtTheInstantsOfTheExactMotion) {
+  const PhaseMotion motion = FrictionMotion(testing::lift_off(2.0, 2.0, 0.6, 0.5, 3.0)).phases.motion;
+  ASSERT_TRUE(motion.converged());
+  ASSERT_EQ(motion.friction.size(), 1u);
+  const std::vector<FrictionPart>& parts = motion.friction[0].parts;
+  ASSERT_EQ(parts.size(), 3u);
+  using State = FrictionPart::State;
+  const State states[] = {State::slip, State::open, State::stick};
+  const double begins[] = {0.280840393, 0.299434949, 0.951154093};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(parts[std::size_t(i)].state, states[i]);
+    EXPECT_NEAR(parts[std::size_t(i)].begin, begins[i], 1e-9);
+  }
+  EXPECT_EQ(parts[0].sign, -1.0);
+  const std::vector<FrictionCycle> cycles = friction_cycles(motion);
+  ASSERT_EQ(cycles.size(), 1u);
+  EXPECT_NEAR(cycles[0].stick_share, 0.3296863, 1e-8);
+  EXPECT_NEAR(cycles[0].slip_share, 0.018594557, 1e-8);
+  EXPECT_NEAR(cycles[0].open_share, 0.651719143, 1e-8);
+}
+
+// Forces over the period by the law's own samples, which are of second order.
+TEST(FrictionPhases, HaveTheForcesOfTheLawAlongThem) {
+  constexpr int points = 1 << 15;
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
+  for (const FrictionScene& scene :
+       {testing::lift_off(1.0, 1.0, 0.6, 0.5, 2.4), testing::chain_of_three(3.0, 0.85)}) {
+    const PhaseMotion motion = FrictionMotion(scene).phases.motion;
+    ASSERT_TRUE(motion.converged());
+    const Eigen::MatrixXd force = motion.force(times);
+    EXPECT_LE((scene.contact_laws().force(motion.displacement(times)) - force).norm(), 1e-7 * force.norm());
+  }
+}
+
+// Where R_0 > 0 the velocity jumps as slip begins.
+TEST(FrictionPhases, HaveTheForcesOfTheLawAtContactsWithoutMass) {
+  constexpr int points = 1 << 15;
+  FrictionScene scene{testing::with_massless_contacts(), {}, 8.0};
+  scene.laws = {contact::CoulombLaw({0.5, 200.0, 0.4}), contact::CoulombLaw({0.5, 300.0, 0.2})};
+  const FrictionMotion found(scene);
+  ASSERT_TRUE(found.response.converged());
+  const PhaseMotion& motion = found.phases.motion;
+  ASSERT_EQ(to_string(motion.status), "converged");
+  for (const FrictionCycle& cycle : friction_cycles(motion)) EXPECT_GT(cycle.slip_share, 0.0);
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
+  const Eigen::MatrixXd force = motion.force(times);
+  EXPECT_LE((scene.contact_laws().force(motion.displacement(times)) - force).norm(), 1e-6 * force.norm());
+  EXPECT_EQ(motion.count_unstable(), 0);
+}
+
+TEST(FrictionPhases, TheEstimatedErrorIsAboveTheError) {
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(512, 0.0, 1.0 - 1.0 / 512);
+  for (const FrictionRow& row : testing::friction_rows()) {
+    if (row.scene.laws.front().tangents() > 1) continue;
+    const PhaseMotion exact = FrictionMotion(row.scene, {.tolerance = 1e-10, .nodes = 16}).phases.motion;
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+      const PhaseMotion motion =
+          FrictionMotion(row.scene, {.tolerance = tolerance, .nodes = 4}).phases.motion;
+      ASSERT_EQ(to_string(motion.status), "converged") << row.name;
+      EXPECT_LE(motion.estimated_error, tolerance);
+      const Eigen::MatrixXd u = exact.displacement(times);
+      EXPECT_LE((motion.displacement(times) - u).norm() / u.norm(), motion.estimated_error + 1e-10)
+          << row.name << ' ' << tolerance;
+    }
+  }
+}
+
+// The response of the structure with the spring of a contact that never slips.
+TEST(FrictionPhases, OfAContactThatSticksAlwaysIsTheMotionWithItsSpring) {
+  const FrictionScene scene = testing::rubbing_masses(1.0, 2.0, 100.0, 1.1);
+  const FrictionMotion found(scene);
+  ASSERT_TRUE(found.phases.motion.converged());
+  const Eigen::Matrix2cd stiffness =
+      Eigen::Matrix2cd(Eigen::MatrixXd(scene.structure.stiffness)) +
+      std::complex<double>(0.0, scene.omega) * Eigen::MatrixXd(scene.structure.damping) -
+      scene.omega * scene.omega * Eigen::Matrix2d::Identity() + Eigen::Matrix2d{{2.0, 0.0}, {0.0, 0.0}};
+  const Eigen::Vector2cd exact = stiffness.inverse() * Eigen::Vector2cd(0.0, 1.0);
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(64, 0.0, 1.0 - 1.0 / 64);
+  const Eigen::VectorXd samples = found.phases.motion.displacement(times).row(0);
+  EXPECT_LE(std::abs(testing::first_harmonic(samples) - std::conj(exact[0])), 1e-11 * std::abs(exact[0]));
+  EXPECT_TRUE(found.phases.motion.friction[0].always_sticks());
+  EXPECT_LE(std::abs(found.phases.motion.multipliers()[0]), 1.0);
+}
+
+// Slip begins exactly at the load (L / k_t) |1 + k_t - omega^2 + i c omega|.
+TEST(FrictionPhases, SlipJustAboveTheLoadAtWhichItBegins) {
+  constexpr double first_slip = 1.7976408151;  // at omega = 0.45
+  const PhaseMotion stuck =
+      FrictionMotion(testing::slider_on_oscillator(0.9999 * first_slip, 1.0, 0.45)).phases.motion;
+  ASSERT_TRUE(stuck.converged());
+  EXPECT_TRUE(stuck.friction[0].always_sticks());
+  for (const double above : {1e-2, 1e-3, 1e-4}) {
+    const PhaseMotion slips =
+        FrictionMotion(testing::slider_on_oscillator((1.0 + above) * first_slip, 1.0, 0.45)).phases.motion;
+    ASSERT_EQ(to_string(slips.status), "converged") << above;
+    EXPECT_EQ(slips.friction[0].parts.size(), 4u) << above;
+    EXPECT_GT(work_of(slips), 0.0);
+    EXPECT_LE(work_of(slips), 10.0 * above);
+  }
+}
+
+TEST(FrictionPhases, OfOneCoefficientOfZeroAreThoseWithoutFriction) {
+  FrictionScene scene = testing::lift_off(2.0, 2.0, 0.6, 0.5, 3.0);
+  scene.laws = {contact::CoulombLaw({0.0, 5.0, 0.6}, contact::LinearLaw(21.0, 0.0))};
+  const FrictionMotion found(scene);
+  ASSERT_EQ(to_string(found.phases.motion.status), "converged");
+  const ContactLaws apart(std::vector<AnyContactLaw>{contact::LinearLaw(21.0, -0.6 / 21.0), AnyContactLaw()});
+  const PhaseMotion exact =
+      contact_phases(phases_problem(found.problem, apart, found.dynamics),
+                     found.phases.motion.displacement(Eigen::VectorXd::LinSpaced(256, 0.0, 255.0 / 256)));
+  ASSERT_TRUE(exact.converged());
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(128, 0.0, 127.0 / 128);
+  const Eigen::MatrixXd u = exact.displacement(times);
+  EXPECT_LE((found.phases.motion.displacement(times) - u).norm(), 1e-9 * u.norm());
+}
+
+// The state of a motion at the start of the period.
+FrictionOracle::State state_of(FrictionMotion& found, const FrictionOracle& oracle) {
+  using Does = FrictionOracle::Does;
+  const PhaseMotion& motion = found.phases.motion;
+  const StructurePhases whole =
+      structure_phases(found.problem, motion, 1, {.tolerance = 1e-13, .first_harmonics = 8192});
+  std::vector<Does> does;
+  Eigen::VectorXd tangential(Eigen::Index(motion.friction.size()));
+  for (std::size_t c = 0; c < motion.friction.size(); ++c) {
+    const FrictionAlong& contact = motion.friction[c];
+    const auto now = std::find_if(contact.parts.begin(), contact.parts.end(), [](const FrictionPart& part) {
+      return part.begin <= 0.0 || part.end > 1.0;
+    });
+    does.push_back(now->state == FrictionPart::State::open    ? Does::open
+                   : now->state == FrictionPart::State::stick ? Does::stick
+                   : now->sign > 0.0                          ? Does::slip_up
+                                                              : Does::slip_down);
+    tangential[Eigen::Index(c)] =
+        motion.force(Eigen::VectorXd::Zero(1))(contact.row + contact.constants.normal_rows, 0);
+  }
+  return oracle.start(whole.motion.displacement.col(0), whole.motion.velocity.col(0), tangential, does);
+}
+
+struct OracleCheck {
+  double change = 0.0;       // of the state over a period, over its size
+  double multipliers = 0.0;  // largest distance of one of the oracle's from those of the motion
+};
+
+OracleCheck check(FrictionMotion& found) {
+  const FrictionOracle oracle(found.scene);
+  const FrictionOracle::State start = state_of(found, oracle), end = oracle.period(start);
+  const Eigen::Index states = oracle.states();
+  const Eigen::VectorXcd exact = end.by_start.topLeftCorner(states, states).eigenvalues(),
+                         own = found.phases.motion.multipliers();
+  OracleCheck result{(end.z - start.z).norm() / start.z.norm()};
+  for (const std::complex<double> one : exact)
+    if (std::abs(one) > 1e-3)
+      result.multipliers = std::max(result.multipliers, (own.array() - one).abs().minCoeff());
+  return result;
+}
+
+TEST(FrictionPhases, ComeBackAfterAPeriodOfTheEventDrivenMotionWithItsMultipliers) {
+  for (const FrictionRow& row : testing::friction_rows()) {
+    // The exponentials of the beam, whose fastest pole decays within 1e-6 of the period, lose digits.
+    if (row.scene.laws.front().tangents() > 1 || row.name.starts_with("beam")) continue;
+    FrictionMotion found(row.scene);
+    ASSERT_EQ(to_string(found.phases.motion.status), "converged") << row.name;
+    const OracleCheck checked = check(found);
+    EXPECT_LE(checked.change, 1e-10) << row.name;
+    EXPECT_LE(checked.multipliers, 1e-10) << row.name;
+  }
+}
+
+ContactLaws with(const FrictionScene& scene, AnyContactLaw law) {
+  std::vector<AnyContactLaw> laws(scene.laws.begin(), scene.laws.end());
+  laws.back() = std::move(law);
+  return laws;
+}
+
+TEST(FrictionPhases, AreRefusedWithTheReason) {
+  using enum PhasesStatus;
+  const FrictionScene plane = testing::slip_in_a_plane(0.4, 1.1);
+  EXPECT_EQ(FrictionMotion(plane, {}, 15, 64).phases.motion.status, slip_in_a_plane);
+  const FrictionScene chain = testing::chain_of_three(3.0, 0.85);
+  const FrictionMotion found(chain, {}, 15, 64);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::Ones(2, 64);
+  const ContactLaws mixed = with(chain, contact::LinearLaw(1.0, 0.1));
+  EXPECT_EQ(friction_phases(phases_problem(found.problem, mixed, found.dynamics), start).status, mixed_laws);
+  CondensedProblem free(testing::fourier_pair(15, 64), testing::free_pair(), testing::cosine_load());
+  free.set_frequency(0.3);
+  const ContactDynamics unheld(testing::free_pair());
+  EXPECT_EQ(friction_phases(phases_problem(free, chain.contact_laws(), unheld), start).status,
+            free_structure);
+  FrictionScene loss = chain;
+  loss.structure.loss_factor = 0.01;
+  EXPECT_EQ(FrictionMotion(loss, {}, 15, 64).phases.motion.status, structural_damping);
+  EXPECT_EQ(FrictionMotion(chain, {.max_operations = 1.0}, 15, 64).phases.motion.status, too_many_phases);
+  EXPECT_EQ(
+      FrictionMotion(chain, {.observer = [](const Progress&) { return false; }}, 15, 64).phases.motion.status,
+      cancelled);
+}
+
+TEST(FrictionPhases, BadInputIsRefusedByName) {
+  const FrictionScene chain = testing::chain_of_three(3.0, 0.85);
+  const FrictionMotion found(chain, {}, 15, 64);
+  const PhasesProblem problem = phases_problem(found.problem, chain.contact_laws(), found.dynamics);
+  const Eigen::MatrixXd start = Eigen::MatrixXd::Ones(2, 64);
+  EXPECT_THROW(friction_phases(problem, Eigen::MatrixXd::Ones(1, 64)), std::invalid_argument);
+  EXPECT_THROW(friction_phases(problem, Eigen::MatrixXd::Ones(2, 7)), std::invalid_argument);
+  EXPECT_THROW(friction_phases(problem, std::nan("") * start), std::invalid_argument);
+  EXPECT_THROW(friction_phases(problem, start, {.tolerance = 0.0}), std::invalid_argument);
+  EXPECT_THROW(contact_phases(problem, start), std::invalid_argument);
+  EXPECT_THROW(friction_cycles(PhaseMotion()), std::invalid_argument);
+}
+
+TEST(RandomFrictionPhases, AreFoundAndComeBackAfterAPeriodOfTheEventDrivenMotion) {
+  const int count = campaign_seeds(10, 300);
+  int balances = 0, converged = 0, stuck = 0, wrong = 0;
+  double worst = 0.0, worst_multiplier = 0.0;
+  for (int seed = 1; seed <= count; ++seed) {
+    std::mt19937 generator(static_cast<unsigned>(seed));
+    const FrictionScene scene = testing::random_friction_scene(generator);
+    FrictionMotion found(scene);
+    if (!found.response.converged()) continue;
+    ++balances;
+    const PhaseMotion& motion = found.phases.motion;
+    if (!motion.converged())
+      std::printf("%d %s error %.1e\n", seed, to_string(motion.status).data(), motion.estimated_error);
+    if (!motion.converged()) continue;
+    ++converged;
+    const bool sticks = std::any_of(motion.friction.begin(), motion.friction.end(),
+                                    [](const FrictionAlong& one) { return one.always_sticks(); });
+    stuck += sticks ? 1 : 0;
+    const OracleCheck checked = check(found);
+    worst = std::max(worst, checked.change);
+    if (!sticks) worst_multiplier = std::max(worst_multiplier, checked.multipliers);
+    if (!(checked.change < 1e-7) || (!sticks && !(checked.multipliers < 1e-6))) {
+      ++wrong;
+      std::printf("%d change %.1e multipliers %.1e\n", seed, checked.change, checked.multipliers);
+    }
+  }
+  std::printf(
+      "%d balances, %d by phases, %d of them with contacts that stick always, worst %.1e, multipliers %.1e\n",
+      balances, converged, stuck, worst, worst_multiplier);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GE(converged, 0.95 * balances);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers

@@ -1,0 +1,31 @@
+#pragma once
+#include "support/friction_scenes.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/friction/friction_phases.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/phases/structure_phases.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
+
+namespace wavebalance::solvers::testing {
+
+/// A balance of a scene with friction and the motion by phases near it.
+struct FrictionMotion {
+  explicit FrictionMotion(const FrictionScene& which, const ContactPhasesOptions& options = {},
+                          int functions = 63, int points = 1024)
+      : scene(which),
+        problem(fourier_pair(functions, points), scene.structure, cosine_load()),
+        dynamics(scene.structure) {
+    problem.set_frequency(scene.frequency());
+    response = forced_response(problem, scene.contact_laws(), {});
+    if (response.converged())
+      phases = response_phases(problem, scene.contact_laws(), response, dynamics, options, friction_phases);
+  }
+
+  FrictionScene scene;
+  CondensedProblem problem;
+  ContactDynamics dynamics;
+  PeriodicResponse response;
+  ResponsePhases phases;
+};
+
+}  // namespace wavebalance::solvers::testing
