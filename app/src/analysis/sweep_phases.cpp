@@ -165,12 +165,12 @@ StabilityAlong stability_along(const solvers::CurveStability& balance, const Swe
 }
 
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
-  if (has_friction(scene)) return;  // which has no phases
   const bool wanted = scene.analysis.stability || scene.analysis.phases;
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
                                    observer, sweep.phases_cancelled));
-  if (scene.analysis.stability) add_structure_points(scene, model, sweep, observer);
+  // Along curves with friction no phases are followed.
+  if (scene.analysis.stability && !has_friction(scene)) add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {
     SweepPhases& phases = sweep.phases.emplace_back();
     if (branch.curve.points.empty() || sweep.phases_cancelled) continue;

@@ -8,6 +8,7 @@
 
 #include "compare/phase_reference.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/friction/friction_phases.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 
 namespace wavebalance::app {
@@ -70,7 +71,8 @@ class PhaseStudy {
     const solvers::ContactDynamics dynamics(problem.structure());
     const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
     found.phases = solvers::response_phases(problem.condensed(), problem.laws(), found.balance, dynamics,
-                                            {.tolerance = tolerance, .nodes = nodes, .observer = observer});
+                                            {.tolerance = tolerance, .nodes = nodes, .observer = observer},
+                                            solvers::phases_of_any_law);
     return found;
   }
 

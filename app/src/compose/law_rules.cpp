@@ -78,24 +78,39 @@ void check_law_of_mode(const Document& document, const std::string& law) {
               "not with a nonlinear mode, which begins where a contact touches" + expected);
 }
 
-/// Friction is solved by balances in the displacement form.
+/// Phases of friction are those of one tangent, of all contacts.
+void check_friction_phases(const Document& document, const Scene& scene) {
+  const bool shoots = scene.analysis.type == AnalysisType::shooting;
+  const std::string key = shoots ? "analysis.type" : "time.method",
+                    expected = shoots ? "\"forced_response\"" : "\"balance\"";
+  if (names_rigid_friction(scene.contact))
+    fail_rule(document, {key, "contact.law"},
+              "not with friction without contact.tangential_stiffness, which is rigid; expected " + expected);
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    if (!scene.contact.pairs[i].second_tangent.empty())
+      fail_rule(document, {key, pair_section(i) + ".second_tangent"},
+                "not with friction along two tangents, which slips in a plane; expected " + expected);
+  for (const SceneContact& contact : contacts_of(scene))
+    if (!has_friction(contact.law))
+      fail_rule(document, {key, "contact.law"},
+                "not with contacts of the law \"" + contact.law + "\" beside those with friction; expected " +
+                    expected);
+}
+
+/// Friction is solved by balances in the displacement form, and by phases.
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  const bool balanced = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
-                        type == AnalysisType::amplitude_sweep;
+  const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
+                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting;
   if (type == AnalysisType::nonlinear_mode) return;
-  if (!balanced)
+  if (!taken)
     fail_rule(document, {"analysis.type", "contact.law"},
-              "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\" or "
-              "\"nonlinear_mode\"");
-  const auto refuse = [&](bool given, const char* key, const char* expected) {
-    if (given)
-      fail_rule(document, {key, "contact.law"},
-                std::string("not with friction, of which there are no phases yet; expected ") + expected);
-  };
-  refuse(solves_by_phases(scene), "time.method", "\"balance\"");
-  refuse(scene.analysis.phases && has_friction(scene.contact.law), "analysis.phases", "false");
-  refuse(scene.analysis.exact, "analysis.exact", "false");
+              "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
+              "\"shooting\" or \"nonlinear_mode\"");
+  if (solves_by_phases(scene) || type == AnalysisType::shooting) check_friction_phases(document, scene);
+  if (scene.analysis.exact)
+    fail_rule(document, {"analysis.exact", "contact.law"},
+              "not with friction, whose phases are not followed along curves; expected false");
 }
 
 /// Rigid friction is solved in the form of the force, at contacts without mass.

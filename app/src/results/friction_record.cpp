@@ -10,6 +10,7 @@
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
+#include "wavebalance/solvers/friction/friction_phases.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -85,12 +86,28 @@ void append_energy_error(Record& record, double error) {
         error));
 }
 
+// What the phases say is exact where samples are of second order.
+void take_phases(std::vector<FrictionMeasures>& contacts, const Response& response) {
+  if (contacts.empty() || !response.phases || response.phases->motion.parts == nullptr) return;
+  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(response.phases->motion))
+    for (FrictionMeasures& one : contacts) {
+      if (one.row != cycle.row) continue;
+      if (one.period.work > 0.0) one.wear *= cycle.work / one.period.work;
+      one.period.work = cycle.work;
+      one.slip = cycle.slip;
+      one.stick_fraction = cycle.stick_share;
+      one.slip_fraction = cycle.slip_share;
+      one.open_fraction = cycle.open_share;
+    }
+}
+
 }  // namespace
 
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
   if (!has_friction(scene)) return;
-  const std::vector<FrictionMeasures> contacts =
+  std::vector<FrictionMeasures> contacts =
       friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
+  if (response.solved_by == name_of(TimeMethod::phases)) take_phases(contacts, response);
   double work = 0.0, wear = 0.0;
   for (const FrictionMeasures& one : contacts) {
     work += one.period.work;

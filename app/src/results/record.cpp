@@ -131,8 +131,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (response.phases)
     append_phases(record, scene.time.tolerance, response);
   else if (scene.analysis.phases && response.converged && !is_by_phases(response))
-    record.summary.emplace_back(quantities::phases_status,
-                                has_friction(scene) ? "unsupported_law" : "no_modes");
+    record.summary.emplace_back(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
   append_settled(record, response);
   append_condition(record, response.condition, response.rounding_error);
@@ -306,7 +305,7 @@ Record stable_sweep_record(const Scene& scene, const StructureModel& model, cons
 Record forced_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
                      ResponseOptions options) {
   options.stability = scene.analysis.stability;
-  options.phases = scene.analysis.phases && !has_friction(scene);
+  options.phases = scene.analysis.phases;
   if (has_impacts(scene.contact))
     return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));

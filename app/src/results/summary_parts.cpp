@@ -156,6 +156,28 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
 
 bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::phases); }
 
+std::string_view name_of(solvers::FrictionPart::State state) {
+  using enum solvers::FrictionPart::State;
+  if (state == open) return "open";
+  return state == stick ? "stick" : "slip";
+}
+
+/// Of contacts with friction all parts of the period, by what they do in them.
+Table phases_table(const solvers::PhaseMotion& motion) {
+  if (motion.friction.empty()) {
+    Table phases({"contact", "begin", "end"});
+    for (const solvers::ContactPhase& phase : motion.phases)
+      phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
+    return phases;
+  }
+  Table phases({"contact", "state", "begin", "end"});
+  for (const solvers::FrictionAlong& contact : motion.friction)
+    for (const solvers::FrictionPart& part : contact.parts)
+      phases.append_row(
+          {std::int64_t{contact.row + 1}, std::string(name_of(part.state)), part.begin, part.end});
+  return phases;
+}
+
 void append_phases(Record& record, double tolerance, const Response& response) {
   const solvers::ResponsePhases& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
@@ -171,10 +193,7 @@ void append_phases(Record& record, double tolerance, const Response& response) {
   record.summary.emplace_back(quantities::phases_estimated_error,
                               known ? found.motion.estimated_error : missing);
   record.summary.emplace_back(quantities::phases_unknowns, std::int64_t{found.motion.unknowns});
-  Table phases({"contact", "begin", "end"});
-  for (const solvers::ContactPhase& phase : found.motion.phases)
-    phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
-  record.summary.emplace_back(quantities::phases, std::move(phases));
+  record.summary.emplace_back(quantities::phases, phases_table(found.motion));
   const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near && !is_by_phases(response);
   if (response.stability && !none)
     record.summary.emplace_back(quantities::stability_by,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -66,6 +68,72 @@ TEST(FrictionScene, OfAContactThatLiftsOffHasTheMotionOfTheExactOne) {
   EXPECT_NEAR(std::hypot(value_of<double>(record.summary, "leading_multiplier_real"),
                          value_of<double>(record.summary, "leading_multiplier_imag")),
               0.63913085, 1e-4);
+}
+
+// Against event-driven exact motions.
+TEST(FrictionScene, SaysHowFarItsResponseIsFromTheMotionOfTheStructureAndItsPhases) {
+  const Record record = analyse(scene_of("lift_off.toml"));
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "converged");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "phases");
+  const double displacement = value_of<double>(record.summary, "error_of_displacement"),
+               force = value_of<double>(record.summary, "error_of_force");
+  EXPECT_GT(displacement, 1e-7);
+  EXPECT_LT(displacement, 2e-5);
+  EXPECT_LT(force, 1e-4);
+  EXPECT_NEAR(value_of<double>(record.summary, "leading_multiplier_real"), 0.46568686, 1e-8);
+  EXPECT_NEAR(value_of<double>(record.summary, "leading_multiplier_imag"), 0.43774878, 1e-8);
+  const Table phases = *value_in<Table>(record.summary, "phases");
+  ASSERT_EQ(phases.rows(), 3U);
+  EXPECT_EQ(phases.where("state", "slip").numbers("contact")[0], 1.0);
+  EXPECT_NEAR(phases.where("state", "slip").numbers("begin")[0], 0.280840393, 1e-9);
+  EXPECT_NEAR(phases.where("state", "open").numbers("begin")[0], 0.299434949, 1e-9);
+  EXPECT_NEAR(phases.where("state", "stick").numbers("begin")[0], 0.951154093, 1e-9);
+}
+
+// The text of a scene without its balance, and with other lines after [contact].
+std::string without_balance(const std::string& name, const std::string& contact = {}) {
+  std::ifstream file(scenes / name);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t time = text.find("[time]"), after = text.find("[analysis]");
+  text.erase(time, after - time);
+  if (!contact.empty()) text.insert(text.find("[forcing]"), contact);
+  return text;
+}
+
+TEST(FrictionScene, ByPhasesHasTheWorkAndTheSharesOfTheExactMotion) {
+  const std::string text = without_balance("lift_off.toml");
+  for (const char* how : {"time.method=phases", "time.tolerance=1e-9", "analysis.type=shooting"}) {
+    const Record record =
+        analyse(parse_scene(text, (scenes / "by_phases.toml").string(), std::vector<std::string>{how}));
+    ASSERT_TRUE(record.converged) << how << ' ' << record.status;
+    EXPECT_EQ(value_of<std::string>(record.summary, "solved_by"), "phases") << how;
+    EXPECT_NEAR(value_of<double>(record.summary, "friction_work_J"), 0.08956782539, 1e-9 * 0.0896) << how;
+    const Table friction = *value_in<Table>(record.summary, "friction");
+    EXPECT_NEAR(friction.numbers("open_fraction")[0], 0.651719143, 1e-8);
+    EXPECT_NEAR(friction.numbers("stick_fraction")[0], 0.3296863, 1e-8);
+    EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
+  }
+}
+
+TEST(FrictionScene, ByPhasesRefusesTwoTangentsAndOtherLawsByName) {
+  const auto refused = [](const std::string& name, const std::string& contact) {
+    try {
+      parse_scene(without_balance(name, contact), (scenes / "by_phases.toml").string(),
+                  std::vector<std::string>{"time.method=phases"});
+    } catch (const SceneError& found) {
+      return found.details().key + " " + found.details().allowed + " " + found.what();
+    }
+    return std::string("not refused");
+  };
+  const std::string plane =
+      refused("lift_off.toml",
+              "[[contact.pairs]]\ndofs = [1]\ntangent = [2]\nsecond_tangent = [1]\nfriction = 0.2\n");
+  EXPECT_NE(plane.find("time.method"), std::string::npos) << plane;
+  EXPECT_NE(plane.find("two tangents"), std::string::npos) << plane;
+  const std::string mixed = refused(
+      "lift_off.toml", "[[contact.pairs]]\ndofs = [1]\nlaw = \"linear\"\nstiffness = 5.0\ngap = 1.0\n");
+  EXPECT_NE(mixed.find("time.method"), std::string::npos) << mixed;
+  EXPECT_NE(mixed.find("linear"), std::string::npos) << mixed;
 }
 
 TEST(FrictionScene, OfABoltedBeamIsSweptThroughItsResonance) {
@@ -168,7 +236,7 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
            Case{"lift_off.toml", "contact.normal_stiffness=0", "normal_stiffness", "> 0"},
            Case{"lift_off.toml", "contact.law=linear", "contact.friction", ""},
            Case{"slider.toml", "analysis.type=motions", "analysis.type", "forced_response"},
-           Case{"slider.toml", "analysis.phases=true", "analysis.phases", "false"},
+           Case{"bolted_beam.toml", "analysis.exact=true", "analysis.exact", "false"},
            Case{"slider.toml", "contact.tangential_stiffness=inf", "contact.tangential_stiffness", "> 0"},
        }) {
     const SceneError::Details details = error(one.scene, {one.setting});
