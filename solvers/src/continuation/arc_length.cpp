@@ -38,6 +38,8 @@ void ArcLengthOptions::validate() const {
   for (const auto& [name, value] :
        {std::pair{"displacement_scale", displacement_scale}, std::pair{"parameter_scale", parameter_scale}})
     if (!(std::isfinite(value) && value >= 0.0)) detail::reject(who, name, value, "at least 0 and finite");
+  if (!(least_scale > 0.0 && least_scale <= 1.0))
+    detail::reject(who, "least_scale", least_scale, "in (0, 1]");
   detail::require_positive(who, "initial_step", initial_step);
   detail::require_positive(who, "min_step", min_step);
   detail::require_positive(who, "max_step", max_step);
@@ -66,6 +68,7 @@ detail::ResponseEquations::ResponseEquations(ContactSystem& contacts, const Curv
   constexpr int few_samples = 512;
   // The pieces of laws over a period meet nowhere that is known beforehand: there are no events to follow.
   many_samples = system.problem().samples() > few_samples || system.laws().act_over_period();
+  scales.setConstant(system.problem().contacts(), options.displacement_scale);
 }
 
 double detail::ResponseEquations::evaluate(const CurvePoint& point, const LawPieces* sides) {
@@ -84,7 +87,28 @@ bool detail::ResponseEquations::solve_bordered(const Eigen::VectorXd& row, doubl
 }
 
 Eigen::VectorXd detail::ResponseEquations::weighted(const Eigen::VectorXd& tangent) const {
-  return tangent / options.displacement_scale / (double(tangent.size()) * options.displacement_scale);
+  const auto points = tangent.size() / scales.size();
+  Eigen::VectorXd result(tangent.size());
+  for (Eigen::Index c = 0; c < scales.size(); ++c)
+    result.segment(c * points, points) =
+        tangent.segment(c * points, points) / scales[c] / (double(tangent.size()) * scales[c]);
+  return result;
+}
+
+// A contact that hardly vibrates is measured by a part of what the others do.
+void detail::ResponseEquations::set_scales(const Eigen::VectorXd& displacement) {
+  constexpr double part_of_largest = 0.1;
+  const int contacts = system.problem().contacts();
+  scales.setConstant(contacts, options.displacement_scale);
+  if (options.least_scale == 1.0) return;
+  const auto points = displacement.size() / contacts;
+  for (int c = 0; c < contacts; ++c) {
+    const auto own = displacement.segment(c * points, points).array();
+    scales[c] = std::sqrt((own - own.mean()).square().mean());
+  }
+  const double least =
+      std::max(part_of_largest * scales.maxCoeff(), options.least_scale * options.displacement_scale);
+  scales = scales.cwiseMax(least).cwiseMin(options.displacement_scale);
 }
 
 // Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain
@@ -109,6 +133,8 @@ ArcLength::Status ArcLength::start(const CurvePoint& solution) {
   point_.displacement = solution.displacement;
   point_.parameter = solution.parameter;
   point_.residual = curve().evaluate(point_, nullptr);
+  curve().set_scales(point_.displacement);
+  previous_scales_ = curve().scales;
   previous_ = point_;
   last_step_ = 0.0;
   orientation_unknown_ = false;
@@ -184,6 +210,9 @@ void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
   orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
   previous_ = std::move(point_);
   point_ = std::move(candidate);
+  previous_scales_ = curve().scales;
+  curve().set_scales(point_.displacement);
+  normalize(point_);
 }
 
 ArcLength::Status ArcLength::advance() {
@@ -252,12 +281,15 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
   if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
   int corrections = 0;
   const LawPieces* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
+  const Eigen::VectorXd scales = std::exchange(curve().scales, previous_scales_);
   const auto value_at = [&](double fraction) -> std::optional<double> {
     if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;
     return value(point);
   };
   const auto is_close = [width](const detail::Bracket& b, double) { return b.high - b.low <= width; };
-  return detail::narrow(bracket, max_steps, value_at, is_close);
+  const bool found = detail::narrow(bracket, max_steps, value_at, is_close);
+  curve().scales = scales;
+  return found;
 }
 
 bool ArcLength::between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point) {

@@ -29,10 +29,15 @@ double ReturnDetector::beyond(const CurvePoint& point, const CurvePoint& kept) c
                kept.displacement_tangent, kept.parameter_tangent);
 }
 
+double ReturnDetector::cosine(const CurvePoint& a, const CurvePoint& b) const {
+  const auto product = [this](const CurvePoint& x, const CurvePoint& y) {
+    return inner(x.displacement_tangent, x.parameter_tangent, y.displacement_tangent, y.parameter_tangent);
+  };
+  return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
 bool ReturnDetector::is_same(const CurvePoint& point, const CurvePoint& kept) const {
-  return distance(point, kept) <= same &&
-         inner(point.displacement_tangent, point.parameter_tangent, kept.displacement_tangent,
-               kept.parameter_tangent) >= std::cos(options_.max_angle);
+  return distance(point, kept) <= same && cosine(point, kept) >= std::cos(options_.max_angle);
 }
 
 bool ReturnDetector::meets(ArcLength& curve, const CurvePoint& kept) const {

@@ -35,6 +35,7 @@ class ReturnDetector {
  private:
   double inner(const Eigen::VectorXd& u, double p, const Eigen::VectorXd& v, double q) const;
   double distance(const CurvePoint& a, const CurvePoint& b) const;
+  double cosine(const CurvePoint& a, const CurvePoint& b) const;  // of the angle between their tangents
   double beyond(const CurvePoint& point, const CurvePoint& kept) const;
   bool is_same(const CurvePoint& point, const CurvePoint& kept) const;
   bool meets(ArcLength& curve, const CurvePoint& kept) const;

@@ -131,7 +131,8 @@ class Sweep {
         return;
       }
       result_.status = follow(curve, detector);
-      if (result_.status != SweepStatus::closed || !shorten(arc)) return;
+      result_.closed_at_start = result_.status == SweepStatus::closed && returned_to_ == 0;
+      if (result_.status != SweepStatus::closed || result_.closed_at_start || !shorten(arc)) return;
       const std::size_t before = returned_to_ > 0 ? returned_to_ - 1 : 0;
       detector.forget_after(before);
       from = detector[before].point;
@@ -170,7 +171,11 @@ class Sweep {
     ArcLengthOptions arc = options_.arc_length;
     const double gap = system_.laws().largest_gap();
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
-    if (arc.displacement_scale == 0.0) arc.displacement_scale = gap > 0.0 ? gap : length_of_springs(rms);
+    constexpr double least_share = 1e-3;  // of a gap, of what vibrates
+    if (arc.displacement_scale == 0.0) {
+      arc.displacement_scale = gap > 0.0 ? gap : length_of_springs(rms);
+      arc.least_scale = std::min(arc.least_scale, least_share);
+    }
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
     arc.max_step *= step_share_;
     return arc;

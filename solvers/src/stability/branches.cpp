@@ -95,6 +95,7 @@ class Branches {
                                   " samples; expected " + std::to_string(times * from.unknown.size()));
     FrequencySweepOptions sweep = sweep_options(branch.periods);
     const Scales scales{scale_of(from), sweep.arc_length.parameter_scale};
+    sweep.arc_length.displacement_scale = scales.displacement;  // where they end is measured by it
     SweepStart start;
     if (!begin(parent, from, times, side, problem, scales, start)) return branch;
     trace(parent, problem, sweep, scales, std::move(start), branch);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "support/phase_cases.hpp"
 #include "support/small_problems.hpp"
 
 namespace wavebalance::solvers {
@@ -48,6 +49,33 @@ TEST(FrequencySweep, ReversesWhereTheBarGrazes) {
       EXPECT_NEAR(turn.max_displacement, testing::jl14_case_2.law.start, 2e-5);
       for (const SweepPoint& point : result.points) EXPECT_LE(point.residual, 1e-10);
     }
+}
+
+// A mass that its static load presses on a spring, 30 deep, and that vibrates by 0.005 beside its resonance
+// and by 1.8 in it. Steps of a 40th of the gap would pass the peak.
+TEST(FrequencySweep, FollowsASmallVibrationAboutALargeStaticDeflection) {
+  constexpr double damping = 0.004, load = 0.01;
+  LinearStructure structure;
+  const auto number = [](double value) {
+    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
+  };
+  structure.mass = structure.stiffness = structure.contact_directions = number(1.0);
+  structure.damping = number(damping);
+  structure.load = Eigen::VectorXd::Constant(1, load);
+  structure.forces = {{Eigen::VectorXd::Constant(1, 50.0), Eigen::VectorXcd::Ones(1)}};
+  const ContactLaws laws(AnyContactLaw(testing::LinearStop{1.0, 10.0}));
+  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
+  FrequencySweepOptions options;
+  options.from = 0.1;
+  options.to = 0.4;
+  const FrequencySweep sweep = frequency_sweep(problem, laws, options);
+  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  double amplitude = 0.0;
+  for (const SweepPoint& point : sweep.points)
+    amplitude = std::max(amplitude, 0.5 * (point.max_displacement - point.min_displacement));
+  const double stiffness = 2.0, peak = load / (damping * std::sqrt(stiffness - 0.25 * damping * damping));
+  EXPECT_GT(amplitude, 0.95 * peak);
+  EXPECT_LT(sweep.points.size(), 200u);
 }
 
 // The curve of JL14's case 2 from its response at 1275 Hz.

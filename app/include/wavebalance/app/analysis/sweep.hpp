@@ -56,15 +56,16 @@ struct Sweep {
   std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
 
+  /// Whether the curve is complete: it reached the end of the interval, or came back to its first point.
   bool converged() const {
-    return curve.status == solvers::SweepStatus::reached_end &&
+    return (curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start) &&
            curve.rounding_error <= largest_rounding_error;
   }
   /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
   /// The observer stopped it, its stability, a branch, its phases or its motions.
   bool stopped() const;
-  /// "reached_end", or the reason why not, such as "interrupted".
+  /// "reached_end" or "closed", or the reason why not, such as "interrupted".
   std::string status() const;
   /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability
   /// that its record tells.

@@ -57,9 +57,12 @@ enum class GrazingEvents {
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
-  double initial_step = 0.02;       ///< scaled arc length
-  double min_step = 1e-3;  ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it
-  double max_step = 0.25;  ///< scaled arc length
+  /// At each point lengths are measured by how its contacts vibrate: by the rms of each less its mean,
+  /// between this share of displacement_scale and all of it. 1: by displacement_scale everywhere. In (0, 1].
+  double least_scale = 1.0;
+  double initial_step = 0.02;  ///< scaled arc length
+  double min_step = 1e-3;      ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it
+  double max_step = 0.25;      ///< scaled arc length
   /// rad, between the tangent of a point and the chord to the next, and between the tangents of successive
   /// points; the latter may differ by twice as much after a long step of more than 512 samples.
   double max_angle = 0.35;
@@ -90,7 +93,10 @@ struct ResponseEquations {
   /// Value of the operation counter at which the curve must stop.
   double operation_limit = std::numeric_limits<double>::infinity();
   Eigen::VectorXd slope;
+  Eigen::VectorXd scales;  ///< C, m: in place of displacement_scale for each contact, at the present point
 
+  /// Sets `scales` for a solution.
+  void set_scales(const Eigen::VectorXd& displacement);
   double evaluate(const CurvePoint& point, const LawPieces* sides);
   const Eigen::VectorXd& residual() const { return system.residual(); }
   bool solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
@@ -185,6 +191,7 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
   ArcLengthOptions options_;
   bool events_first_ = false;  // long steps only where the next grazing event is not found
   CurvePoint point_, previous_;
+  Eigen::VectorXd previous_scales_;  // in which the tangent of previous_ has the length 1
   double step_ = 0.0;
   double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
   LawPieces last_sides_;               // sides of the piece that both lie on; empty if there may be several
