@@ -261,12 +261,12 @@ TEST(CoulombLaw, ResolventHasTheForcesOfTheLawAtTheEndOfSprings) {
     std::vector<double> v = u;
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.4 * own.force[i];
     const FrictionPeriod series = law.resolvent(flexibility).over_period(points, v, false);
-    double largest = 0.0, error = 0.0;
+    double greatest = 0.0, error = 0.0;
     for (std::size_t i = 0; i < v.size(); ++i) {
-      largest = std::max(largest, std::abs(own.force[i]));
+      greatest = std::max(largest, std::abs(own.force[i]));
       error = std::max(error, std::abs(series.force[i] - own.force[i]));
     }
-    EXPECT_LT(error, 2e-3 * largest) << tangents;
+    EXPECT_LT(error, 2e-3 * greatest) << tangents;
   }
 }
 

@@ -34,9 +34,10 @@ void add_sweep(std::vector<SceneKey>& keys) {
                  "where the branch ends, above or below its start", positive);
   sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
         derived("a 1000th of the interval", interval_over(1000)));
-  sweep(&Analysis::largest_step, "largest_step", "Hz or N",
-        "no step along the branch is larger; a displacement by the gap counts as a 20th of the interval",
-        positive, derived("an 80th of the interval", interval_over(80)));
+  sweep(
+      &Analysis::largest_step, "largest_step", "Hz or N",
+      "no step along the branch is larger; a change by the whole vibration, or by the gap where that is less, counts as a 20th of the interval",
+      positive, derived("an 80th of the interval", interval_over(80)));
   sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
         within(2, 10'000'000), optional);
   sweep(

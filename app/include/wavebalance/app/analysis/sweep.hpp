@@ -74,7 +74,7 @@ struct Sweep {
 };
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
-/// length as a change of displacement by the gap. analysis.first_step and analysis.largest_step are in Hz.
+/// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step are in Hz.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before. Its first point is sought near `start` unless that is
 /// empty, as weighted_residual_response() does.
@@ -82,7 +82,7 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
                       const StartMotion& start = {});
 
 /// The curve of the scene's responses over reference_load() at forcing.frequency. A change of the amplitude
-/// by 1/20 of the interval has the same length as a change of displacement by the gap.
+/// by 1/20 of the interval has the same length as a change by all that vibrates, at most the gap.
 Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
