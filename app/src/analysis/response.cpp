@@ -23,9 +23,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Less than a minute of one processor, for 200 phases. A response with few contacts takes a thousandth of
-// them, or less.
-constexpr double most_operations_of_phases = 2e11;
+// Seconds of one processor for a few contacts, which take a thousandth of that or less where a motion is
+// near, and less than a minute for 100, whose phases take as long.
+double most_operations_of_phases(int contacts) {
+  constexpr double of_few = 3e10, few_contacts = 16.0, most = 7.0;
+  return of_few * std::clamp(contacts / few_contacts, 1.0, most);
+}
+
 constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
 
 double seconds_since(Clock::time_point start) {
@@ -37,7 +41,7 @@ void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicRespon
                  const ResponseOptions& options, Response& result) {
   const auto start = Clock::now();
   solvers::ContactPhasesOptions phases;
-  phases.max_operations = most_operations_of_phases;
+  phases.max_operations = most_operations_of_phases(problem.contacts());
   phases.max_cut_panels = most_panels_cut;
   phases.observer = options.observer;
   result.phases = problem.phases(found, phases);
