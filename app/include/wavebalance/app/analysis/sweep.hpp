@@ -74,7 +74,8 @@ struct Sweep {
 };
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
-/// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step are in Hz.
+/// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step
+/// are in Hz.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
 /// The same for the scene's structure composed before. Its first point is sought near `start` unless that is
 /// empty, as weighted_residual_response() does.

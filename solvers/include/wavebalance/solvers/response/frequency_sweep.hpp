@@ -109,8 +109,8 @@ struct SweepStart {
 /// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
-  /// Of a closed curve, whether it came back to its first point, so that it is complete. Another earlier point
-  /// is one at which curves cross, or after which a step has jumped.
+  /// Of a closed curve, whether it came back to its first point, so that it is complete. Another earlier
+  /// point is one at which curves cross, or after which a step has jumped.
   bool closed_at_start = false;
   SweepParameter parameter = SweepParameter::frequency;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
