@@ -85,19 +85,6 @@ void check_sample_offset(const Document& document, const Time& time) {
   }
 }
 
-void check_time(const Document& document, const Scene& scene) {
-  const Time& time = scene.time;
-  if (time.tolerance > 0.0) return check_tolerance(document, scene);
-  const std::string functions = std::to_string(time.functions);
-  if (time.quadrature_points < time.functions)
-    fail_rule(
-        document, {"time.quadrature_points", "time.functions"},
-        "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
-  check_wavelet_sizes(document, scene);
-  check_pair(document, time);
-  check_sample_offset(document, time);
-}
-
 /// Motions of several periods of the load: the load is one of the harmonics of the functions.
 void check_subharmonic(const Document& document, const Scene& scene) {
   const int periods = scene.analysis.subharmonic;
@@ -226,14 +213,6 @@ void check_sweep(const Document& document, const Scene& scene) {
               "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
 }
 
-/// What limits the number of linear modes.
-std::string size_text(const Scene& scene) {
-  const int size = reduced_size(scene);
-  if (scene.structure.type == StructureType::bar) return "structure.elements = " + std::to_string(size);
-  return "the structure's degrees of freedom" +
-         std::string(scene.structure.kept_modes < 0 ? "" : " once reduced");
-}
-
 void check_dense_size(const Document& document, const Scene& scene) {
   const bool stepping = integrates_in_time(scene.analysis.type);
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
@@ -247,83 +226,6 @@ void check_dense_size(const Document& document, const Scene& scene) {
   const std::string advice = "; structure.kept_modes reduces them";
   const std::string count = std::to_string(reduced_size(scene)) + " degrees of freedom; ";
   fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
-}
-
-/// The pair of bases of an elastic mode, where the scene names one.
-void check_mode_pair(const Document& document, const Scene& scene, bool damped) {
-  if (scene.time.trial.empty() != scene.time.weight.empty())
-    fail_rule(document, {"time.trial", "time.weight"}, "expected both time.trial and time.weight, or none");
-  if (scene.time.trial.empty()) return;
-  if (scene.time.functions < 3)
-    fail_rule(document, {"time.functions", "time.trial"},
-              "expected at least 3 time.functions beside time.trial");
-  check_time(document, scene);
-  if (scene.analysis.cosine_only && (is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight)))
-    fail_rule(document, {"analysis.cosine_only"}, "expected false for wavelets, which have no even motions");
-  if (damped) return;
-  try {
-    solvers::require_free_motions(make_pair(scene.time));
-  } catch (const std::invalid_argument& error) {
-    fail_rule(document, {"time.trial", "time.weight"}, error.what());
-  }
-}
-
-void check_elastic_mode(const Document& document, const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
-    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
-              "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
-  check_mode_pair(document, scene, false);
-}
-
-/// A mode with friction: its curve is one over the amplitude.
-void check_damped_mode(const Document& document, const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  const Analysis usual;
-  const auto refuse = [&](bool given, const char* key, const std::string& what) {
-    if (given) fail_rule(document, {key, "contact.law"}, "not with friction, " + what);
-  };
-  const std::string ends =
-      "of which the curve is one over the amplitude; expected none, or largest_amplitude";
-  refuse(analysis.cosine_only, "analysis.cosine_only",
-         "with which motions are not even in time; expected false");
-  refuse(analysis.energy_ratio > 0.0, "analysis.energy_ratio",
-         "whose motions are told by amplitude; expected 0, or amplitude_ratio");
-  refuse(analysis.largest_energy != usual.largest_energy, "analysis.largest_energy", ends);
-  refuse(analysis.last_frequency_ratio != usual.last_frequency_ratio, "analysis.last_frequency_ratio", ends);
-  if (scene.time.trial.empty() && analysis.samples <= 2 * analysis.harmonics)
-    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
-              "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
-  check_mode_pair(document, scene, true);
-}
-
-void check_mode(const Document& document, const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  const bool damped = is_damped_mode(scene);
-  const auto refuse = [&](bool given, const char* key) {
-    if (given)
-      fail_rule(
-          document, {key, "contact.law"},
-          "a mode without friction has no amplitude of first slip; expected none, or law = \"coulomb\"");
-  };
-  refuse(!damped && analysis.amplitude_ratio > 0.0, "analysis.amplitude_ratio");
-  refuse(!damped && analysis.largest_amplitude != Analysis().largest_amplitude, "analysis.largest_amplitude");
-  if (scene.contact.law == no_law)
-    fail_rule(document, {"contact.law"},
-              "expected " + alternatives(laws_of_modes()) + " for a nonlinear mode");
-  for (const SceneContact& contact : contacts_of(scene))
-    if (!damped && !(contact.gap > 0.0))
-      fail_rule(document,
-                {contact.pair ? pair_section(*contact.pair) + ".gap" : "contact.gap", "contact.gap"},
-                "expected a number in m, > 0 for a nonlinear mode");
-  if (analysis.mode > reduced_size(scene))
-    fail_rule(document, {"analysis.mode"},
-              "expected at most " + std::to_string(reduced_size(scene)) + ", " + size_text(scene));
-  if (analysis.samples < 2 * analysis.harmonics)
-    fail_rule(document, {"analysis.samples", "analysis.harmonics"},
-              "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
-  if (damped) check_damped_mode(document, scene);
-  if (is_elastic_mode(scene)) check_elastic_mode(document, scene);
 }
 
 /// Impacts are those of contacts with mass in an equation in time, and leave no functions to choose.
@@ -401,6 +303,19 @@ void check_products(const Document& document, const Scene& scene) {
 }
 
 }  // namespace
+
+void check_time(const Document& document, const Scene& scene) {
+  const Time& time = scene.time;
+  if (time.tolerance > 0.0) return check_tolerance(document, scene);
+  const std::string functions = std::to_string(time.functions);
+  if (time.quadrature_points < time.functions)
+    fail_rule(
+        document, {"time.quadrature_points", "time.functions"},
+        "fewer quadrature points than functions; expected quadrature_points >= functions = " + functions);
+  check_wavelet_sizes(document, scene);
+  check_pair(document, time);
+  check_sample_offset(document, time);
+}
 
 void check_scene_rules(const Document& document, Scene& scene) {
   check_structure_rules(document, scene);

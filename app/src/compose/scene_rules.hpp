@@ -21,6 +21,12 @@ void check_laws(const Document& document, const Scene& scene);
 /// scene. Throws SceneError.
 void check_structure_rules(const Document& document, Scene& scene);
 
+/// Checks functions, quadrature and the pair of bases of a balance. Throws SceneError.
+void check_time(const Document& document, const Scene& scene);
+
+/// Checks what a nonlinear mode asks for. Throws SceneError.
+void check_mode(const Document& document, const Scene& scene);
+
 /// Checks the rules between the keys of a scene, each of which is valid by itself: sizes of wavelet bases,
 /// quadrature, admissible pairs, sweeps, sizes of time stepping, the structure's rules. Throws SceneError at
 /// the key at fault.

@@ -5,6 +5,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "modes/bordered.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -245,16 +246,7 @@ Eigen::MatrixXd DampedMotions::jacobian() const {
 bool DampedMotions::solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
                                    double last_right, Eigen::VectorXd& change,
                                    double& parameter_change) const {
-  Eigen::MatrixXd matrix(row.size() + 1, row.size() + 1);
-  matrix << jacobian(), row.transpose(), last;
-  const detail::Lu<double> lu(matrix);
-  if (lu.is_singular(0.0)) return false;
-  Eigen::VectorXd solution(row.size() + 1);
-  solution << right, last_right;
-  solution = lu.solve(solution);
-  change = solution.head(row.size());
-  parameter_change = solution[row.size()];
-  return true;
+  return solve_bordered_dense(jacobian(), row, last, right, last_right, change, parameter_change);
 }
 
 Eigen::MatrixXd DampedMotions::force() const {

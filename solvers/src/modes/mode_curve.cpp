@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "linalg/dense.hpp"
+#include "modes/bordered.hpp"
 
 namespace wavebalance::solvers {
 
@@ -42,16 +42,7 @@ double FreeMotions::evaluate(const CurvePoint& point, const Pieces*) {
 
 bool FreeMotions::solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
                                  double last_right, Eigen::VectorXd& change, double& parameter_change) const {
-  Eigen::MatrixXd matrix(row.size() + 1, row.size() + 1);
-  matrix << equations_.jacobian(), row.transpose(), last;
-  const detail::Lu<double> lu(matrix);
-  if (lu.is_singular(0.0)) return false;
-  Eigen::VectorXd solution(row.size() + 1);
-  solution << right, last_right;
-  solution = lu.solve(solution);
-  change = solution.head(row.size());
-  parameter_change = solution[row.size()];
-  return true;
+  return solve_bordered_dense(equations_.jacobian(), row, last, right, last_right, change, parameter_change);
 }
 
 ModeCurve::ModeCurve(ModeEquations& equations, const ElasticBackboneOptions& options, double tolerance)

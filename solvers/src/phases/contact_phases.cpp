@@ -157,7 +157,7 @@ class Search {
   // rigid, and equations with such an interval have no solution. If the motion has it, it is inserted later.
   bool leave_out_shortest() {
     constexpr double longest = 0.01, above = 1.0 + 1e-9;
-    if (!(shortest_ < longest)) return false;
+    if (!(shortest_ < longest) || shortest_ < least_) return false;  // or between different pieces
     least_ = above * shortest_;
     return true;
   }

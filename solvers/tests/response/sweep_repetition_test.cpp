@@ -88,21 +88,30 @@ std::optional<std::size_t> returned_within(ArcLength& curve, ReturnDetector& det
   return std::nullopt;
 }
 
-TEST(SweepRepetition, AClosedCurveReturnsToItsFirstPoint) {
-  Beam beam;
+// A point that the curve from 12 Hz keeps after a long step has jumped.
+CurvePoint point_of_the_closed_curve(Beam& beam) {
   beam.problem.set_frequency(12.0);
   ContactSystem system(beam.problem, beam.stop);
   const FrequencyParameter frequency;
-  ArcLengthOptions arc = Beam::options().arc_length;
+  const ArcLengthOptions arc = Beam::options().arc_length;
   ArcLength curve(system, frequency, arc);
   const PeriodicResponse first = forced_response(beam.problem, beam.stop, {});
-  ASSERT_EQ(curve.start(first.unknown, 12.0, 1.0), ArcLength::Status::advanced);
+  EXPECT_EQ(curve.start(first.unknown, 12.0, 1.0), ArcLength::Status::advanced);
   ReturnDetector detector(arc);
   int entered = 0;
   const auto index = returned_within(curve, detector, 3000, entered);
-  ASSERT_TRUE(index) << "long steps jump to a closed curve";
+  EXPECT_TRUE(index) << "long steps jump to a closed curve";
+  if (!index) return curve.point();
   EXPECT_GT(*index, 0u);
-  const CurvePoint on_it = detector[*index].point;
+  return detector[*index].point;
+}
+
+TEST(SweepRepetition, AClosedCurveReturnsToItsFirstPoint) {
+  Beam beam;
+  const CurvePoint on_it = point_of_the_closed_curve(beam);
+  ContactSystem system(beam.problem, beam.stop);
+  const FrequencyParameter frequency;
+  ArcLengthOptions arc = Beam::options().arc_length;
   arc.grazing_events = GrazingEvents::all;
   ArcLength closed(system, frequency, arc);
   const double direction = on_it.parameter_tangent > 0.0 ? 1.0 : -1.0;
@@ -113,6 +122,23 @@ TEST(SweepRepetition, AClosedCurveReturnsToItsFirstPoint) {
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, 0u);
   EXPECT_GT(lap, 5);
+}
+
+TEST(SweepRepetition, AClosedCurveFollowedFromOneOfItsPointsIsComplete) {
+  Beam beam;
+  const CurvePoint on_it = point_of_the_closed_curve(beam);
+  FrequencySweepOptions how = Beam::options();
+  how.arc_length.grazing_events = GrazingEvents::all;
+  SweepStart start;
+  ContactSystem system(beam.problem, beam.stop);
+  beam.problem.set_load_frequency(on_it.parameter);
+  start.response = response_at(system, on_it.displacement);
+  start.direction = on_it.displacement_tangent;
+  const FrequencySweep found = frequency_sweep(beam.problem, beam.stop, how, start);
+  EXPECT_EQ(found.status, SweepStatus::closed);
+  EXPECT_TRUE(found.closed_at_start);
+  EXPECT_GT(found.points.size(), 5u);
+  EXPECT_LT(found.points.size(), 500u);
 }
 
 TEST(SweepRepetition, ACurveThatTurnsBackAndOnAgainDoesNotReturn) {
