@@ -1,7 +1,5 @@
 // The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
 // command.
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -22,6 +20,7 @@
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/solvers/linalg/blas_threads.hpp"
+#include "wavebalance/solvers/linalg/freed_memory.hpp"
 
 namespace {
 
@@ -244,20 +243,10 @@ int dispatch(int argc, char** argv) {
   return check.parsed() ? check_scene(arguments) : run_scene(arguments);
 }
 
-// Matrices of a few hundred rows are made and freed at every step. Memory that the process keeps is not
-// cleared anew by the system each time, which took two thirds of an exact curve with 46 states.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int largest_kept = 32 << 20, kept = 512 << 20;  // the first is the most that glibc takes
-  mallopt(M_MMAP_THRESHOLD, largest_kept);
-  mallopt(M_TRIM_THRESHOLD, kept);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_freed_memory();
+  wavebalance::solvers::keep_freed_memory();
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file size limit is then an error of the write, reported like a full disk
   wavebalance::solvers::use_one_blas_thread();

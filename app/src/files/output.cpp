@@ -226,6 +226,12 @@ void write_file(const fs::path& file, std::string_view contents) {
 
 std::string read_file(const fs::path& file, std::size_t max_bytes) {
   const Descriptor descriptor(open_regular(file));
+  const auto too_large = [&] {
+    return IoError(file, "cannot be read: it has more than " + std::to_string(max_bytes) + " bytes");
+  };
+  struct ::stat status {};
+  // A size that is known says so without reading. Files of the system say 0, and others may grow meanwhile.
+  if (::fstat(descriptor.get(), &status) == 0 && std::size_t(status.st_size) > max_bytes) throw too_large();
   std::string text;
   for (;;) {
     constexpr std::size_t block = 1 << 16;
@@ -235,8 +241,7 @@ std::string read_file(const fs::path& file, std::size_t max_bytes) {
     text.resize(size + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     if (got == 0) return text;
     if (got < 0 && errno != EINTR) throw IoError(file, "cannot be read: " + reason_of(errno));
-    if (text.size() > max_bytes)
-      throw IoError(file, "cannot be read: it has more than " + std::to_string(max_bytes) + " bytes");
+    if (text.size() > max_bytes) throw too_large();
   }
 }
 

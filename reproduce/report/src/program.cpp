@@ -7,6 +7,7 @@
 #include "command_line.hpp"
 #include "wavebalance/report/artefact.hpp"
 #include "wavebalance/solvers/linalg/blas_threads.hpp"
+#include "wavebalance/solvers/linalg/freed_memory.hpp"
 
 namespace wavebalance::report {
 namespace {
@@ -58,6 +59,7 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
   if (code) return *code;
   const Step& step = find(steps, arguments.name);
   solvers::use_one_blas_thread();
+  solvers::keep_freed_memory();
   try {
     run(step, std::filesystem::path(argv[0]).filename().string(), arguments);
     return 0;

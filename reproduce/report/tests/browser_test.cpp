@@ -153,6 +153,9 @@ void write_results(const Path& results) {
 
 class Browser : public NeedsChromium {};
 
+/// With what `make reproduce` made; CTest says by its name that it was skipped.
+class BrowserOfResults : public NeedsChromium {};
+
 TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   const TemporaryFolder folder;
   const Path results = folder.path() / "results";
@@ -243,7 +246,7 @@ TEST_F(Browser, TheReportsOfAComparisonAndOfAnOverlayAreSound) {
   expect_sound(found, log);
 }
 
-TEST_F(Browser, TheResultsOfTheRunAreSound) {
+TEST_F(BrowserOfResults, FindsTheResultsOfTheRunSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
   for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "blade.js"})

@@ -81,15 +81,16 @@ Eigen::VectorXd step_forces(const ContactLaws& laws, const StepEnd& end, const E
     double change = 0.0;
     for (Eigen::Index c = 0; c < force.size();) {
       const AnyContactLaw& law = laws[static_cast<int>(c)];
-      const Eigen::Index rows = law.rows();
-      Eigen::VectorXd next(rows);
-      if (law.acts_over_period())
-        next = forces_of_rows(law, end, c, begin, force);
-      else
-        next[0] = force_of_row(law, end, c, force);
-      change = std::max(change, (next - force.segment(c, rows)).cwiseAbs().maxCoeff());
-      force.segment(c, rows) = next;
-      c += rows;
+      if (law.acts_over_period()) {
+        const Eigen::VectorXd next = forces_of_rows(law, end, c, begin, force);
+        change = std::max(change, (next - force.segment(c, next.size())).cwiseAbs().maxCoeff());
+        force.segment(c, next.size()) = next;
+        c += next.size();
+      } else {
+        const double next = force_of_row(law, end, c, force);
+        change = std::max(change, std::abs(next - force[c]));
+        force[c++] = next;
+      }
     }
     if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) break;
   }

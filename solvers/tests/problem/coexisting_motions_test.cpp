@@ -64,10 +64,10 @@ TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
 TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
   for (const double frequency : {0.14, 0.1695, 0.1962, 0.25}) {
     ContactProblem problem = folded();
-    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 8});
+    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 4});
     ASSERT_EQ(all.motions.size(), 1u) << frequency;
     EXPECT_EQ(all.motions[0].found_by, MotionSource::rest);
-    EXPECT_EQ(all.motions[0].arrivals, 8);
+    EXPECT_EQ(all.motions[0].arrivals, 4);
   }
 }
 
@@ -105,8 +105,8 @@ TEST(CoexistingMotions, OfTwoPeriodsStandBesideTheUnstableOneThatTheyBranchFrom)
 TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
   const double frequency = 4.0 / two_pi;
   ContactProblem problem = doubling();
-  const CoexistingMotions four = coexisting_motions(problem, frequency, {.random_starts = 6}),
-                          two = coexisting_motions(problem, frequency, {.random_starts = 6, .longest = 2});
+  const CoexistingMotions four = coexisting_motions(problem, frequency, {.random_starts = 4}),
+                          two = coexisting_motions(problem, frequency, {.random_starts = 4, .longest = 2});
   ASSERT_EQ(four.motions.size(), 3u);
   EXPECT_EQ(four.motions[1].periods, 3);
   EXPECT_EQ(four.motions[1].stability.status, "stable");
@@ -118,7 +118,7 @@ TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
 
 TEST(CoexistingMotions, OfThreePeriodsAreABoundaryOfTheBasinOfOneOfOne) {
   ContactProblem problem = doubling();
-  const CoexistingMotions all = coexisting_motions(problem, 4.2 / two_pi, {.random_starts = 8});
+  const CoexistingMotions all = coexisting_motions(problem, 4.2 / two_pi, {.random_starts = 5});
   ASSERT_EQ(all.motions.size(), 3u);
   EXPECT_EQ(stable_ones(all), 2);
   EXPECT_EQ(all.motions[2].periods, 3);
