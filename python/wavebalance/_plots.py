@@ -44,7 +44,9 @@ def record_response(columns: dict[str, Any], ax: Any = None) -> Any:
 def record_sweep(columns: dict[str, Any], ax: Any = None) -> Any:
     ax = axes(ax)
     name = next(iter(columns))
-    branches = np.asarray(columns.get("branch", np.zeros(len(columns[name]))))
+    none = np.zeros(len(columns[name]))
+    # Isolas are on branch 0 of their own.
+    branches = np.asarray(columns.get("branch", none)) - np.asarray(columns.get("isola", none))
     unstable = np.asarray(columns.get("unstable", np.zeros(len(columns[name]))))
     for branch in np.unique(branches):
         of = branches == branch

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "analysis/response_parts.hpp"
+#include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 bool keeps_unknowns(const Scene& scene) {
   return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty() ||
-         has_friction(scene);
+         scene.analysis.isolas || has_friction(scene);
 }
 
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.
@@ -54,8 +55,20 @@ void add_friction(const Scene& scene, Sweep& sweep) {
 
 }  // namespace
 
+std::string SweepAxis::label() const {
+  return (quantity == "frequency" ? "Frequency (" : "Amplitude of the load (") + unit + ")";
+}
+
+SweepAxis sweep_axis(const Sweep& sweep) {
+  if (sweep.curve.parameter == solvers::SweepParameter::frequency) return {};
+  const std::string& unit = sweep.amplitude_unit;
+  return {"amplitude", unit, unit == "m/s^2" ? "m_per_s2" : unit};
+}
+
 bool Sweep::stopped() const {
-  return interrupted() || stability.cancelled || phases_cancelled || !motions_left_out.empty() ||
+  return interrupted() || stability.cancelled || phases_cancelled || isola_search.cancelled ||
+         !motions_left_out.empty() ||
+         std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.stopped(); }) ||
          std::any_of(branches.begin(), branches.end(),
                      [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
 }

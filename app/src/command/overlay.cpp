@@ -107,16 +107,25 @@ std::vector<double> unstable_of(const Table& table) {
 void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
                const std::string& column) {
   const Table all = read_csv(file);
-  const bool branches = all.has_column("branch");
-  for (int branch = 0;; ++branch) {
-    const Table table = branches ? all.where("branch", std::to_string(branch)) : all;
-    if (table.empty()) return;
-    const std::string name = branch == 0 ? label : fmt::format("{}, branch {}", label, branch);
-    curves.push_back({name, branch == 0 ? "frequency_sweep" : "branch",
+  const auto add = [&](const Table& table, const std::string& kind, int number) {
+    curves.push_back({number == 0 ? label : fmt::format("{}, {} {}", label, kind, number),
+                      number == 0 ? "frequency_sweep" : kind,
                       column_of(table, quantities::frequency.column(), file), column_of(table, column, file),
                       unstable_of(table)});
-    if (!branches) return;
-  }
+  };
+  // The curves of a table by their number in a column, the first of which is 0 in all columns.
+  const auto add_each = [&](const Table& table, const std::string& kind, int first) {
+    for (int number = first; table.has_column(kind); ++number) {
+      const Table one = table.where(kind, std::to_string(number));
+      if (one.empty()) return;
+      add(one, kind, number);
+    }
+  };
+  const std::string isola(quantities::isola.name);
+  const Table along = all.has_column(isola) ? all.where(isola, "0") : all;
+  if (!along.has_column("branch") && !along.empty()) add(along, "branch", 0);
+  add_each(along, "branch", 0);
+  add_each(all, isola, 1);
 }
 
 void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,

@@ -19,7 +19,7 @@ OverlayQuantity overlay_quantity(const std::string& name);
 /// A curve of displacements over the frequency from the results of a run, or one point of a response.
 struct OverlayCurve {
   std::string label;
-  std::string kind;                  ///< "frequency_sweep", "branch", "nonlinear_mode" or "response"
+  std::string kind;                  ///< "frequency_sweep", "branch", "isola", "nonlinear_mode" or "response"
   std::vector<double> frequency;     ///< Hz
   std::vector<double> displacement;  ///< m; NaN where a backbone is interrupted
   std::vector<double> unstable;      ///< Floquet multipliers outside the unit circle; NaN where not known

@@ -96,7 +96,9 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
       section_html("Stability",
                    paragraph(stability_sentences(summary, record.sweep, record.axis)) +
                        folded_table(summary, "structure_special_points", "Special points of the structure") +
-                       folded_table(summary, "special_points", "Special points")) +
+                       folded_table(summary, "special_points", "Special points") +
+                       folded_table(summary, "isolas", "Isolas") +
+                       folded_table(summary, "special_points_of_isolas", "Special points of isolas")) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked", asked(arguments, scene)) +
       section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +

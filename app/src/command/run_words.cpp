@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "command/other_motions.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 
@@ -327,9 +328,10 @@ std::vector<std::string> unstable_parts(const std::vector<double>& place, const 
   return parts;
 }
 
-void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& curve,
+void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& all,
                            const SweepAxis& axis) {
-  if (!curve.has_column("unstable") || curve.has_column("branch")) return;
+  if (!all.has_column("unstable") || all.has_column("branch")) return;
+  const Table curve = all.has_column(quantities::isola.name) ? all.where(quantities::isola.name, "0") : all;
   const std::vector<double> unstable = curve.numbers("unstable");
   const auto not_known =
       std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
@@ -360,6 +362,8 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap, c
     append_motion(sentences, summary, gap);
   append_contact(sentences, summary, curve ? "up to " : "");
   append_phases(sentences, summary, curve);
+  if (const std::string others = other_motions_sentence(summary, curve); !others.empty())
+    sentences.push_back(others);
   return sentences;
 }
 

@@ -117,6 +117,36 @@ void check_coexisting(const Document& document, const Scene& scene) {
             " for analysis.type = \"motions\", which computes all modes; structure.kept_modes reduces them");
 }
 
+/// Motions beside a curve are those that the structure settles to.
+void check_isolas(const Document& document, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (!analysis.isolas) return;
+  const auto refuse = [&](bool given, const char* key, const std::string& why) {
+    if (given) fail_rule(document, {"analysis.isolas", key}, why);
+  };
+  refuse(analysis.exact, "analysis.exact",
+         "not with analysis.exact, whose closed curves are not followed; expected one or the other");
+  refuse(analysis.subharmonic > 1, "analysis.subharmonic",
+         "not with motions of several periods of the load; expected analysis.subharmonic = 1");
+  refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
+         "not with a loss factor, which has no equation in time to settle by; expected 0, or modal_damping = "
+         "loss_factor / 2 in its place");
+  refuse(
+      scene.structure.matrices.free, "structure.free",
+      "not with a structure that is free to move, which does not settle; expected analysis.isolas = false");
+  refuse(is_rigid(scene.contact.law), "contact.law",
+         "not with a rigid contact, which has no law of impact to settle by; expected false, or a stiff "
+         "\"linear\" law");
+  constexpr int most_frequencies = 100'000;
+  if (std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.isola_spacing > most_frequencies)
+    fail_rule(document, {"analysis.isola_spacing"},
+              "expected at most " + std::to_string(most_frequencies) + " frequencies in the interval");
+  const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
+  refuse(size > most, "structure.kept_modes",
+         std::to_string(size) + " degrees of freedom; expected at most " + std::to_string(most) +
+             " for the motions that it settles to, which take all modes; structure.kept_modes reduces them");
+}
+
 /// What an exact curve does not do yet, or does not need.
 void check_exact(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
@@ -337,6 +367,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (balanced) check_subharmonic(document, scene);
   check_branches(document, scene);
   check_exact(document, scene);
+  check_isolas(document, scene);
   check_coexisting(document, scene);
   check_dense_size(document, scene);
 }

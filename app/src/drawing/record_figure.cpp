@@ -146,6 +146,8 @@ std::vector<double> displacements_of(const Sweep& sweep) {
   for (const auto& point : sweep.curve.points) values.push_back(point.rms_displacement);
   for (const solvers::Branch& branch : sweep.branches)
     for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
+  for (const Sweep& isola : sweep.isolas)
+    for (const auto& point : isola.curve.points) values.push_back(point.max_displacement);
   return values;
 }
 
@@ -312,11 +314,15 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
                           : std::vector<PlacedPoint>());
   }
   draw_branches(panel, sweep, 1.0, scale.factor);
+  draw_isolas(panel, sweep, 1.0, scale.factor);
   std::vector<PlacedPoint> marks =
       placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter);
   for (const solvers::Branch& branch : sweep.branches)
     for (const PlacedPoint& one :
          placed(branch.stability.special_points, scale.factor, branch.curve.parameter))
+      marks.push_back(one);
+  for (const Sweep& isola : sweep.isolas)
+    for (const PlacedPoint& one : placed(isola.stability.special_points, scale.factor, isola.curve.parameter))
       marks.push_back(one);
   draw_special_points(panel, marks);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;

@@ -178,26 +178,48 @@ void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points) {
   }
 }
 
-void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
+namespace {
+
+/// One of the curves beside the first, the i-th of its kind.
+void draw_beside(Panel& panel, std::string label, const solvers::FrequencySweep& curve,
+                 const StabilityAlong& stability, const std::vector<solvers::SpecialPoint>& special_points,
+                 std::size_t colour, double x_factor, double y_factor) {
   constexpr std::array colours{Colour::green, Colour::vermillion, Colour::purple, Colour::sky_blue};
+  if (curve.points.empty()) return;
+  Series series;
+  series.label = std::move(label);
+  for (const auto& point : curve.points) {
+    series.x.push_back(x_factor * point.frequency);
+    series.y.push_back(y_factor * point.max_displacement);
+  }
+  series.colour = colours[colour % colours.size()];
+  std::vector<PlacedPoint> special;
+  for (const auto& point : special_points)
+    special.push_back({point.type, x_factor * point.frequency, y_factor * point.max_displacement});
+  const std::size_t before = panel.series.size();
+  draw_by_stability(panel, series, stability.points, special);
+  label_once(panel, before);
+}
+
+}  // namespace
+
+void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
   for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
     const solvers::Branch& branch = sweep.branches[i];
-    if (branch.curve.points.empty()) continue;
     const int periods = branch.periods * sweep.periods;
-    Series series;
-    series.label = "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
-                   (periods == 1 ? " period" : " periods");
-    for (const auto& point : branch.curve.points) {
-      series.x.push_back(x_factor * point.frequency);
-      series.y.push_back(y_factor * point.max_displacement);
-    }
-    series.colour = colours[i % colours.size()];
-    std::vector<PlacedPoint> special;
-    for (const auto& point : branch.stability.special_points)
-      special.push_back({point.type, x_factor * point.frequency, y_factor * point.max_displacement});
-    const std::size_t before = panel.series.size();
-    draw_by_stability(panel, series, sweep.stability_of(i + 1).points, special);
-    label_once(panel, before);
+    draw_beside(panel,
+                "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
+                    (periods == 1 ? " period" : " periods"),
+                branch.curve, sweep.stability_of(i + 1), branch.stability.special_points, i, x_factor,
+                y_factor);
+  }
+}
+
+void draw_isolas(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
+  for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
+    const Sweep& isola = sweep.isolas[i];
+    draw_beside(panel, "isola " + std::to_string(i + 1), isola.curve, isola.stability_of(0),
+                isola.stability.special_points, sweep.branches.size() + i, x_factor, y_factor);
   }
 }
 

@@ -155,6 +155,17 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
                      place.empty() ? "" : " " + place);
 }
 
+/// Where motions beside a sweep are sought, and what that takes.
+std::string isolas_line(const Analysis& analysis) {
+  if (!analysis.isolas) return "";
+  const double interval = std::abs(analysis.frequency_to - analysis.frequency_from);
+  const double frequencies = std::ceil(interval / analysis.isola_spacing * (1.0 - 1e-9));
+  return fmt::format(
+      "isolas     sought at {:.0f} frequencies, from rest and {} random states each: {:.0f} motions in time, of up to "
+      "seconds each, which the cost below leaves out\n",
+      frequencies, analysis.isola_starts, frequencies * (1 + analysis.isola_starts));
+}
+
 std::string forcing_line(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   std::string frequency = number_text(scene.forcing.frequency);
@@ -172,7 +183,8 @@ std::string forcing_line(const Scene& scene) {
   const std::string force =
       fmt::format("{} N {}, ", number_text(scene.forcing.amplitude), force_place(scene));
   return fmt::format("forcing    {}{} Hz{}{}\n{}", terms_alone ? "" : force, frequency, periods,
-                     analysis.branches ? ", with branches" : "", terms);
+                     analysis.branches ? ", with branches" : "", terms) +
+         isolas_line(analysis);
 }
 
 std::string chosen_text(const Time& time) {

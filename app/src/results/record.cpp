@@ -134,6 +134,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
   append_settled(record, response);
+  append_other_motions(record, scene, response);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (response.structure_harmonics > 0)
@@ -249,6 +250,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   append_stability(record, sweep);
   append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
+  append_isolas(record, scene, sweep);
   append_motions(record, scene, model, sweep, motions);
   if (has_impacts(scene.contact)) {
     record.summary.emplace_back(quantities::solved_by, "impacts");
@@ -274,6 +276,7 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
   add_phases(scene, model, sweep, observer);
+  add_isolas(scene, model, sweep, observer);
   return sweep;
 }
 

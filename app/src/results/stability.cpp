@@ -11,6 +11,7 @@
 #include "results/structure_points.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_phases.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -209,6 +210,84 @@ void append_branches(Record& record, const Sweep& sweep) {
     append_special_points(special, {std::int64_t(i) + 1}, sweep.branches[i].stability,
                           sweep.branches[i].curve.parameter, sweep.phases_of(i + 1));
   record.summary.emplace_back(quantities::special_points_of_branches, special);
+}
+
+namespace {
+
+/// Where an isola lies and how it ended.
+std::vector<Cell> isola_row(const Sweep& isola, std::size_t number) {
+  double lowest = missing, highest = missing, largest = missing, force = missing, unstable = missing;
+  for (const auto& point : isola.curve.points) {
+    lowest = std::fmin(lowest, point.frequency);
+    highest = std::fmax(highest, point.frequency);
+    largest = std::fmax(largest, point.max_displacement);
+    force = std::fmax(force, point.max_force);
+  }
+  const StabilityAlong stability = isola.stability_of(0);
+  for (const auto& point : stability.points)
+    if (point.unstable >= 0) unstable = (std::isnan(unstable) ? 0.0 : unstable) + (point.unstable > 0);
+  return {static_cast<std::int64_t>(number),
+          isola.origin.frequency,
+          std::string(isola.origin.start == 0 ? "rest" : "random"),
+          lowest,
+          highest,
+          largest,
+          force,
+          std::int64_t(isola.curve.points.size()),
+          unstable,
+          isola.status(),
+          std::string(stability.points.empty() ? "none" : stability.status)};
+}
+
+void warn_of_isola(Record& record, const Sweep& isola, std::size_t number) {
+  warn_of_quasi_periodic_motions(record, isola.stability.special_points, isola);
+  if (isola.origin.meets_known)
+    record.warnings.push_back(fmt::format(
+        "Isola {}, found at {:.6g} Hz, ends on a curve that was known: a step on one of the two was too long, and "
+        "they are parts of one curve or cross. A smaller analysis.largest_step tells which.",
+        number, isola.origin.frequency));
+  if (!isola.converged())
+    record.warnings.push_back(
+        fmt::format("Isola {} was not followed to an end: {}.", number, isola.status()));
+}
+
+void append_isolas_found(Record& record, const Sweep& sweep) {
+  Table table({"isola", "found_at_Hz", "found_from", "lowest_frequency_Hz", "highest_frequency_Hz",
+               "max_displacement_m", "max_contact_force_N", "points", "points_unstable", "status",
+               "stability"});
+  Table special(special_columns({"isola"}, sweep_axis(sweep), !sweep.phases.empty()));
+  for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
+    const Sweep& isola = sweep.isolas[i];
+    table.append_row(isola_row(isola, i + 1));
+    warn_of_isola(record, isola, i + 1);
+    const SweepPhases none;
+    const SweepPhases* phases = isola.phases_of(0);
+    append_special_points(special, {std::int64_t(i) + 1}, isola.stability, isola.curve.parameter,
+                          sweep.phases.empty() ? nullptr
+                          : phases == nullptr  ? &none
+                                               : phases);
+  }
+  record.summary.emplace_back(quantities::isolas, table);
+  record.summary.emplace_back(quantities::special_points_of_isolas, special);
+}
+
+}  // namespace
+
+void append_isolas(Record& record, const Scene& scene, const Sweep& sweep) {
+  if (scene.contact.law == no_law || sweep.curve.points.empty()) return;
+  const IsolaSearch& search = sweep.isola_search;
+  const bool sought = !search.frequencies.empty();
+  record.summary.emplace_back(quantities::other_motions, std::string(sought ? "sought" : "not_sought"));
+  if (!sought) return;
+  record.summary.emplace_back(quantities::isola_frequencies, std::int64_t(search.frequencies.size()));
+  record.summary.emplace_back(quantities::isola_starts, std::int64_t{search.starts});
+  record.summary.emplace_back(quantities::isola_seconds, search.wall_seconds);
+  append_isolas_found(record, sweep);
+  if (!search.unmatched.empty())
+    record.warnings.push_back(fmt::format(
+        "At {:.6g} Hz the structure settles to a motion of the load's period near which the balance has no response: "
+        "more functions may lead to one.",
+        fmt::join(search.unmatched, ", ")));
 }
 
 }  // namespace wavebalance::app

@@ -16,5 +16,8 @@ void append_stability(Record& record, const Sweep& sweep);
 
 /// The table `branches`, and a warning about each that was not followed to an end.
 void append_branches(Record& record, const Sweep& sweep);
+/// Whether curves beside those of a sweep were sought, and the table `isolas` of what was found, with a
+/// warning about each that is not whole.
+void append_isolas(Record& record, const Scene& scene, const Sweep& sweep);
 
 }  // namespace wavebalance::app

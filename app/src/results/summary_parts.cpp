@@ -145,6 +145,14 @@ void append_settled(Record& record, const Response& response) {
         others);
 }
 
+void append_other_motions(Record& record, const Scene& scene, const Response& response) {
+  if (!response.moves || scene.contact.law == no_law) return;
+  const bool integrated = integrates_in_time(scene.analysis.type) && !is_by_phases(response);
+  const bool from_rest = response.settled || (response.attractor_periods >= 0 && !integrated);
+  record.summary.emplace_back(quantities::other_motions,
+                              std::string(from_rest ? "settled_from_rest" : "not_sought"));
+}
+
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
   if (!has_damped_contact(scene)) return;
   const solvers::Motion& motion = response.contacts;

@@ -33,6 +33,9 @@ void append_attractor(Record& record, int periods, const Response& response);
 /// What the structure settles to beside an unstable response, and what was not sought.
 void append_settled(Record& record, const Response& response);
 
+/// Whether motions beside the response were sought.
+void append_other_motions(Record& record, const Scene& scene, const Response& response);
+
 /// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response);
 

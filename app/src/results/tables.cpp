@@ -48,7 +48,7 @@ std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepPa
 
 /// Which columns a curve's table has beside those of its points.
 struct MoreColumns {
-  bool stability, phases, branches, impacts, friction;
+  bool stability, phases, branches, isolas, impacts, friction;
 };
 
 std::vector<std::string> columns_of(const std::string& place, const MoreColumns& more) {
@@ -59,14 +59,16 @@ std::vector<std::string> columns_of(const std::string& place, const MoreColumns&
   if (more.friction)
     columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
   if (more.branches) columns.insert(columns.end(), {"branch", "period"});
+  if (more.isolas) columns.push_back(quantities::isola.column());
   if (!more.phases) return columns;
   for (std::string& column : phases_columns()) columns.push_back(std::move(column));
   if (more.stability) columns.push_back(quantities::stability_by.column());
   return columns;
 }
 
-/// The points of the curve, 0, or of a branch, from 1.
-void append_rows(Table& table, const Sweep& sweep, std::size_t number, const MoreColumns& more) {
+/// The points of the curve, 0, or of a branch, from 1; `isola` is the number of the sweep among the isolas.
+void append_rows(Table& table, const Sweep& sweep, std::size_t number, const MoreColumns& more,
+                 std::int64_t isola = 0) {
   const solvers::FrequencySweep& curve = number == 0 ? sweep.curve : sweep.branches[number - 1].curve;
   const int periods = number == 0 ? 1 : sweep.branches[number - 1].periods;
   const StabilityAlong stability = sweep.stability_of(number);
@@ -88,6 +90,7 @@ void append_rows(Table& table, const Sweep& sweep, std::size_t number, const Mor
     }
     if (more.branches)
       row.insert(row.end(), {static_cast<std::int64_t>(number), std::int64_t{periods * sweep.periods}});
+    if (more.isolas) row.emplace_back(isola);
     if (more.phases) {
       const bool sought = phases != nullptr && i < phases->points.size();
       for (Cell& cell : phases_cells(sought ? phases->points[i] : SweepPhases::Point()))
@@ -109,12 +112,17 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   const SweepPhases* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
-                         phases != nullptr && !phases->points.empty(), with_branches, !sweep.impacts.empty(),
+                         phases != nullptr && !phases->points.empty(),
+                         with_branches,
+                         !sweep.isola_search.frequencies.empty(),
+                         !sweep.impacts.empty(),
                          !sweep.friction.empty()};
   Table table(columns_of(sweep_axis(sweep).column(), more));
   append_rows(table, sweep, 0, more);
   for (std::size_t i = 1; with_branches && i <= sweep.branches.size(); ++i)
     append_rows(table, sweep, i, more);
+  for (std::size_t i = 0; i < sweep.isolas.size(); ++i)
+    append_rows(table, sweep.isolas[i], 0, more, static_cast<std::int64_t>(i) + 1);
   return table;
 }
 

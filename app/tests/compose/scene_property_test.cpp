@@ -86,6 +86,8 @@ Analysis any_analysis() {
     analysis.first_step = positive();
     analysis.largest_step = 2.0 * analysis.first_step;
     analysis.max_points = *rc::gen::inRange(2, 100000);
+    analysis.isola_spacing = positive();
+    analysis.isola_starts = *rc::gen::inRange(0, 100);
   } else if (analysis.type == AnalysisType::amplitude_sweep) {
     analysis.amplitude_from = positive();
     analysis.amplitude_to = 0.3 * analysis.amplitude_from;

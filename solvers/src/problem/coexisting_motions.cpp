@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -221,28 +220,11 @@ class MotionsSearch {
       starts_.emplace(*arrived, detail::StructureState{zero, zero});
   }
 
-  // By what the motion without contact is to be multiplied so that its displacements reach a gap.
-  double factor_to_gap(const Motion& free) const {
-    const Eigen::VectorXd gaps = problem_.laws().gaps(problem_.contacts());
-    const Eigen::VectorXd largest =
-        (problem_.structure().contact_directions * free.displacement).cwiseAbs().rowwise().maxCoeff();
-    double factor = std::numeric_limits<double>::infinity();
-    for (Index c = 0; c < gaps.size(); ++c)
-      if (gaps[c] > 0.0 && largest[c] > 0.0) factor = std::min(factor, gaps[c] / largest[c]);
-    return std::isfinite(factor) ? std::max(1.0, factor) : 1.0;
-  }
-
-  // Twice as large as the motion without contact, enlarged until it reaches a gap, and those found.
+  // The box of the motion without contact, which holds twice those found, too.
   std::optional<detail::StateBox> box() {
     constexpr double larger = 2.0;
-    problem_.condensed().set_load_frequency(frequency_);
-    auto box = detail::StateBox::make(problem_.structure(), frequency_, SettlingOptions{}.max_modes);
+    auto box = detail::box_of_free_motion(problem_, frequency_);
     if (!box) return box;
-    PeriodicResponse open;
-    open.frequency = problem_.condensed().frequency();
-    open.force_on_held_structure = Eigen::VectorXd::Zero(problem_.samples());
-    const Motion free = solvers::structure_motion(problem_.condensed(), open, points_of_period);
-    box->include(free, larger * factor_to_gap(free));
     for (const CoexistingMotion& one : result_.motions)
       box->include(
           over(one.periods)

@@ -3,6 +3,7 @@
 #include <optional>
 #include <random>
 
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -28,5 +29,9 @@ class StateBox {
   Eigen::MatrixXd shapes_, projection_;      // n x m, m x n
   Eigen::VectorXd displacement_, velocity_;  // half sides, m
 };
+
+/// A box of twice the motion without contact at a frequency of the load (Hz), which is enlarged until it
+/// reaches a gap. Nothing where the structure has no modes to compute.
+std::optional<StateBox> box_of_free_motion(ContactProblem& problem, double frequency);
 
 }  // namespace wavebalance::solvers::detail

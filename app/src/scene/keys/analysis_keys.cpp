@@ -49,6 +49,21 @@ void add_sweep(std::vector<SceneKey>& keys) {
   over_frequency(&Analysis::branches, "branches", "",
                  "true also follows the curves that begin at period doublings and at branch points",
                  optional);
+  over_frequency(
+      &Analysis::isolas, "isolas", "",
+      "true also seeks motions that lie on no curve of the sweep, by settling from rest and random states, "
+      "and follows the curves through them, closed ones too",
+      optional, only_with(by_balance()));
+  over_frequency(
+      &Analysis::isola_spacing, "isola_spacing", "Hz",
+      "with isolas, the distance of the frequencies at which motions are sought: no more, so that a curve "
+      "that is wider has one of them",
+      positive, derived("a 20th of the interval", interval_over(20)), only_with(by_balance()));
+  over_frequency(
+      &Analysis::isola_starts, "isola_starts", "",
+      "with isolas, random states, beside that of rest, from which the structure settles at each of these "
+      "frequencies",
+      within(0, 1'000'000), optional, only_with(by_balance()));
 }
 
 void add_time_stepping(std::vector<SceneKey>& keys) {

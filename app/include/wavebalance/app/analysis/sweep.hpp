@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -33,6 +34,22 @@ struct SweepAxis {
   std::string label() const;  ///< "Frequency (Hz)"
 };
 
+/// How motions beside a curve were sought.
+struct IsolaSearch {
+  std::vector<double> frequencies = {};  ///< Hz; empty where they were not sought
+  std::vector<double> unmatched = {};    ///< Hz, solvers::IsolatedCurves::unmatched
+  int starts = 0;                        ///< at each: rest and random states
+  bool cancelled = false;                ///< the observer stopped it
+  double wall_seconds = 0.0;             ///< with the curves found, without their stability
+};
+
+/// Where a curve beside another was found.
+struct IsolaOrigin {
+  double frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz; NaN of a curve that is no isola
+  int start = 0;                                                ///< solvers::IsolatedCurve::start
+  bool meets_known = false;
+};
+
 /// A curve of responses over the frequency or the amplitude. Frequencies are those of the load, also of the
 /// branches; of an amplitude sweep load scales are amplitudes.
 struct Sweep {
@@ -55,10 +72,17 @@ struct Sweep {
   double wall_seconds = 0.0;
   std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
+  /// Set by add_isolas() with analysis.isolas: the curves found beside this one and its branches, in the
+  /// order in which they were found, and how it was sought for them.
+  std::vector<Sweep> isolas;
+  IsolaSearch isola_search = {};
+  IsolaOrigin origin = {};  ///< of one of the isolas
 
   /// Whether the curve is complete: it reached the end of the interval, or came back to its first point.
+  /// An isola that enters and leaves at the same end of the interval is complete, too.
   bool converged() const {
-    return (curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start) &&
+    const bool returned = curve.status == solvers::SweepStatus::returned && std::isfinite(origin.frequency);
+    return (curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start || returned) &&
            curve.rounding_error <= largest_rounding_error;
   }
   /// The observer stopped the curve, which holds the points so far.
@@ -107,6 +131,11 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
 /// analysis.phases is true or the structure's modes cannot be computed. An observer that stops it leaves
 /// those found so far.
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
+
+/// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,
+/// its branches of one period among them: solvers::isolated_curves(), with the stability and phases of each.
+/// An observer that stops it leaves the curves so far.
+void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability
 /// is false or the structure's modes cannot be computed, and with analysis.branches its branches. An observer

@@ -253,6 +253,11 @@ struct Analysis {
   /// points and output_points are then those of all of them.
   int subharmonic = 1;
   bool branches = false;  ///< frequency_sweep: whether curves that begin at special points are followed
+  /// frequency_sweep: whether motions on no known curve are sought, at frequencies that are at most
+  /// isola_spacing (Hz) apart, from rest and isola_starts random states, and their curves followed
+  bool isolas = false;
+  double isola_spacing = 0.0;
+  int isola_starts = 4;
 
   double frequency_from = 0.0;  ///< Hz, frequency_sweep: where the branch starts
   double frequency_to = 0.0;    ///< Hz, frequency_sweep: where it ends; may lie below frequency_from

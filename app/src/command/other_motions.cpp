@@ -1,0 +1,45 @@
+#include "command/other_motions.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "plot/unit_prefix.hpp"
+#include "results/quantities.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// How often and from where motions beside a curve were sought, and what was found.
+std::string isolas_sentence(const Summary& summary) {
+  const auto* isolas = value_in<Table>(summary, quantities::isolas.name);
+  const std::size_t found = isolas == nullptr ? 0 : isolas->rows();
+  std::vector<std::string> each;
+  for (std::size_t i = 0; i < found; ++i)
+    each.push_back(fmt::format("isola {} from {:.5g} to {:.5g} Hz, with a largest force of {}", i + 1,
+                               isolas->numbers("lowest_frequency_Hz")[i],
+                               isolas->numbers("highest_frequency_Hz")[i],
+                               quantity(isolas->numbers("max_contact_force_N")[i], "N")));
+  const double starts = number_in(summary, quantities::isola_starts);
+  return fmt::format(
+      "Motions on other curves were sought at {:.0f} frequencies, from rest{}. {} Curves that are narrower than the "
+      "distance of these frequencies, or attract few states, may be missed.",
+      number_in(summary, quantities::isola_frequencies),
+      starts > 1.0 ? fmt::format(" and {:.0f} random state{} each", starts - 1.0, starts > 2.0 ? "s" : "")
+                   : "",
+      found == 0 ? "None was found." : fmt::format("They are on {}.", fmt::join(each, "; ")));
+}
+
+}  // namespace
+
+std::string other_motions_sentence(const Summary& summary, bool curve) {
+  const std::string sought = text_in(summary, quantities::other_motions);
+  if (sought == "sought") return isolas_sentence(summary);
+  if (sought == "settled_from_rest")
+    return "Of other motions only the one that the structure settles to from rest was sought.";
+  if (sought != "not_sought") return "";
+  return curve ? "Motions that lie on no such curve were not sought."
+               : "Other motions at this frequency were not sought.";
+}
+
+}  // namespace wavebalance::app
