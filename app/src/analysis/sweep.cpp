@@ -73,10 +73,15 @@ bool Sweep::stopped() const {
                      [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
 }
 
+bool Sweep::misses_part() const {
+  return std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.origin.meets_known; });
+}
+
 std::string Sweep::status() const {
   if (interrupted()) return "interrupted";
   if (curve.rounding_error > largest_rounding_error) return inaccurate_status(curve.rounding_error);
-  return std::string(to_string(curve.status));
+  const bool complete = curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start;
+  return complete && misses_part() ? "missed_part" : std::string(to_string(curve.status));
 }
 
 const SweepPhases* Sweep::phases_of(std::size_t number) const {

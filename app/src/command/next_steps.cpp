@@ -46,6 +46,7 @@ const Remedies& of_sweeps() {
       {"no_start", "another start of the interval, away from the resonance"},
       {"closed", "another start or direction of the interval, or more time.quadrature_points"},
       {"lost", "a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
+      {"missed_part", "a smaller analysis.largest_step"},
       {"unbounded", "more damping, or time.nyquist = \"drop\""},
       {"point_limit", "a larger analysis.max_points"}};
   return all;

@@ -121,6 +121,17 @@ TEST(Isolas, AreNoneWhereTheCurveHoldsAllMotions) {
   EXPECT_NE(sentences_of(record).find("None was found."), std::string::npos);
 }
 
+TEST(Isolas, ThatEndOnTheCurveSayThatAPartWasMissed) {
+  Sweep sweep;
+  sweep.curve.status = solvers::SweepStatus::reached_end;
+  EXPECT_TRUE(sweep.converged());
+  sweep.isolas.emplace_back().origin = {0.18, 0, false};
+  EXPECT_EQ(sweep.status(), "reached_end");
+  sweep.isolas.back().origin.meets_known = true;
+  EXPECT_EQ(sweep.status(), "missed_part");
+  EXPECT_FALSE(sweep.converged());
+}
+
 TEST(Isolas, NotSoughtAreSaidToBeSo) {
   const Record sweep = analyse(stop_with(from_above()));
   EXPECT_EQ(value_of<std::string>(sweep.summary, "other_motions"), "not_sought");

@@ -83,13 +83,15 @@ struct Sweep {
   bool converged() const {
     const bool returned = curve.status == solvers::SweepStatus::returned && std::isfinite(origin.frequency);
     return (curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start || returned) &&
-           curve.rounding_error <= largest_rounding_error;
+           curve.rounding_error <= largest_rounding_error && !misses_part();
   }
+  /// An isola ends on a curve that was known, so that a step on one of the two was too long.
+  bool misses_part() const;
   /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
   /// The observer stopped it, its stability, a branch, its phases or its motions.
   bool stopped() const;
-  /// "reached_end" or "closed", or the reason why not, such as "interrupted".
+  /// "reached_end" or "closed", or the reason why not, such as "interrupted" or "missed_part".
   std::string status() const;
   /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability
   /// that its record tells.
