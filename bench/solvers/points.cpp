@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
 #include "stopwatch.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/connection.hpp"
@@ -63,17 +64,17 @@ void point(benchmark::State& state) {
 // exponent.
 void phases(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
-  auto problem = fourier_problem(scene, 63, 256);
-  problem.set_frequency(scene.frequency);
-  const solvers::AnyContactLaw law = scene.law();
-  const solvers::ContactDynamics dynamics(problem.structure());
-  const auto response = solvers::forced_response(problem, law, {});
+  solvers::ContactProblem problem(fourier_problem(scene, 63, 256), scene.law());
+  const solvers::PeriodicResponse response = problem.respond(scene.frequency);
   const solvers::ContactPhasesOptions options{.tolerance = std::pow(10.0, -double(state.range(1)))};
-  solvers::ResponsePhases found;
-  for (auto _ : state) found = solvers::response_phases(problem, law, response, dynamics, options);
-  if (!found.motion.converged()) state.SkipWithError("not converged");
-  state.counters["unknowns"] = found.motion.unknowns;
-  state.counters["estimated_error"] = found.motion.estimated_error;
+  std::optional<solvers::ResponsePhases> found;
+  for (auto _ : state) found = problem.phases(response, options);
+  if (!found || !found->motion.converged()) {
+    state.SkipWithError("not converged");
+    return;
+  }
+  state.counters["unknowns"] = found->motion.unknowns;
+  state.counters["estimated_error"] = found->motion.estimated_error;
 }
 
 // 2^14 functions of a pair of wavelets, or of wavelets and Fourier functions, 65536 points.

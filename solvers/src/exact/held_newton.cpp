@@ -24,9 +24,9 @@ struct HeldMatrix {
   Eigen::VectorXd column;  // of the unknown held
 };
 
-HeldMatrix matrix_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, Index held,
-                     const Eigen::VectorXd& by_parameter) {
-  Eigen::MatrixXd matrix = jacobian(at, now, nodes, now.influence);
+HeldMatrix matrix_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                     const Influence& influence, Index held, const Eigen::VectorXd& by_parameter) {
+  Eigen::MatrixXd matrix = jacobian(at, now, nodes, influence);
   if (held == now.residual.size()) return {Lu<double>(matrix), by_parameter};
   const Eigen::VectorXd column = matrix.col(held);
   matrix.col(held) = by_parameter;
@@ -63,6 +63,7 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
   PhaseIterate& at = result.newton.iterate;
   at = std::move(start);
   double before = std::numeric_limits<double>::infinity();
+  Influence influence;
   for (;; ++result.newton.iterations) {
     const PhaseModel model(family.at(result.value), length);
     const Evaluation now = evaluate(model, at, nodes);
@@ -71,14 +72,15 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     at.forces = PanelForces(now.grid, nodes, now.force);
     const double residual = result.newton.residual;
     if (!std::isfinite(residual)) return result;
-    result.newton.converged = residual < limits.tolerance || now.is_rounding(before);
+    result.newton.converged = residual < limits.tolerance || now.is_rounding(before, influence);
     const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
+    influence = model.response.influence(*now.period, model.velocity);
     const HeldMatrix matrix = matrix_of(
-        at, now, nodes, number,
+        at, now, nodes, influence, number,
         by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes) : Eigen::VectorXd());
     if (result.newton.converged) {
       result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
-      set_errors(result.newton, now, nodes, model.frequency, [&](const Eigen::VectorXd& by) {
+      set_errors(result.newton, now, nodes, influence, model.frequency, [&](const Eigen::VectorXd& by) {
         Eigen::VectorXd answer = matrix.factor.solve(Eigen::VectorXd(-by));
         if (number < answer.size()) answer[number] = 0.0;
         return answer;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <utility>
 
 #include "linalg/dense.hpp"
 
@@ -10,41 +11,22 @@ namespace wavebalance::solvers::detail {
 
 using Complex = std::complex<double>;
 
-CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes)
-    : nodes_(nodes),
-      points_(nodes.points),
-      decay_(z.size()),
-      at_nodes_(nodes.count(), z.size()),
-      at_end_(z.size(), nodes.count()) {
-  sum_up(z, nodes.points);
-}
-
-CellWaves::CellWaves(const Eigen::VectorXcd& z, const LegendreNodes& nodes, const Eigen::VectorXd& points)
-    : nodes_(nodes),
-      points_(points),
-      own_points_(true),
-      decay_(z.size()),
-      at_nodes_(points.size(), z.size()),
-      at_end_(z.size(), nodes.count()) {
-  sum_up(z, points);
-}
-
-void CellWaves::sum_up(const Eigen::VectorXcd& z, const Eigen::VectorXd& at) {
+CellWaves::CellWaves(Eigen::VectorXcd z, Index count)
+    : z_(std::move(z)), decay_(z_.size()), at_end_(Eigen::MatrixXcd::Zero(z_.size(), count)) {
   constexpr double most_turns = 32.0, most_decay = 64.0;  // of the slow poles
-  const Index poles = z.size(), count = nodes_.count();
+  const Index poles = z_.size();
   std::vector<std::vector<Complex>> series(static_cast<std::size_t>(poles));
   std::size_t longest = 1;
   for (Index r = 0; r < poles; ++r) {
-    if (std::abs(z[r].imag()) > most_turns || -z[r].real() > most_decay) {
+    if (std::abs(z_[r].imag()) > most_turns || -z_[r].real() > most_decay) {
       fast_.push_back(r);
       continue;
     }
-    auto& own = series[static_cast<std::size_t>(r)] = exponential_series(z[r]);
+    auto& own = series[static_cast<std::size_t>(r)] = exponential_series(z_[r]);
     longest = std::max(longest, own.size());
   }
   series_real_.setZero(Index(longest), poles);
   series_imag_.setZero(Index(longest), poles);
-  at_end_.setZero();
   for (Index r = 0; r < poles; ++r) {
     const auto& own = series[static_cast<std::size_t>(r)];
     Complex sum = 0.0;
@@ -57,44 +39,74 @@ void CellWaves::sum_up(const Eigen::VectorXcd& z, const Eigen::VectorXd& at) {
     }
     decay_[r] = sum;
   }
-  if (own_points_) own_values_ = legendre_values(at, Index(longest) + count);
-  const Eigen::MatrixXd waves = values().leftCols(Index(longest));
-  at_nodes_.real() = product(waves, series_real_);
-  at_nodes_.imag() = product(waves, series_imag_);
   if (fast_.empty()) return;
-  Eigen::VectorXd points(at.size() + 1);
-  points << at, 1.0;
-  ExponentialIntegrals<double> real(points, count);
-  ExponentialIntegrals<Complex> complex(points, count);
-  for (const Index r : fast_)
-    if (z[r].imag() == 0.0)
-      add_fast(r, z[r].real(), real);
-    else
-      add_fast(r, z[r], complex);
-}
-
-template <class Scalar>
-void CellWaves::add_fast(Index pole, Scalar z, ExponentialIntegrals<Scalar>& integrals) {
-  const Index points = at_nodes_.rows();
-  integrals.compute(z);
-  const auto& decay = integrals.decay();
-  const auto integral = integrals.values();
-  decay_[pole] = decay[points];
-  at_nodes_.col(pole) = decay.head(points).template cast<Complex>();
-  at_end_.row(pole) = integral.row(points).template cast<Complex>();
-  fast_integrals_.push_back({integral.topRows(points).real(), {}});
-  if constexpr (std::same_as<Scalar, Complex>) fast_integrals_.back().imag = integral.topRows(points).imag();
+  ExponentialIntegrals<Complex> integrals(Eigen::VectorXd::Ones(1), count);
+  for (const Index r : fast_) {
+    integrals.compute(z_[r]);
+    decay_[r] = integrals.decay()[0];
+    at_end_.row(r) = integrals.values().row(0);
+  }
 }
 
 Eigen::VectorXd CellWaves::slow_series(const Eigen::VectorXcd& weights) const {
   return series_real_ * weights.real() - series_imag_ * weights.imag();
 }
 
-Eigen::MatrixXd CellWaves::up_to_nodes(const Eigen::VectorXcd& weights, Index first, Index count) const {
-  const Eigen::MatrixXd slow = convolution(slow_series(weights), nodes_.count());
-  Eigen::MatrixXd result = product(values().block(first, 0, count, slow.rows()), slow);
-  for (std::size_t i = 0; i < fast_.size(); ++i) {
-    const Complex weight = weights[fast_[i]];
+WavesAtNodes::WavesAtNodes(const CellWaves& waves, const LegendreNodes& nodes)
+    : waves_(waves), nodes_(nodes), points_(nodes.points) {
+  integrate_fast();
+}
+
+WavesAtNodes::WavesAtNodes(const CellWaves& waves, const LegendreNodes& nodes, const Eigen::VectorXd& points)
+    : waves_(waves),
+      nodes_(nodes),
+      points_(points),
+      own_points_(true),
+      own_values_(legendre_values(points, waves.series_length() + nodes.count())) {
+  integrate_fast();
+}
+
+void WavesAtNodes::integrate_fast() {
+  if (waves_.fast().empty()) return;
+  ExponentialIntegrals<double> real(points_, nodes_.count());
+  ExponentialIntegrals<Complex> complex(points_, nodes_.count());
+  for (const Index r : waves_.fast())
+    if (const Complex z = waves_.z()[r]; z.imag() == 0.0)
+      add_fast(z.real(), real);
+    else
+      add_fast(z, complex);
+}
+
+template <class Scalar>
+void WavesAtNodes::add_fast(Scalar z, ExponentialIntegrals<Scalar>& integrals) {
+  integrals.compute(z);
+  fast_integrals_.push_back({integrals.values().real(), {}, integrals.decay().template cast<Complex>()});
+  if constexpr (std::same_as<Scalar, Complex>) fast_integrals_.back().imag = integrals.values().imag();
+}
+
+Eigen::MatrixXcd WavesAtNodes::values() const {
+  Eigen::MatrixXcd result(points_.size(), waves_.z().size());
+  const Eigen::MatrixXd slow = polynomials().leftCols(waves_.series_length());
+  result.real() = product(slow, waves_.series_real());
+  result.imag() = product(slow, waves_.series_imag());
+  for (std::size_t i = 0; i < fast_integrals_.size(); ++i)
+    result.col(waves_.fast()[i]) = fast_integrals_[i].decay;
+  return result;
+}
+
+Eigen::VectorXcd WavesAtNodes::states(std::size_t number, Complex start,
+                                      const Eigen::VectorXcd& force) const {
+  const Integrals& own = fast_integrals_[number];
+  Eigen::VectorXcd result = start * own.decay + own.real * force;
+  if (own.imag.size() > 0) result += Complex(0.0, 1.0) * (own.imag * force);
+  return result;
+}
+
+Eigen::MatrixXd WavesAtNodes::up_to(const Eigen::VectorXcd& weights, Index first, Index count) const {
+  const Eigen::MatrixXd slow = convolution(waves_.slow_series(weights), nodes_.count());
+  Eigen::MatrixXd result = product(polynomials().block(first, 0, count, slow.rows()), slow);
+  for (std::size_t i = 0; i < waves_.fast().size(); ++i) {
+    const Complex weight = weights[waves_.fast()[i]];
     const Integrals& own = fast_integrals_[i];
     result += weight.real() * own.real.middleRows(first, count);
     if (own.imag.size() > 0) result -= weight.imag() * own.imag.middleRows(first, count);
@@ -102,10 +114,10 @@ Eigen::MatrixXd CellWaves::up_to_nodes(const Eigen::VectorXcd& weights, Index fi
   return result;
 }
 
-std::vector<Eigen::MatrixXcd> CellWaves::integrals_of(const Eigen::VectorXcd& z) const {
+std::vector<Eigen::MatrixXcd> WavesAtNodes::integrals() const {
   std::vector<Eigen::MatrixXcd> result;
   ExponentialIntegrals<Complex> integrals(points_, nodes_.count());
-  for (const Complex pole : z) {
+  for (const Complex pole : waves_.z()) {
     integrals.compute(pole);
     result.push_back(integrals.values());
   }

@@ -119,13 +119,13 @@ class Search {
 
  private:
   using NewtonMethod = PhaseNewtonResult (*)(const PhaseModel&, PhaseIterate, const LegendreNodes&,
-                                             const detail::NewtonLimits&, std::optional<detail::Influence>);
+                                             const detail::NewtonLimits&, detail::KnownPeriod);
 
   bool stopped() const { return cancelled_ || exhausted_; }
 
   // As many steps as the operations allow; none where they do not allow three.
   PhaseNewtonResult newton(NewtonMethod method, PhaseIterate iterate, double tolerance, PhaseMotion& result,
-                           std::optional<detail::Influence> known = {}) {
+                           detail::KnownPeriod known = {}) {
     constexpr double least_steps = 3.0;
     const double poles = double(model_.response.poles()),
                  n = double(nodes_.count()) * double(iterate.layout.grid().panels.size()) +
@@ -146,8 +146,7 @@ class Search {
     return solved;
   }
 
-  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result,
-               std::optional<detail::Influence> known = {}) {
+  Found solved(PhaseIterate iterate, double tolerance, PhaseMotion& result, detail::KnownPeriod known = {}) {
     PhaseNewtonResult found =
         newton(&detail::solve_phases, std::move(iterate), tolerance, result, std::move(known));
     return {model_, std::move(found), nodes_, times_, free_};
@@ -180,17 +179,17 @@ class Search {
     Layout layout = layout_of(motion);
     PanelForces forces = detail::forces_along(model_, layout, nodes_, motion);
     PhaseIterate iterate{std::move(layout), std::move(forces)};
-    std::optional<detail::Influence> known;
+    detail::KnownPeriod known;
     for (int level = 0; level < 6; ++level) {
       PhaseNewtonResult held = newton(&detail::solve_forces, iterate, rough, result);
-      known = std::move(held.influence);
+      known = std::move(held.known);
       if (!held.converged) break;
       iterate = std::move(held.iterate);
       const Eigen::MatrixXd& coefficients = iterate.forces.coefficients();
       if (coefficients.size() == 0 ||
           coefficients.bottomRows(2).cwiseAbs().maxCoeff() < rough * coefficients.cwiseAbs().maxCoeff())
         break;
-      known.reset();
+      known = {};
       if (nodes_.count() < many_nodes)
         nodes_ = LegendreNodes(many_nodes);
       else

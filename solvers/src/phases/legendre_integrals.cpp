@@ -139,22 +139,28 @@ std::vector<Complex> exponential_series(Complex z) {
 
 // The recurrence is stable at and below the diagonal; above it the columns follow by symmetry.
 Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count) {
-  const Index rows = kernel.size() + count, work = rows + count + 1;
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(work, count);
-  const auto coefficient = [&](Index k) { return k < kernel.size() ? kernel[k] : 0.0; };
-  b(0, 0) = coefficient(0) - coefficient(1) / 3.0;
-  for (Index k = 1; k <= kernel.size(); ++k)
-    b(k, 0) = coefficient(k - 1) / double(2 * k - 1) - coefficient(k + 1) / double(2 * k + 3);
+  const Index last = kernel.size(), rows = last + count;
+  // Entry k + 1 of a column belongs to P_k; those beside the ends are zero.
+  const Eigen::ArrayXd degree = Eigen::ArrayXd::LinSpaced(rows + 2, -1.0, double(rows));
+  const Eigen::ArrayXd over = (2.0 * degree + 1.0).inverse();
+  Eigen::ArrayXXd b = Eigen::ArrayXXd::Zero(rows + 2, count);
+  Eigen::ArrayXd scaled = Eigen::ArrayXd::Zero(rows + 2);  // of the column before, over 2 k + 1
+  scaled.segment(1, last) = kernel.array() * over.segment(1, last);
+  b.col(0).segment(2, last) = scaled.segment(1, last) - scaled.segment(3, last);
+  b(1, 0) = kernel[0] - scaled[2];
   for (Index n = 1; n < count; ++n) {
-    const double factor = double(2 * n - 1);
-    for (Index k = n; k <= kernel.size() + n; ++k) {
-      const double own = n > 1 ? b(k, n - 2) : -b(k, 0);
-      b(k, n) = factor * (b(k - 1, n - 1) / double(2 * k - 1) - b(k + 1, n - 1) / double(2 * k + 3)) + own;
-    }
+    const Index size = last + 1;  // k from n to last + n
+    scaled = b.col(n - 1) * over;
+    auto own = b.col(n).segment(n + 1, size);
+    own = double(2 * n - 1) * (scaled.segment(n, size) - scaled.segment(n + 2, size));
+    if (n > 1)
+      own += b.col(n - 2).segment(n + 1, size);
+    else
+      own -= b.col(0).segment(2, size);
     for (Index k = 0; k < n; ++k)
-      b(k, n) = ((k + n) % 2 == 0 ? 1.0 : -1.0) * double(2 * k + 1) / double(2 * n + 1) * b(n, k);
+      b(k + 1, n) = ((k + n) % 2 == 0 ? 1.0 : -1.0) * double(2 * k + 1) / double(2 * n + 1) * b(n + 1, k);
   }
-  return b.topRows(rows);
+  return b.middleRows(1, rows);
 }
 
 LegendreNodes::LegendreNodes(Index count) {

@@ -1,6 +1,7 @@
 #include "phases/phase_agreement.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "linalg/index.hpp"
 
@@ -38,7 +39,9 @@ PhaseSolution::PhaseSolution(const PhaseModel& model, PhaseNewtonResult solved, 
                              const Eigen::VectorXd& times, const ContactMotion& free)
     : newton(std::move(solved)) {
   const PanelForces& forces = newton.iterate.forces;
-  motion = model.response.motion(forces.grid(), forces.coefficients(), nodes, times);
+  const auto period = std::exchange(newton.known, {}).period;
+  motion = period ? model.response.motion(*period, forces.coefficients(), times)
+                  : model.response.motion(forces.grid(), forces.coefficients(), nodes, times);
   motion.displacement = free.displacement - motion.displacement;
   motion.velocity = free.velocity - motion.velocity;
   const bool rigid =

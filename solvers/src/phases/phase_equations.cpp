@@ -67,32 +67,34 @@ double force_at_release(const Evaluation& now, const LegendreNodes& nodes, const
 }  // namespace
 
 Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes,
-                    std::optional<Influence> known) {
+                    std::shared_ptr<const PeriodCells> known) {
   constexpr double tiny = 1e-300;
   Evaluation result;
   result.grid = at.layout.grid();
-  std::vector<Instant> instants = instants_of(result.grid.panels, nodes), passages;
+  result.period = known ? std::move(known) : model.response.cells(result.grid, nodes);
+  const CellGrid& grid = result.grid;
+  std::vector<Instant> instants = instants_of(grid.panels, nodes), passages;
   const auto n = Index(instants.size()), m = Index(at.layout.passages.size());
   result.force.resize(n);
   for (Index i = 0; i < n; ++i)
     result.force[i] =
-        at.forces.in_phase(panel_of(result.grid, i, nodes).phase, instants[static_cast<std::size_t>(i)].time);
+        at.forces.in_phase(panel_of(grid, i, nodes).phase, instants[static_cast<std::size_t>(i)].time);
   for (const Passage& passage : at.layout.passages) passages.push_back({passage.contact, passage.time});
-  result.influence = known ? *std::move(known) : model.response.influence(result.grid, nodes, model.velocity);
+  const Eigen::MatrixXd coefficients =
+      nodes.coefficients * result.force.reshaped(nodes.count(), n / nodes.count());
+  const ForcedMotion forced = model.response.forced_motion(*result.period, coefficients, model.velocity);
   Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
-  if (model.velocity)
-    v = model.free_velocity(instants) - result.influence.node_velocity.leftCols(n) * result.force;
+  if (model.velocity) v = model.free_velocity(instants) - forced.node_velocity;
   instants.insert(instants.end(), passages.begin(), passages.end());
-  const Eigen::VectorXd u =
-      model.free_displacement(instants) - result.influence.displacement.leftCols(n) * result.force;
-  result.passing = model.free_velocity(passages) - result.influence.mark_velocity * result.force;
+  const Eigen::VectorXd u = model.free_displacement(instants) - forced.displacement;
+  result.passing = model.free_velocity(passages) - forced.mark_velocity;
   result.residual.resize(n + m);
   result.tangent.resize(n);
   result.damping.resize(n);
   result.own.resize(n);
   double largest_law = 0.0;
   for (Index i = 0; i < n; ++i) {
-    const Panel& panel = panel_of(result.grid, i, nodes);
+    const Panel& panel = panel_of(grid, i, nodes);
     const int piece = at.layout.phases[static_cast<std::size_t>(panel.phase)].piece;
     const ForceSlopes law =
         model.laws[static_cast<std::size_t>(panel.contact)].at(piece, u[i], model.frequency * v[i]);
@@ -106,7 +108,7 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   result.force_size = std::max({tiny, largest_law, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0});
   result.displacement_size = std::max(tiny, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0.0);
   result.holding = model.holding();
-  result.released = releases_of(model, at.layout, result.grid);
+  result.released = releases_of(model, at.layout, grid);
   for (Index i = 0; i < m; ++i) {
     const Release& release = result.released[static_cast<std::size_t>(i)];
     result.residual[n + i] = release.exists()

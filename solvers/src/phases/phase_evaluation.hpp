@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "phases/phase_equations.hpp"
@@ -19,14 +19,14 @@ struct Release {
 /// One evaluation of the equations: n forces, then m passages.
 struct Evaluation {
   CellGrid grid;
-  Eigen::VectorXd force;  ///< n, N
-  Influence influence;
-  Eigen::VectorXd residual;          ///< n + m
-  Eigen::VectorXd tangent, damping;  ///< n: by displacement and by velocity per period
-  Eigen::VectorXd own;               ///< n: of the residual by its force; 0 for a rigid law
-  Eigen::VectorXd passing;           ///< m, m per period
-  std::vector<Release> released;     ///< m
-  double holding = 0.0;              ///< N/m
+  std::shared_ptr<const PeriodCells> period;  ///< of the grid
+  Eigen::VectorXd force;                      ///< n, N
+  Eigen::VectorXd residual;                   ///< n + m
+  Eigen::VectorXd tangent, damping;           ///< n: by displacement and by velocity per period
+  Eigen::VectorXd own;                        ///< n: of the residual by its force; 0 for a rigid law
+  Eigen::VectorXd passing;                    ///< m, m per period
+  std::vector<Release> released;              ///< m
+  double holding = 0.0;                       ///< N/m
   double force_size = 0.0, displacement_size = 0.0;
 
   double softness() const { return displacement_size / force_size; }
@@ -39,9 +39,10 @@ struct Evaluation {
     return std::max(force_error(), places);
   }
   /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the
-  /// largest force, or forces of its size move the contacts by nothing. A short contact has a small force and
+  /// largest force, or forces of its size move the contacts by nothing. `influence`: that of the iterate
+  /// before. A short contact has a small force and
   /// the rounding errors of large displacements.
-  bool is_rounding(double before) const {
+  bool is_rounding(double before, const Influence& influence) const {
     constexpr double small = 1e-9, nothing = 1e-11;
     const double now = error();
     if (!(now > 0.5 * before)) return false;
@@ -54,9 +55,10 @@ struct Evaluation {
   }
 };
 
-/// `known`: the influence of an iterate with the same instants and nodes.
+/// `known`: the cells of an iterate with the same instants and nodes. Keeps a reference to the nodes.
+/// O(n poles (q + contacts)).
 Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const LegendreNodes& nodes,
-                    std::optional<Influence> known = std::nullopt);
+                    std::shared_ptr<const PeriodCells> known = nullptr);
 
 /// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
 Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes);

@@ -14,8 +14,9 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 // Newton's matrix of the first `count` unknowns.
-Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, Index count) {
-  return Lu<double>(jacobian(at, now, nodes, now.influence).topLeftCorner(count, count));
+Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+                     const Influence& influence, Index count) {
+  return Lu<double>(jacobian(at, now, nodes, influence).topLeftCorner(count, count));
 }
 
 double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
@@ -25,17 +26,17 @@ double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
 // What the unknowns that answer a residual do to displacements at nodes and passages, towards their
 // obstacles' other side.
 Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
-                                 const Eigen::VectorXd& unknowns) {
-  return now.influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
+                                 const Influence& influence, const Eigen::VectorXd& unknowns) {
+  return influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
 }
 
 // The displacements that the last two Legendre coefficients of each panel make.
-Eigen::VectorXd displacements_of_last(const PanelForces& forces, const Evaluation& now,
+Eigen::VectorXd displacements_of_last(const PanelForces& forces, const Influence& influence,
                                       const LegendreNodes& nodes) {
   const Eigen::MatrixXd& coefficients = forces.coefficients();
   const Eigen::VectorXd parts =
       (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
-  return now.influence.displacement.leftCols(now.force.size()) * parts;
+  return influence.displacement.leftCols(parts.size()) * parts;
 }
 
 }  // namespace
@@ -63,41 +64,50 @@ bool has_collapsed(const Layout& layout) {
 }
 
 void set_errors(PhaseNewtonResult& result, const Evaluation& now, const LegendreNodes& nodes,
-                double frequency, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer) {
+                const Influence& influence, double frequency,
+                const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer) {
   result.tangent = now.tangent;
   result.damping = now.damping / frequency;
   if (now.residual.size() == 0) return;
   const PhaseIterate& at = result.iterate;
   const Index n = now.force.size();
-  const Eigen::VectorXd last = displacements_of_last(at.forces, now, nodes);
+  const Eigen::VectorXd last = displacements_of_last(at.forces, influence, nodes);
   const Eigen::MatrixXd none;
   const Eigen::VectorXd answered = answer(residual_by_motion(now, last, none));
-  result.residual_error = rms_at_nodes(displacements_of(at, now, nodes, answer(now.residual)), n);
-  result.resolution_error = rms_at_nodes(last + displacements_of(at, now, nodes, answered), n);
+  result.residual_error = rms_at_nodes(displacements_of(at, now, nodes, influence, answer(now.residual)), n);
+  result.resolution_error = rms_at_nodes(last + displacements_of(at, now, nodes, influence, answered), n);
 }
 
+// A residual is that of the motion by the forces, which takes far less than their influence. This is computed
+// where a step is taken; of a motion that a step has led to, that before the step gives its errors.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits, std::optional<Influence> known) {
+                               const NewtonLimits& limits, KnownPeriod known) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
   double before = std::numeric_limits<double>::infinity();
   std::optional<Lu<double>> factor;
+  Influence influence;
+  const auto set_factor = [&](const Evaluation& now) {
+    influence = known.influence ? *std::exchange(known.influence, std::nullopt)
+                                : model.response.influence(*now.period, model.velocity);
+    factor = factor_of(result.iterate, now, nodes, influence, now.residual.size());
+  };
   for (;; ++result.iterations) {
-    Evaluation now = evaluate(model, result.iterate, nodes, std::exchange(known, std::nullopt));
+    const Evaluation now = evaluate(model, result.iterate, nodes, std::exchange(known.period, nullptr));
     result.residual = now.error();
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
-    if (result.residual < limits.tolerance || now.is_rounding(before)) {
+    result.known.period = now.period;
+    if (result.residual < limits.tolerance || now.is_rounding(before, influence)) {
       result.converged = true;
-      if (now.residual.size() > 0 && (!factor || factor->size() != now.residual.size()))
-        factor = factor_of(result.iterate, now, nodes, now.residual.size());
-      set_errors(result, now, nodes, model.frequency,
+      if (now.residual.size() > 0 && !factor) set_factor(now);
+      set_errors(result, now, nodes, influence, model.frequency,
                  [&](const Eigen::VectorXd& residual) { return factor->solve(Eigen::VectorXd(-residual)); });
       return result;
     }
     before = result.residual;
     if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
     if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
-    factor = factor_of(result.iterate, now, nodes, now.residual.size());
+    set_factor(now);
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
     const Index n = now.force.size(), m = step.size() - n;
@@ -111,25 +121,25 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
 }
 
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits, std::optional<Influence> known) {
+                               const NewtonLimits& limits, KnownPeriod known) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
-  result.influence = std::move(known);
+  result.known = std::move(known);
   for (;; ++result.iterations) {
-    Evaluation now = evaluate(model, result.iterate, nodes, std::move(result.influence));
+    const Evaluation now = evaluate(model, result.iterate, nodes, result.known.period);
+    result.known.period = now.period;
     result.residual = now.force_error();
     result.converged = result.residual < limits.tolerance;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
-    const bool ends = result.converged || result.iterations == limits.max_iterations ||
-                      !std::isfinite(result.residual) ||
-                      !goes_on(limits.observer, {"contact phases", result.iterations, result.residual});
-    Eigen::VectorXd step;
-    if (!ends) {
-      const Lu<double> factor = factor_of(result.iterate, now, nodes, now.force.size());
-      step = factor.solve(Eigen::VectorXd(-now.residual.head(now.force.size())));
-    }
-    result.influence = std::move(now.influence);
-    if (ends || !step.allFinite()) return result;
+    if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual) ||
+        !goes_on(limits.observer, {"contact phases", result.iterations, result.residual}))
+      return result;
+    if (!result.known.influence)
+      result.known.influence = model.response.influence(*now.period, model.velocity);
+    const Index n = now.force.size();
+    const Lu<double> factor = factor_of(result.iterate, now, nodes, *result.known.influence, n);
+    const Eigen::VectorXd step = factor.solve(Eigen::VectorXd(-now.residual.head(n)));
+    if (!step.allFinite()) return result;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force + step);
   }
 }

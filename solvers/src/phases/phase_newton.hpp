@@ -1,12 +1,19 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "phases/phase_equations.hpp"
 #include "phases/phase_evaluation.hpp"
 
 namespace wavebalance::solvers::detail {
+
+/// What is known of a period with certain instants and nodes.
+struct KnownPeriod {
+  std::shared_ptr<const PeriodCells> period = nullptr;
+  std::optional<Influence> influence = std::nullopt;
+};
 
 struct PhaseNewtonResult {
   bool converged = false;
@@ -17,7 +24,8 @@ struct PhaseNewtonResult {
   /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
   /// missing, and by the residual, with what forces and passages do in answer.
   double resolution_error = 0.0, residual_error = 0.0;
-  std::optional<Influence> influence;  ///< at the instants and nodes of the iterate, of solve_forces
+  /// At the instants and nodes of the iterate, which it refers to; the influence of solve_forces only.
+  KnownPeriod known;
   Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
 };
 
@@ -28,13 +36,12 @@ struct NewtonLimits {
 };
 
 /// Newton's method on the forces at q nodes of each panel and the instants of all passages. That with
-/// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: the influence at the
-/// instants and nodes of the start.
+/// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: of the start.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits, std::optional<Influence> known);
+                               const NewtonLimits& limits, KnownPeriod known);
 /// The same on the forces alone.
 PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
-                               const NewtonLimits& limits, std::optional<Influence> known);
+                               const NewtonLimits& limits, KnownPeriod known);
 
 /// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
 /// more than a fiftieth of the period behind.
@@ -45,6 +52,7 @@ bool has_collapsed(const Layout& layout);
 /// Sets what a converged solution tells beside its iterate. `answer`: the unknowns by which Newton's method
 /// answers a residual.
 void set_errors(PhaseNewtonResult& result, const Evaluation& now, const LegendreNodes& nodes,
-                double frequency, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer);
+                const Influence& influence, double frequency,
+                const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer);
 
 }  // namespace wavebalance::solvers::detail

@@ -28,11 +28,35 @@ void decay(Complex rate, const Eigen::Ref<const Eigen::VectorXd>& times, Complex
   }
 }
 
+// The states of one pole after another at points of a cell, from its begin and by a force.
+class StatesAtPoints {
+ public:
+  StatesAtPoints(const Eigen::VectorXd& points, Index count)
+      : real_(points, count), complex_(points, count) {}
+
+  Eigen::VectorXcd operator()(Complex z, Complex start, const Eigen::VectorXcd& force) {
+    if (z.imag() != 0.0) return of(complex_, z, start, force);
+    return of(real_, z.real(), start, force);
+  }
+
+ private:
+  template <class Scalar>
+  static Eigen::VectorXcd of(ExponentialIntegrals<Scalar>& integrals, Scalar z, Complex start,
+                             const Eigen::VectorXcd& force) {
+    integrals.compute(z);
+    return start * integrals.decay().template cast<Complex>() + integrals.values() * force;
+  }
+
+  ExponentialIntegrals<double> real_;
+  ExponentialIntegrals<Complex> complex_;
+};
+
 }  // namespace
 
 // poles x cells: the periodic states at the boundaries.
-Eigen::MatrixXcd PoleResponse::states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,
+Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
                                                     const Eigen::MatrixXd& coefficients) const {
+  const auto& [grid, nodes, cells, waves] = period;
   Eigen::MatrixXcd states(exponents_.size(), Index(cells.size()));
   const auto advance = [&](const Eigen::VectorXcd& state, const Cell& cell) {
     Eigen::VectorXcd next = cell.decay.cwiseProduct(state);
@@ -73,22 +97,24 @@ ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eig
   return result;
 }
 
-// The same within a cell with forces, of which these are the Legendre coefficients. What the slow poles make
-// is a polynomial.
+// The same within a cell with forces, of which these are the Legendre coefficients, at points in [-1, 1].
+// What the slow poles make is a polynomial. Velocities only where they are asked for.
 ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell,
                                           const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
-                                          const Eigen::VectorXd& since) const {
+                                          const Eigen::VectorXd& points, bool velocity,
+                                          const WavesAtNodes* known) const {
   constexpr Index few_pairs = 16;
   const Index count = coefficients.rows();
-  const Eigen::VectorXd points = ((2.0 / cell.length) * since.array() - 1.0).min(1.0);
   Eigen::MatrixXd forces(count, Index(cell.parts.size()));
   for (std::size_t i = 0; i < cell.parts.size(); ++i)
     forces.col(Index(i)) = cell.parts[i].restriction * coefficients.col(Index(cell.parts[i].panel));
-  if (Index(cell.parts.size()) * contacts() > few_pairs) return by_poles(grid, cell, state, forces, points);
+  if (Index(cell.parts.size()) * contacts() > few_pairs)
+    return by_poles(grid, cell, state, forces, points, velocity);
   const Index degree = cell.waves->series_length() + count;
-  const Eigen::MatrixXd values = legendre_values(points, degree);
-  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), since.size()),
-                       Eigen::MatrixXd::Zero(contacts(), since.size())};
+  const Eigen::MatrixXd values =
+      known ? known->polynomials().leftCols(degree).eval() : legendre_values(points, degree);
+  ContactMotion result{Eigen::MatrixXd::Zero(contacts(), points.size()),
+                       Eigen::MatrixXd::Zero(velocity ? contacts() : 0, points.size())};
   const auto add = [&](Eigen::MatrixXd& motion, int c, const Eigen::VectorXcd& factor,
                        const Eigen::MatrixXd& at_once) {
     const Eigen::VectorXcd shape = shapes_.row(c).transpose().cwiseProduct(factor);
@@ -106,54 +132,82 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
   const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(exponents_.size());
   for (int c = 0; c < contacts(); ++c) {
     add(result.displacement, c, ones, constant_);
-    add(result.velocity, c, exponents_, jump_);
+    if (velocity) add(result.velocity, c, exponents_, jump_);
   }
-  add_poles(grid, cell, cell.waves->fast(), state, forces, points, result);
+  const std::vector<Index>& fast = cell.waves->fast();
+  if (known) {
+    add_poles(
+        grid, cell, fast, forces,
+        [&](std::size_t i, const Eigen::VectorXcd& force) -> Eigen::VectorXcd {
+          return known->states(i, state[fast[i]], force);
+        },
+        result);
+  } else {
+    StatesAtPoints states(points, forces.rows());
+    add_poles(
+        grid, cell, fast, forces,
+        [&](std::size_t i, const Eigen::VectorXcd& force) {
+          return states(0.5 * cell.length * exponents_[fast[i]], state[fast[i]], force);
+        },
+        result);
+  }
   return result;
 }
 
 // With many contacts all poles one by one take far less than a series for each pair of contacts.
 ContactMotion PoleResponse::by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
-                                     const Eigen::MatrixXd& forces, const Eigen::VectorXd& points) const {
+                                     const Eigen::MatrixXd& forces, const Eigen::VectorXd& points,
+                                     bool velocity) const {
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), points.size()),
-                       Eigen::MatrixXd::Zero(contacts(), points.size())};
+                       Eigen::MatrixXd::Zero(velocity ? contacts() : 0, points.size())};
   std::vector<Index> all(static_cast<std::size_t>(exponents_.size()));
   std::iota(all.begin(), all.end(), Index(0));
-  add_poles(grid, cell, all, state, forces, points, result);
+  StatesAtPoints states(points, forces.rows());
+  add_poles(
+      grid, cell, all, forces,
+      [&](std::size_t r, const Eigen::VectorXcd& force) {
+        return states(0.5 * cell.length * exponents_[Index(r)], state[Index(r)], force);
+      },
+      result);
   const Eigen::MatrixXd at_points = legendre_values(points, forces.rows()) * forces;
   for (std::size_t i = 0; i < cell.parts.size(); ++i) {
     const int forced = grid.panels[cell.parts[i].panel].contact;
     result.displacement += constant_.col(forced) * at_points.col(Index(i)).transpose();
-    result.velocity += jump_.col(forced) * at_points.col(Index(i)).transpose();
+    if (velocity) result.velocity += jump_.col(forced) * at_points.col(Index(i)).transpose();
   }
   return result;
 }
 
-// What some poles make there, one by one.
+// What some poles make there, one by one: `states` gives those of one at the points, by its number in `poles`
+// and the Legendre coefficients of the force on it.
+template <class States>
 void PoleResponse::add_poles(const CellGrid& grid, const Cell& cell, const std::vector<Index>& poles,
-                             const Eigen::VectorXcd& state, const Eigen::MatrixXd& forces,
-                             const Eigen::VectorXd& points, ContactMotion& result) const {
-  if (poles.empty()) return;
-  ExponentialIntegrals<Complex> integrals(points, forces.rows());
-  for (const Index r : poles) {
-    integrals.compute(0.5 * cell.length * exponents_[r]);
+                             const Eigen::MatrixXd& forces, const States& states,
+                             ContactMotion& result) const {
+  for (std::size_t k = 0; k < poles.size(); ++k) {
+    const Index r = poles[k];
     Eigen::VectorXcd left(cell.parts.size());
     for (std::size_t i = 0; i < cell.parts.size(); ++i)
       left[Index(i)] = 0.5 * cell.length * left_(grid.panels[cell.parts[i].panel].contact, r);
-    const Eigen::VectorXcd force = forces * left;
-    const Eigen::VectorXcd states = state[r] * integrals.decay() + integrals.values() * force;
-    result.displacement += (shapes_.col(r) * states.transpose()).real();
-    result.velocity += (exponents_[r] * shapes_.col(r) * states.transpose()).real();
+    const Eigen::VectorXcd own = states(k, forces * left);
+    result.displacement += (shapes_.col(r) * own.transpose()).real();
+    if (result.velocity.size() > 0)
+      result.velocity += (exponents_[r] * shapes_.col(r) * own.transpose()).real();
   }
 }
 
 ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients,
                                    const LegendreNodes& nodes, const Eigen::VectorXd& times) const {
+  return motion(*cells(grid, nodes), coefficients, times);
+}
+
+ContactMotion PoleResponse::motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                                   const Eigen::VectorXd& times) const {
+  const auto& [grid, nodes, cells, waves] = period;
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), times.size()),
                        Eigen::MatrixXd::Zero(contacts(), times.size())};
   if (grid.panels.empty()) return result;
-  const std::vector<Cell> cells = cells_of(grid, nodes);
-  const Eigen::MatrixXcd states = states_at_boundaries(grid, cells, coefficients);
+  const Eigen::MatrixXcd states = states_at_boundaries(period, coefficients);
   std::vector<std::vector<Index>> numbers(cells.size());
   std::vector<std::vector<double>> since(cells.size());
   for (Index l = 0; l < times.size(); ++l) {
@@ -166,13 +220,60 @@ ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& 
   for (std::size_t j = 0; j < cells.size(); ++j) {
     if (numbers[j].empty()) continue;
     const auto own = Eigen::VectorXd::Map(since[j].data(), Index(since[j].size()));
-    const ContactMotion part = cells[j].parts.empty()
-                                   ? free_flight(states.col(Index(j)), own)
-                                   : forced_flight(grid, cells[j], states.col(Index(j)), coefficients, own);
+    const ContactMotion part =
+        cells[j].parts.empty() ? free_flight(states.col(Index(j)), own)
+                               : forced_flight(grid, cells[j], states.col(Index(j)), coefficients,
+                                               ((2.0 / cells[j].length) * own.array() - 1.0).min(1.0), true);
     result.displacement(Eigen::all, numbers[j]) = part.displacement;
     result.velocity(Eigen::all, numbers[j]) = part.velocity;
   }
   return result;
+}
+
+ForcedMotion PoleResponse::forced_motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                                         bool velocity) const {
+  const auto& [grid, nodes, cells, waves] = period;
+  const Index n = period.count(), m = period.marks();
+  ForcedMotion result{Eigen::VectorXd(n + m), Eigen::VectorXd(velocity ? n : 0), Eigen::VectorXd(m)};
+  const Eigen::MatrixXcd states = states_at_boundaries(period, coefficients);
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (cells[j].parts.empty()) continue;
+    const ContactMotion flight =
+        forced_flight(grid, cells[j], states.col(Index(j)), coefficients,
+                      cells[j].points ? *cells[j].points : nodes.points, velocity, &*waves[j]);
+    for (const Part& part : cells[j].parts) {
+      const int contact = grid.panels[part.panel].contact;
+      const Index first = nodes.count() * Index(part.panel) + part.first;
+      result.displacement.segment(first, part.count) =
+          flight.displacement.row(contact).segment(part.row, part.count).transpose();
+      if (velocity)
+        result.node_velocity.segment(first, part.count) =
+            flight.velocity.row(contact).segment(part.row, part.count).transpose();
+    }
+  }
+  set_at_marks(period, coefficients, states, result);
+  return result;
+}
+
+// By the states there and what acts at once; the contact's own force only where it goes on.
+void PoleResponse::set_at_marks(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                                const Eigen::MatrixXcd& states, ForcedMotion& result) const {
+  const CellGrid& grid = period.grid;
+  for (Index i = 0; i < period.marks(); ++i) {
+    const CellGrid::Mark& mark = grid.marks[static_cast<std::size_t>(i)];
+    const Eigen::VectorXcd seen =
+        shapes_.row(mark.contact).transpose().cwiseProduct(states.col(mark.boundary));
+    double displacement = seen.sum().real(), velocity = seen.cwiseProduct(exponents_).sum().real();
+    for (const Part& part : period.cells[static_cast<std::size_t>(grid.before(mark.boundary))].parts) {
+      const int forced = grid.panels[part.panel].contact;
+      if (forced == mark.contact && !mark.acts_after) continue;
+      const double force = (part.restriction * coefficients.col(Index(part.panel))).sum();  // P_k(1) = 1
+      displacement += constant_(mark.contact, forced) * force;
+      velocity += jump_(mark.contact, forced) * force;
+    }
+    result.displacement[period.count() + i] = displacement;
+    result.mark_velocity[i] = velocity;
+  }
 }
 
 }  // namespace wavebalance::solvers::detail

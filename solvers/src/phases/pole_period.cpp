@@ -78,10 +78,11 @@ Eigen::VectorXcd PoleResponse::free_multipliers() const {
 
 FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
   constexpr double negligible = 1e-18;
-  const auto n = nodes.count() * Index(grid.panels.size()), m = Index(grid.marks.size());
-  const std::vector<Cell> cells = cells_of(grid, nodes);
-  const std::vector<Rows> rows = rows_of(grid, cells, nodes.count(), velocity);
-  const std::vector<Sources> sources = sources_of(grid, cells, nodes);
+  const auto period = this->cells(grid, nodes);
+  const std::vector<Cell>& cells = period->cells;
+  const Index n = period->count(), m = period->marks();
+  const std::vector<Rows> rows = rows_of(*period, velocity);
+  const std::vector<Sources> sources = sources_of(*period);
   const std::size_t count = cells.size();
   std::size_t first = 0;
   double longest = 0.0;
@@ -120,7 +121,7 @@ FreePeriod PoleResponse::free_period(const CellGrid& grid, const LegendreNodes& 
   moving.add(at_begin.states.leftCols(nodes_there), of_nodes);
   result.states_by_states = states.diagonal(gone.head(left));
   result.states_by = states.rows(moving.top(left));
-  add_within_cells(grid, cells, nodes, velocity, all);
+  add_within_cells(*period, velocity, all);
   result.influence = split(all, n, m, velocity);
   result.displacement_by = by_states.topRows(n + m);
   if (velocity) result.velocity_by = by_states.bottomRows(n);

@@ -67,51 +67,58 @@ PoleResponse::Part PoleResponse::part_of(const CellGrid& grid, std::size_t numbe
   return part;
 }
 
-std::vector<PoleResponse::Cell> PoleResponse::cells_of(const CellGrid& grid,
+std::shared_ptr<const PeriodCells> PoleResponse::cells(const CellGrid& grid,
                                                        const LegendreNodes& nodes) const {
-  std::vector<Cell> cells(static_cast<std::size_t>(grid.cells()));
+  auto period = std::make_shared<PeriodCells>(
+      PeriodCells{grid, nodes, std::vector<Cell>(static_cast<std::size_t>(grid.cells()))});
   for (std::size_t p = 0; p < grid.panels.size(); ++p) {
     double begin = grid.panels[p].begin;
     int cell = grid.panels[p].cell;
     for (int i = 0; i < grid.panels[p].cells; ++i, cell = grid.next(cell)) {
       const double length = grid.length(cell);
       const bool last = i + 1 == grid.panels[p].cells;
-      cells[static_cast<std::size_t>(cell)].parts.push_back(part_of(grid, p, begin, length, last, nodes));
+      period->cells[static_cast<std::size_t>(cell)].parts.push_back(
+          part_of(grid, p, begin, length, last, nodes));
       begin += length;
     }
   }
   for (int j = 0; j < grid.cells(); ++j) {
-    Cell& cell = cells[static_cast<std::size_t>(j)];
+    Cell& cell = period->cells[static_cast<std::size_t>(j)];
     cell.length = grid.length(j);
     const Eigen::VectorXcd z = (0.5 * cell.length) * exponents_;
     if (cell.parts.empty()) {
       cell.decay = (2.0 * z.array()).exp();
       continue;
     }
-    const bool whole = std::all_of(cell.parts.begin(), cell.parts.end(),
-                                   [&](const Part& part) { return grid.panels[part.panel].cells == 1; });
-    if (whole) {
-      cell.waves.emplace(z, nodes);
-    } else {
-      Index count = 0;
-      for (Part& part : cell.parts) {
-        part.row = count;
-        count += part.count;
-      }
-      Eigen::VectorXd points(count);
-      for (const Part& part : cell.parts) points.segment(part.row, part.count) = part.points;
-      cell.waves.emplace(z, nodes, points);
-    }
+    cell.waves.emplace(z, nodes.count());
     cell.decay = cell.waves->decay();
+    if (std::all_of(cell.parts.begin(), cell.parts.end(),
+                    [&](const Part& part) { return grid.panels[part.panel].cells == 1; }))
+      continue;
+    Index count = 0;
+    for (Part& part : cell.parts) {
+      part.row = count;
+      count += part.count;
+    }
+    cell.points.emplace(count);
+    for (const Part& part : cell.parts) cell.points->segment(part.row, part.count) = part.points;
   }
-  return cells;
+  period->waves.resize(period->cells.size());
+  for (std::size_t j = 0; j < period->cells.size(); ++j) {
+    const Cell& cell = period->cells[j];
+    if (cell.points)
+      period->waves[j].emplace(*cell.waves, nodes, *cell.points);
+    else if (cell.waves)
+      period->waves[j].emplace(*cell.waves, nodes);
+  }
+  return period;
 }
 
 // Numbers of the equations: n displacements at nodes, m displacements and m velocities at marks, and n
 // velocities at nodes.
-std::vector<PoleResponse::Rows> PoleResponse::rows_of(const CellGrid& grid, const std::vector<Cell>& cells,
-                                                      Index count, bool velocity) const {
-  const auto n = count * Index(grid.panels.size()), m = Index(grid.marks.size()), poles = exponents_.size();
+std::vector<PoleResponse::Rows> PoleResponse::rows_of(const PeriodCells& period, bool velocity) const {
+  const auto& [grid, nodes, cells, waves] = period;
+  const Index n = period.count(), m = period.marks(), poles = exponents_.size();
   std::vector<Rows> rows(cells.size());
   std::vector<std::vector<std::size_t>> marks(cells.size());
   for (std::size_t i = 0; i < grid.marks.size(); ++i)
@@ -129,8 +136,8 @@ std::vector<PoleResponse::Rows> PoleResponse::rows_of(const CellGrid& grid, cons
     for (const Part& part : cells[j].parts) {
       const Eigen::VectorXcd shape = shapes_.row(grid.panels[part.panel].contact).transpose();
       const Eigen::MatrixXcd displacement =
-          cells[j].waves->at_nodes().middleRows(part.row, part.count) * shape.asDiagonal();
-      const Index number = count * Index(part.panel) + part.first;
+          waves[j]->values().middleRows(part.row, part.count) * shape.asDiagonal();
+      const Index number = nodes.count() * Index(part.panel) + part.first;
       add(displacement, number);
       if (velocity) add(displacement * exponents_.asDiagonal(), n + 2 * m + number);
     }
@@ -145,10 +152,9 @@ std::vector<PoleResponse::Rows> PoleResponse::rows_of(const CellGrid& grid, cons
   return rows;
 }
 
-std::vector<PoleResponse::Sources> PoleResponse::sources_of(const CellGrid& grid,
-                                                            const std::vector<Cell>& cells,
-                                                            const LegendreNodes& nodes) const {
-  const Index count = nodes.count(), n = count * Index(grid.panels.size());
+std::vector<PoleResponse::Sources> PoleResponse::sources_of(const PeriodCells& period) const {
+  const auto& [grid, nodes, cells, waves] = period;
+  const Index count = nodes.count(), n = period.count();
   std::vector<Sources> sources(cells.size());
   for (std::size_t j = 0; j < cells.size(); ++j) {
     Index marks = 0;
@@ -182,15 +188,16 @@ std::vector<PoleResponse::Sources> PoleResponse::sources_of(const CellGrid& grid
 }
 
 // What one panel does to the nodes of another in a cell of both.
-void PoleResponse::add_between(const CellGrid& grid, const Cell& cell, const Part& from, const Part& to,
-                               const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const {
-  const auto count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size());
+void PoleResponse::add_between(const PeriodCells& period, const Cell& cell, const WavesAtNodes& waves,
+                               const Part& from, const Part& to, bool velocity, Eigen::MatrixXd& all) const {
+  const CellGrid& grid = period.grid;
+  const Index count = period.nodes.count(), n = period.count(), m = period.marks();
   const int forced = grid.panels[from.panel].contact, displaced = grid.panels[to.panel].contact;
   const Eigen::VectorXcd weight = (0.5 * cell.length) * weights(displaced, forced);
   const Index row = count * Index(to.panel) + to.first, column = count * Index(from.panel);
   const auto add = [&](Index first, const Eigen::VectorXcd& of_poles, double factor) {
     auto block = all.block(first, column, to.count, count);
-    block += product(cell.waves->up_to_nodes(of_poles, to.row, to.count), from.coefficients);
+    block += product(waves.up_to(of_poles, to.row, to.count), from.coefficients);
     if (factor != 0.0) block += factor * at_once(from, to, count);
   };
   add(row, weight, constant_(displaced, forced));
@@ -204,17 +211,18 @@ Eigen::MatrixXd PoleResponse::at_once(const Part& from, const Part& to, Index co
 }
 
 // The same of all panels of a cell, by each pole's integrals up to all nodes there.
-void PoleResponse::add_by_poles(const CellGrid& grid, const Cell& cell, const LegendreNodes& nodes,
+void PoleResponse::add_by_poles(const PeriodCells& period, const Cell& cell, const WavesAtNodes& waves,
                                 bool velocity, Eigen::MatrixXd& all) const {
-  const Index count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size()),
-              poles = exponents_.size(), parts = Index(cell.parts.size());
+  const CellGrid& grid = period.grid;
+  const Index count = period.nodes.count(), n = period.count(), m = period.marks(), poles = exponents_.size(),
+              parts = Index(cell.parts.size());
   Eigen::MatrixXd left(2 * poles, parts);
   for (Index i = 0; i < parts; ++i) {
     const auto forced = left_.row(grid.panels[cell.parts[std::size_t(i)].panel].contact).transpose();
     left.col(i).head(poles) = 0.5 * cell.length * forced.real();
     left.col(i).tail(poles) = -0.5 * cell.length * forced.imag();
   }
-  const std::vector<Eigen::MatrixXcd> integrals = cell.waves->integrals_of(0.5 * cell.length * exponents_);
+  const std::vector<Eigen::MatrixXcd> integrals = waves.integrals();
   const auto add = [&](const Part& to, Index first, const Eigen::VectorXcd& shape,
                        const Eigen::MatrixXd& factors) {
     Eigen::MatrixXd seen(to.count * count, 2 * poles);
@@ -243,18 +251,19 @@ void PoleResponse::add_by_poles(const CellGrid& grid, const Cell& cell, const Le
 
 // What acts within the cell of an equation: up to each node, and at once. Of many pairs of panels each pole
 // once takes far less than a series for each pair.
-void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells,
-                                    const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const {
+void PoleResponse::add_within_cells(const PeriodCells& period, bool velocity, Eigen::MatrixXd& all) const {
   constexpr std::size_t few_pairs = 16;
-  const auto count = nodes.count(), n = count * Index(grid.panels.size()), m = Index(grid.marks.size());
-  for (const Cell& cell : cells) {
+  const auto& [grid, nodes, cells, waves] = period;
+  const Index count = nodes.count(), n = period.count(), m = period.marks();
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const Cell& cell = cells[j];
     if (cell.parts.size() * cell.parts.size() > few_pairs) {
-      add_by_poles(grid, cell, nodes, velocity, all);
+      add_by_poles(period, cell, *waves[j], velocity, all);
       continue;
     }
     for (const Part& from : cell.parts)
       for (const Part& to : cell.parts)
-        if (to.count > 0) add_between(grid, cell, from, to, nodes, velocity, all);
+        if (to.count > 0) add_between(period, cell, *waves[j], from, to, velocity, all);
   }
   for (Index i = 0; i < m; ++i) {
     const CellGrid::Mark& mark = grid.marks[static_cast<std::size_t>(i)];
@@ -272,11 +281,11 @@ void PoleResponse::add_within_cells(const CellGrid& grid, const std::vector<Cell
 
 // What each source leaves at the end of the period gives the periodic states at its begin, with which the
 // states go around once.
-Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
-  const auto n = nodes.count() * Index(grid.panels.size()), m = Index(grid.marks.size());
-  const std::vector<Cell> cells = cells_of(grid, nodes);
-  const std::vector<Rows> rows = rows_of(grid, cells, nodes.count(), velocity);
-  const std::vector<Sources> sources = sources_of(grid, cells, nodes);
+Influence PoleResponse::influence(const PeriodCells& period, bool velocity) const {
+  const auto& [grid, nodes, cells, waves] = period;
+  const Index n = period.count(), m = period.marks();
+  const std::vector<Rows> rows = rows_of(period, velocity);
+  const std::vector<Sources> sources = sources_of(period);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + 2 * m + (velocity ? n : 0), n + m);
   MovingStates states(exponents_.size(), n + m);
   const auto pass = [&](std::size_t cell) {
@@ -295,8 +304,12 @@ Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nod
       all(rows[j].numbers, Eigen::all) = states.seen_by(rows[j].real, rows[j].imag);
     if (j + 1 < cells.size()) pass(j);
   }
-  add_within_cells(grid, cells, nodes, velocity, all);
+  add_within_cells(period, velocity, all);
   return split(all, n, m, velocity);
+}
+
+Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
+  return influence(*cells(grid, nodes), velocity);
 }
 
 Influence PoleResponse::split(const Eigen::MatrixXd& all, Index n, Index m, bool velocity) {

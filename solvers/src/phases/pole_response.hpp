@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "phases/cell_waves.hpp"
@@ -39,6 +40,9 @@ struct CellGrid {
   int before(int cell) const { return cell == 0 ? cells() - 1 : cell - 1; }
 };
 
+/// What the poles do within each cell of a grid, for forces at so many nodes; in pole_response_parts.hpp.
+struct PeriodCells;
+
 /// How the contacts move where contact forces act periodically: displacements (m) and velocities (m per
 /// period) at the n nodes of all panels and at the m marks, by forces of 1 N at the nodes and by impulses of
 /// 1 N times a period at the marks.
@@ -46,6 +50,13 @@ struct Influence {
   Eigen::MatrixXd displacement;   ///< (n + m) x (n + m)
   Eigen::MatrixXd node_velocity;  ///< n x (n + m); empty where not asked for
   Eigen::MatrixXd mark_velocity;  ///< m x n
+};
+
+/// The same for given forces.
+struct ForcedMotion {
+  Eigen::VectorXd displacement;   ///< n + m, m
+  Eigen::VectorXd node_velocity;  ///< n, m per period; empty where not asked for
+  Eigen::VectorXd mark_velocity;  ///< m, m per period
 };
 
 /// A period that begins with any states of the poles, of which s leave more than rounding after the longest
@@ -80,18 +91,27 @@ class PoleResponse {
   double displacement_at_once(int c) const { return constant_(c, c); }
   double velocity_at_once(int c) const { return jump_(c, c); }
 
+  /// Keeps a reference to the nodes. O(cells poles q).
+  std::shared_ptr<const PeriodCells> cells(const CellGrid& grid, const LegendreNodes& nodes) const;
   /// Node j of panel p has number p q + j. O((n + m)^2 poles).
+  Influence influence(const PeriodCells& period, bool velocity) const;
   Influence influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
+  /// By forces with these Legendre coefficients, q x panels, N. O(n poles (q + C)).
+  ForcedMotion forced_motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                             bool velocity) const;
   /// The same for a period that is not repeated. O((n + m)^2 poles).
   FreePeriod free_period(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
   /// The multipliers of all states without forces, exp(exponent), both of each pair.
   Eigen::VectorXcd free_multipliers() const;
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
   /// (poles + C q)).
+  ContactMotion motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                       const Eigen::VectorXd& times) const;
   ContactMotion motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients, const LegendreNodes& nodes,
                        const Eigen::VectorXd& times) const;
 
  private:
+  friend struct PeriodCells;
   struct Part;
   struct Cell;
   struct Rows;
@@ -99,29 +119,28 @@ class PoleResponse {
 
   static Part part_of(const CellGrid& grid, std::size_t panel, double begin, double length, bool last,
                       const LegendreNodes& nodes);
-  void add_between(const CellGrid& grid, const Cell& cell, const Part& from, const Part& to,
-                   const LegendreNodes& nodes, bool velocity, Eigen::MatrixXd& all) const;
+  void add_between(const PeriodCells& period, const Cell& cell, const WavesAtNodes& waves, const Part& from,
+                   const Part& to, bool velocity, Eigen::MatrixXd& all) const;
   static Eigen::MatrixXd at_once(const Part& from, const Part& to, Index count);
-  void add_by_poles(const CellGrid& grid, const Cell& cell, const LegendreNodes& nodes, bool velocity,
+  void add_by_poles(const PeriodCells& period, const Cell& cell, const WavesAtNodes& waves, bool velocity,
                     Eigen::MatrixXd& all) const;
-  std::vector<Cell> cells_of(const CellGrid& grid, const LegendreNodes& nodes) const;
-  std::vector<Rows> rows_of(const CellGrid& grid, const std::vector<Cell>& cells, Index count,
-                            bool velocity) const;
-  std::vector<Sources> sources_of(const CellGrid& grid, const std::vector<Cell>& cells,
-                                  const LegendreNodes& nodes) const;
+  std::vector<Rows> rows_of(const PeriodCells& period, bool velocity) const;
+  std::vector<Sources> sources_of(const PeriodCells& period) const;
   static Influence split(const Eigen::MatrixXd& all, Index nodes, Index marks, bool velocity);
-  void add_within_cells(const CellGrid& grid, const std::vector<Cell>& cells, const LegendreNodes& nodes,
-                        bool velocity, Eigen::MatrixXd& all) const;
-  Eigen::MatrixXcd states_at_boundaries(const CellGrid& grid, const std::vector<Cell>& cells,
-                                        const Eigen::MatrixXd& coefficients) const;
+  void add_within_cells(const PeriodCells& period, bool velocity, Eigen::MatrixXd& all) const;
+  Eigen::MatrixXcd states_at_boundaries(const PeriodCells& period, const Eigen::MatrixXd& coefficients) const;
+  void set_at_marks(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
+                    const Eigen::MatrixXcd& states, ForcedMotion& result) const;
   ContactMotion free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const;
+  // `known`: the waves at these points.
   ContactMotion forced_flight(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
-                              const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& since) const;
+                              const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& points,
+                              bool velocity, const WavesAtNodes* known = nullptr) const;
   ContactMotion by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
-                         const Eigen::MatrixXd& forces, const Eigen::VectorXd& points) const;
+                         const Eigen::MatrixXd& forces, const Eigen::VectorXd& points, bool velocity) const;
+  template <class States>
   void add_poles(const CellGrid& grid, const Cell& cell, const std::vector<Eigen::Index>& poles,
-                 const Eigen::VectorXcd& state, const Eigen::MatrixXd& forces, const Eigen::VectorXd& points,
-                 ContactMotion& result) const;
+                 const Eigen::MatrixXd& forces, const States& states, ContactMotion& result) const;
   Eigen::VectorXcd weights(int displaced, int forced) const;
 
   Eigen::VectorXcd exponents_;      // per period, one for each pair, by rising decay

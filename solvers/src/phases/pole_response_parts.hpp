@@ -23,7 +23,18 @@ struct PoleResponse::Cell {
   double length;
   std::vector<Part> parts;
   std::optional<CellWaves> waves;
-  Eigen::VectorXcd decay;  // poles
+  std::optional<Eigen::VectorXd> points;  // of the nodes of all parts, where these are not the panels' own
+  Eigen::VectorXcd decay;                 // poles
+};
+
+struct PeriodCells {
+  CellGrid grid;
+  const LegendreNodes& nodes;
+  std::vector<PoleResponse::Cell> cells;
+  std::vector<std::optional<WavesAtNodes>> waves = {};  // of the cells with panels
+
+  Index count() const { return nodes.count() * Index(grid.panels.size()); }  ///< n
+  Index marks() const { return Index(grid.marks.size()); }                   ///< m
 };
 
 /// The equations that begin at a boundary, by the states there: rows x poles, and their numbers.

@@ -38,19 +38,24 @@ PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws&
   return {dynamics, laws, free.at(problem.frequency(), problem.load_factor()), problem.frequency()};
 }
 
-ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
-                               const PeriodicResponse& response, const ContactDynamics& dynamics,
-                               const ContactPhasesOptions& options, PhaseFinder find) {
+ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicResponse& response,
+                               const PhasesProblem& phases, const ContactPhasesOptions& options,
+                               PhaseFinder find) {
   constexpr int least_points = 256, most_points = 1024;  // a start needs no more
   const int points = std::clamp(problem.points(), least_points, most_points);
-  const Motion balance = contact_motion(problem, response, laws, points);
-  const PhasesProblem phases = phases_problem(problem, laws, dynamics);
+  const Motion balance = contact_motion(problem, response, phases.laws, points);
   ResponsePhases result{find(phases, balance.displacement, options, balance.force), missing, missing};
   if (result.motion.parts == nullptr) return result;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
   result.displacement_error = result.motion.start_error;
   result.force_error = relative_distance(balance.force, result.motion.force(times));
   return result;
+}
+
+ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaws& laws,
+                               const PeriodicResponse& response, const ContactDynamics& dynamics,
+                               const ContactPhasesOptions& options, PhaseFinder find) {
+  return response_phases(problem, response, phases_problem(problem, laws, dynamics), options, find);
 }
 
 PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "phases/phase_loads.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/friction/friction_phases.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
@@ -108,11 +109,19 @@ Motion ContactProblem::structure_motion(const PeriodicResponse& response, int po
   return solvers::structure_motion(condensed_, response, points);
 }
 
+PhasesProblem ContactProblem::phases_problem_here() {
+  if (!free_contacts_)
+    free_contacts_ = std::make_shared<detail::FreeContacts>(structure(), condensed_.load_harmonics(),
+                                                            dynamics()->holding());
+  return {*dynamics(), laws_, free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
+          condensed_.frequency()};
+}
+
 std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& response,
                                                      const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   hold(response);
-  return response_phases(condensed_, laws_, response, *dynamics(), options, phases_of_any_law);
+  return response_phases(condensed_, response, phases_problem_here(), options, phases_of_any_law);
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
@@ -127,16 +136,15 @@ PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const Cont
   const auto samples = [&](const Eigen::MatrixXd& values) {
     return by_contact(resample(values, points, settled.start), contacts());
   };
-  return phases_of_any_law(phases_problem(condensed_, laws_, *dynamics()), samples(settled.last.displacement),
-                           options, samples(settled.last.force));
+  return phases_of_any_law(phases_problem_here(), samples(settled.last.displacement), options,
+                           samples(settled.last.force));
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,
                                                   const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   load_fully(frequency);
-  return phases_of_any_law(phases_problem(condensed_, laws_, *dynamics()), start.displacement, options,
-                           start.force);
+  return phases_of_any_law(phases_problem_here(), start.displacement, options, start.force);
 }
 
 StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,
@@ -192,7 +200,7 @@ std::optional<PhaseMotion> ContactProblem::motion_here(const ExactCurveOptions& 
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return std::nullopt;
   if (response.converged()) {
-    ResponsePhases found = response_phases(condensed_, laws_, response, *dynamics(), options.phases);
+    ResponsePhases found = response_phases(condensed_, response, phases_problem_here(), options.phases);
     if (found.motion.parts != nullptr) return std::move(found.motion);
   }
   SettlingOptions settling;

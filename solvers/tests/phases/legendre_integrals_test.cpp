@@ -55,18 +55,19 @@ TEST(CellWaves, OfSlowAndFastPolesAreTheIntegralsOfEach) {
                                        {-65.0, 0.0},
                                        {-20.0, 0.0},
                                        {-900.0, 0.0}}) {
-    const CellWaves waves(Eigen::VectorXcd::Constant(1, z), nodes);
+    const CellWaves waves(Eigen::VectorXcd::Constant(1, z), 12);
+    const WavesAtNodes at_nodes(waves, nodes);
     EXPECT_EQ(waves.fast().empty(), std::abs(z.imag()) < 32.0 && z.real() > -64.0);
     ExponentialIntegrals<std::complex<double>> each(points, 12);
     each.compute(z);
     const Eigen::MatrixXcd expected = each.values();
     const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
-    const Eigen::MatrixXd real = waves.up_to_nodes(one, 0, 12),
-                          imag = waves.up_to_nodes(std::complex<double>(0.0, -1.0) * one, 0, 12);
+    const Eigen::MatrixXd real = at_nodes.up_to(one, 0, 12),
+                          imag = at_nodes.up_to(std::complex<double>(0.0, -1.0) * one, 0, 12);
     EXPECT_LT((real - expected.topRows(12).real()).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT((imag - expected.topRows(12).imag()).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT((waves.at_end().row(0) - expected.row(12)).cwiseAbs().maxCoeff(), 100 * eps);
-    EXPECT_LT((waves.at_nodes().col(0) - each.decay().head(12)).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((at_nodes.values().col(0) - each.decay().head(12)).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT(std::abs(waves.decay()[0] - std::exp(2.0 * z)), 100 * eps);
   }
 }

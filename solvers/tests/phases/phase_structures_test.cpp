@@ -116,24 +116,38 @@ TEST(PhasesOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
 
 // Of many panels within a cell each pole is taken once, of few a series for each pair: what one panel does to
 // itself is the same among many.
-TEST(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
-  constexpr int contacts = 6;
-  const Eigen::Index q = 9;
-  std::mt19937 generator(7);
-  LinearStructure chain = testing::random_chain(contacts, generator);
-  chain.contact_directions = Eigen::MatrixXd::Identity(contacts, contacts).sparseView();
-  const detail::PoleResponse response(ContactDynamics(chain), 1.7);
-  const detail::LegendreNodes nodes(q);
-  const auto influence_of = [&](int first, int count) {
+class Influence : public ::testing::Test {
+ protected:
+  static constexpr int contacts = 6;
+  static constexpr Eigen::Index q = 9;
+
+  static detail::PoleResponse response_of_chain() {
+    std::mt19937 generator(7);
+    LinearStructure chain = testing::random_chain(contacts, generator);
+    chain.contact_directions = Eigen::MatrixXd::Identity(contacts, contacts).sparseView();
+    return {ContactDynamics(chain), 1.7};
+  }
+
+  // One phase of each of `count` contacts.
+  static detail::Layout phases_of(int first, int count, bool cut_by_others) {
     detail::Layout layout;
-    layout.cut_by_others = false;
+    layout.cut_by_others = cut_by_others;
     for (int c = first; c < first + count; ++c) {
       const int passage = static_cast<int>(layout.passages.size());
       layout.passages.push_back({c, 0.1 + 0.03 * c, 0.0});
       layout.passages.push_back({c, 0.9 - 0.05 * c, 0.0});
       layout.phases.push_back({c, 1, passage, passage + 1, 0.0, {}});
     }
-    return response.influence(layout.grid(), nodes, true);
+    return layout;
+  }
+
+  const detail::PoleResponse response = response_of_chain();
+  const detail::LegendreNodes nodes{q};
+};
+
+TEST_F(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
+  const auto influence_of = [&](int first, int count) {
+    return response.influence(phases_of(first, count, false).grid(), nodes, true);
   };
   const detail::Influence many = influence_of(0, contacts);
   for (int c = 0; c < contacts; ++c) {
@@ -145,6 +159,27 @@ TEST(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
     expect_same(many.displacement, alone.displacement);
     expect_same(many.node_velocity, alone.node_velocity);
   }
+}
+
+// Within cells with few panels, with many, and with the nodes of panels that are longer than a cell.
+TEST_F(Influence, TakesForcesToTheMotionThatTheyMake) {
+  for (const bool cut : {true, false})
+    for (const int count : {1, 3, contacts}) {
+      const detail::CellGrid grid = phases_of(0, count, cut).grid();
+      const auto period = response.cells(grid, nodes);
+      const auto n = q * Eigen::Index(grid.panels.size());
+      const detail::Influence influence = response.influence(*period, true);
+      const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(n, 1.0, 2.0).array().cube().sin();
+      const detail::ForcedMotion motion = response.forced_motion(
+          *period, nodes.coefficients * force.reshaped(q, Eigen::Index(grid.panels.size())), true);
+      const auto expect_same = [&](const Eigen::VectorXd& own, const Eigen::VectorXd& expected) {
+        ASSERT_EQ(own.size(), expected.size());
+        EXPECT_LT((own - expected).norm(), 1e-12 * expected.norm()) << count << " contacts, cut: " << cut;
+      };
+      expect_same(motion.displacement, influence.displacement.leftCols(n) * force);
+      expect_same(motion.node_velocity, influence.node_velocity.leftCols(n) * force);
+      expect_same(motion.mark_velocity, influence.mark_velocity * force);
+    }
 }
 
 TEST(ContactPhases, OfContactsThatPassTogetherAreThoseOfOne) {

@@ -30,6 +30,11 @@ ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaw
                                const PeriodicResponse& response, const ContactDynamics& dynamics,
                                const ContactPhasesOptions& options = {}, PhaseFinder find = contact_phases);
 
+/// The same for what phases_problem() gives at the frequency and load of the problem.
+ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicResponse& response,
+                               const PhasesProblem& phases, const ContactPhasesOptions& options = {},
+                               PhaseFinder find = contact_phases);
+
 /// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
 /// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not
 /// converged.

@@ -19,6 +19,10 @@
 
 namespace wavebalance::solvers {
 
+namespace detail {
+class FreeContacts;
+}
+
 /// Rounding errors of the condensation that a converged response may have, relative to the motion; one with
 /// larger ones has the status `inaccurate`.
 inline constexpr double largest_rounding_error = 1e-3;
@@ -149,11 +153,13 @@ class ContactProblem {
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
   std::optional<PhaseMotion> motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                          const ResponseStart& start);
+  PhasesProblem phases_problem_here();
   PhaseMotion phases_here(const SettledMotion& settled, const ContactPhasesOptions& options);
 
   CondensedProblem condensed_;
   ContactLaws laws_;
   std::shared_ptr<StructureDynamics> dynamics_;
+  std::shared_ptr<detail::FreeContacts> free_contacts_;  // once phases are sought
 };
 
 }  // namespace wavebalance::solvers
