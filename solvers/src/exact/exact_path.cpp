@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linalg/root.hpp"
 #include "linalg/index.hpp"
+#include "linalg/root.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "phases/phase_refinement.hpp"
 
@@ -134,13 +134,10 @@ PhaseIterate PathModel::coarser(const PathPoint& last, PhaseIterate start) const
   constexpr double much_better = 1e-3;
   const Index q = start.forces.coefficients().rows();
   if (q == 0 || !(last.motion.estimated_error < much_better * options_.phases.tolerance)) return start;
-  bool cut = false;
-  for (Phase& phase : start.layout.phases) {
-    if (phase.begin < 0 || phase.cuts.empty()) continue;
-    phase.cuts.clear();
-    cut = true;
-  }
-  const Index fewer = cut ? q : std::max<Index>(options_.phases.nodes, q - q / 4);
+  const Index fewer = std::max<Index>(options_.phases.nodes, q - q / 4);
+  if (fewer == q)
+    for (Phase& phase : start.layout.phases)
+      if (phase.begin >= 0) phase.cuts.clear();
   return with_nodes(start, LegendreNodes(fewer));
 }
 
@@ -154,14 +151,14 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
     HeldSolution found = solve_held(family_, length_, value, start, nodes, held,
                                     {options_.phases.max_iterations, rounding, options_.phases.observer});
     if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
-    const double error = error_of(found.newton, vibration_).resolution;
+    const EstimatedError error = error_of(found.newton, vibration_);
     start = found.newton.iterate;
     value = found.value;
     const bool movable = held.kind != Held::Kind::force;  // the nodes of others are others
-    if (error <= options_.phases.tolerance || !movable || i == most_refinements ||
+    if (error.resolution <= options_.phases.tolerance || !movable || i == most_refinements ||
         !make_finer(start, nodes, error, options_.phases)) {
       found.direction *= forwards;
-      return point_of(std::move(found), nodes, error);
+      return point_of(std::move(found), nodes, error.resolution);
     }
   }
 }

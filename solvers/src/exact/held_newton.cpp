@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
@@ -57,13 +58,18 @@ Index Held::number(Index forces, Index passages) const {
   return kind == Kind::passage ? forces + index : index;
 }
 
+// A matrix serves as long as the residual falls by it as Newton's method would have it fall, since it takes
+// far longer than a residual. The last one is that of the solution.
 HeldSolution solve_held(const PhaseFamily& family, double length, double value, PhaseIterate start,
                         const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits) {
+  constexpr double enough = 1e-2;  // of a step, to go on with its matrix
   HeldSolution result{{}, value, {}};
   PhaseIterate& at = result.newton.iterate;
   at = std::move(start);
   double before = std::numeric_limits<double>::infinity();
   Influence influence;
+  std::optional<HeldMatrix> matrix;
+  bool own = false;  // whether the last step was by a matrix of its own iterate
   for (;; ++result.newton.iterations) {
     const PhaseModel model(family.at(result.value), length);
     const Evaluation now = evaluate(model, at, nodes);
@@ -72,16 +78,19 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     at.forces = PanelForces(now.grid, nodes, now.force);
     const double residual = result.newton.residual;
     if (!std::isfinite(residual)) return result;
-    result.newton.converged = residual < limits.tolerance || now.is_rounding(before, influence);
-    const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
-    influence = model.response.influence(*now.period, model.velocity);
-    const HeldMatrix matrix = matrix_of(
-        at, now, nodes, influence, number,
-        by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes) : Eigen::VectorXd());
+    result.newton.converged = residual < limits.tolerance || (own && now.is_rounding(before, influence));
+    own = result.newton.converged || !matrix || residual > enough * before;
+    if (own) {
+      const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
+      influence = model.response.influence(*now.period, model.velocity);
+      matrix = matrix_of(at, now, nodes, influence, number,
+                         by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes)
+                                      : Eigen::VectorXd());
+    }
     if (result.newton.converged) {
-      result.direction = ordered(matrix.factor.solve(Eigen::VectorXd(-matrix.column)), number, 1.0);
+      result.direction = ordered(matrix->factor.solve(Eigen::VectorXd(-matrix->column)), number, 1.0);
       set_errors(result.newton, now, nodes, influence, model.frequency, [&](const Eigen::VectorXd& by) {
-        Eigen::VectorXd answer = matrix.factor.solve(Eigen::VectorXd(-by));
+        Eigen::VectorXd answer = matrix->factor.solve(Eigen::VectorXd(-by));
         if (number < answer.size()) answer[number] = 0.0;
         return answer;
       });
@@ -90,7 +99,7 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     before = residual;
     if (result.newton.iterations == limits.max_iterations) return result;
     if (!goes_on(limits.observer, {"exact curve", result.newton.iterations, residual})) return result;
-    const Eigen::VectorXd step = ordered(matrix.factor.solve(Eigen::VectorXd(-now.residual)), number, 0.0);
+    const Eigen::VectorXd step = ordered(matrix->factor.solve(Eigen::VectorXd(-now.residual)), number, 0.0);
     if (!step.allFinite()) return result;
     const double part = part_of_step(at, step, n, result.value);
     at.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));

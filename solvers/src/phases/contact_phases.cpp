@@ -214,7 +214,7 @@ class Search {
       const LegendreNodes nodes = nodes_;
       const bool free = finer.forces.panels().empty();
       const bool resolved = free || (compared && error.resolution <= options_.tolerance);
-      const bool finest = resolved || !make_finer(finer, error.resolution, by_panels);
+      const bool finest = resolved || !make_finer(finer, error, by_panels);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) {
@@ -233,8 +233,8 @@ class Search {
     }
   }
 
-  bool make_finer(PhaseIterate& iterate, double error, bool by_panels) {
-    return by_panels ? detail::divide_panels(iterate, options_)
+  bool make_finer(PhaseIterate& iterate, const detail::EstimatedError& error, bool by_panels) {
+    return by_panels ? detail::divide_panels(iterate, error, options_)
                      : detail::make_finer(iterate, nodes_, error, options_);
   }
 

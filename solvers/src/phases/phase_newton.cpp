@@ -30,13 +30,16 @@ Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, 
   return influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
 }
 
-// The displacements that the last two Legendre coefficients of each panel make.
-Eigen::VectorXd displacements_of_last(const PanelForces& forces, const Influence& influence,
+// The displacements that the last two Legendre coefficients of each panel make: a column for each.
+Eigen::MatrixXd displacements_of_last(const PanelForces& forces, const Influence& influence,
                                       const LegendreNodes& nodes) {
   const Eigen::MatrixXd& coefficients = forces.coefficients();
-  const Eigen::VectorXd parts =
-      (nodes.values.middleCols(coefficients.rows() - 2, 2) * coefficients.bottomRows(2)).reshaped();
-  return influence.displacement.leftCols(parts.size()) * parts;
+  const Index q = coefficients.rows();
+  const Eigen::MatrixXd parts = nodes.values.middleCols(q - 2, 2) * coefficients.bottomRows(2);
+  Eigen::MatrixXd result(influence.displacement.rows(), parts.cols());
+  for (Index p = 0; p < parts.cols(); ++p)
+    result.col(p) = influence.displacement.middleCols(q * p, q) * parts.col(p);
+  return result;
 }
 
 }  // namespace
@@ -71,7 +74,9 @@ void set_errors(PhaseNewtonResult& result, const Evaluation& now, const Legendre
   if (now.residual.size() == 0) return;
   const PhaseIterate& at = result.iterate;
   const Index n = now.force.size();
-  const Eigen::VectorXd last = displacements_of_last(at.forces, influence, nodes);
+  const Eigen::MatrixXd of_panels = displacements_of_last(at.forces, influence, nodes);
+  result.panel_errors = of_panels.topRows(n).colwise().norm().transpose() / std::sqrt(double(n));
+  const Eigen::VectorXd last = of_panels.rowwise().sum();
   const Eigen::MatrixXd none;
   const Eigen::VectorXd answered = answer(residual_by_motion(now, last, none));
   result.residual_error = rms_at_nodes(displacements_of(at, now, nodes, influence, answer(now.residual)), n);

@@ -24,6 +24,7 @@ struct PhaseNewtonResult {
   /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
   /// missing, and by the residual, with what forces and passages do in answer.
   double resolution_error = 0.0, residual_error = 0.0;
+  Eigen::VectorXd panel_errors;  ///< the former of each panel alone, without an answer
   /// At the instants and nodes of the iterate, which it refers to; the influence of solve_forces only.
   KnownPeriod known;
   Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "linalg/index.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
+
+constexpr double margin = 0.3;  // of the tolerance, for what a finer solution is to have
 
 // The factor from one Legendre coefficient to the next, of the panel where they decay slowest among those
 // with last ones above a ten-thousandth of the largest of these.
@@ -23,6 +26,61 @@ double decay_of(const PanelForces& forces) {
   return slowest;
 }
 
+// New cuts of phases in their panels. Where the cuts of each contact cut the others, one in a cell is enough
+// for all, and two that nearly agree would move apart with the passages of their contacts.
+class NewCuts {
+ public:
+  explicit NewCuts(Layout& layout) : layout_(layout) {}
+
+  bool any() const { return any_; }
+
+  // Near the ends of its phase, where layers of fast modes lie, or a panel without such an end in the middle.
+  void divide(const Panel& panel, bool at_ends) {
+    constexpr double layer = 0.15, edge = 1e-6;
+    const Phase& phase = layout_.phases[static_cast<std::size_t>(panel.phase)];
+    const double begin = layout_.begin(phase), end = layout_.end(phase), near = edge * (end - begin);
+    const bool first = phase.begin >= 0 && panel.begin - begin < near,
+               last = phase.begin >= 0 && end - panel.end < near;
+    if (at_ends && first) add(panel, layer);
+    if (at_ends && last) add(panel, 1.0 - layer);
+    if (!at_ends && !first && !last) add(panel, 0.5);
+  }
+
+ private:
+  struct Cut {
+    int cell;
+    double place;  // share of the panel
+  };
+
+  void add(const Panel& panel, double place) {
+    constexpr double apart = 0.36;
+    if (layout_.cut_by_others) {
+      if (std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) {
+            return cut.cell == panel.cell && std::abs(cut.place - place) < apart;
+          }))
+        return;
+      cuts_.push_back({panel.cell, place});
+    }
+    any_ = true;
+    Phase& phase = layout_.phases[static_cast<std::size_t>(panel.phase)];
+    const double begin = layout_.begin(phase), length = layout_.end(phase) - begin;
+    phase.cuts.push_back((panel.begin + place * panel.length() - begin) / length);
+    std::sort(phase.cuts.begin(), phase.cuts.end());
+  }
+
+  Layout& layout_;
+  std::vector<Cut> cuts_;
+  bool any_ = false;
+};
+
+bool divide(PhaseIterate& iterate, const Eigen::Array<bool, Eigen::Dynamic, 1>& panels) {
+  NewCuts cuts(iterate.layout);
+  for (const bool at_ends : {true, false})
+    for (Index p = 0; p < panels.size(); ++p)
+      if (panels[p]) cuts.divide(iterate.forces.panels()[static_cast<std::size_t>(p)], at_ends);
+  return cuts.any();
+}
+
 }  // namespace
 
 EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms) {
@@ -30,44 +88,28 @@ EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms) {
   constexpr double slowest = 0.9;
   const double decay = std::min(slowest, decay_of(solved.iterate.forces));
   return {decay * decay / (1.0 - decay) * solved.resolution_error / motion_rms,
-          solved.residual_error / motion_rms};
+          solved.residual_error / motion_rms, solved.panel_errors / solved.panel_errors.sum()};
 }
 
 double rms_of(const Eigen::MatrixXd& values) { return values.norm() / std::sqrt(double(values.size())); }
 
 bool divide(PhaseIterate& iterate, double share) {
-  constexpr double layer = 0.15;
-  const Eigen::MatrixXd& coefficients = iterate.forces.coefficients();
-  const double limit = share * coefficients.cwiseAbs().maxCoeff();
-  bool cut = false;
-  for (std::size_t p = 0; p < iterate.forces.panels().size(); ++p) {
-    const Panel& panel = iterate.forces.panels()[p];
-    if (coefficients.col(Index(p)).tail(2).cwiseAbs().maxCoeff() <= limit) continue;
-    Phase& phase = iterate.layout.phases[static_cast<std::size_t>(panel.phase)];
-    const double begin = iterate.layout.begin(phase), length = iterate.layout.end(phase) - begin;
-    const double from = (panel.begin - begin) / length, to = (panel.end - begin) / length, size = to - from;
-    constexpr double edge = 1e-6;
-    const bool first = phase.begin >= 0 && from < edge, last = phase.begin >= 0 && to > 1.0 - edge;
-    if (first) phase.cuts.push_back(from + layer * size);
-    if (last) phase.cuts.push_back(to - layer * size);
-    if (!first && !last) phase.cuts.push_back(from + 0.5 * size);
-    std::sort(phase.cuts.begin(), phase.cuts.end());
-    cut = true;
-  }
-  return cut;
+  const auto last = iterate.forces.coefficients().bottomRows(2).cwiseAbs().colwise().maxCoeff().transpose();
+  return divide(iterate, (last.array() > share * iterate.forces.coefficients().cwiseAbs().maxCoeff()).eval());
 }
 
-bool divide_panels(PhaseIterate& iterate, const ContactPhasesOptions& options) {
-  return static_cast<int>(iterate.forces.panels().size()) < options.max_panels &&
-         divide(iterate, 0.1 * options.tolerance);
+bool divide_panels(PhaseIterate& iterate, const EstimatedError& error, const ContactPhasesOptions& options) {
+  const auto panels = iterate.forces.panels().size();
+  const double limit = margin * options.tolerance / (error.resolution * double(panels));
+  return static_cast<int>(panels) < options.max_panels && divide(iterate, !(error.shares.array() <= limit));
 }
 
-bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,
+bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, const EstimatedError& error,
                 const ContactPhasesOptions& options) {
-  constexpr double margin = 0.3;
   const Index q = nodes.count();
-  if (q == options.max_nodes) return divide_panels(iterate, options);
-  const double digits = std::log(error / (margin * options.tolerance)), decay = decay_of(iterate.forces);
+  if (q == options.max_nodes) return divide_panels(iterate, error, options);
+  const double digits = std::log(error.resolution / (margin * options.tolerance)),
+               decay = decay_of(iterate.forces);
   // Where they do not decay, or the error is no number; of many panels the next size may be enough.
   const double most = iterate.layout.cut_by_others ? double(options.max_nodes) : 0.5 * double(q);
   const double more =

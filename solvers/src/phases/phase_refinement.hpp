@@ -10,6 +10,7 @@ namespace wavebalance::solvers::detail {
 /// the last ones do, and by the residual.
 struct EstimatedError {
   double resolution = 0.0, residual = 0.0;
+  Eigen::VectorXd shares = {};  ///< of each panel in the former; their sum is 1
 
   double all() const { return resolution + residual; }
 };
@@ -23,13 +24,14 @@ double rms_of(const Eigen::MatrixXd& values);
 /// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
 bool divide(PhaseIterate& iterate, double share);
 
-/// The panels whose last coefficients are above a tenth of the tolerance. False where none are or there are
-/// max_panels already.
-bool divide_panels(PhaseIterate& iterate, const ContactPhasesOptions& options);
+/// The panels that have more than their part in an error above the tolerance. False where none is or there
+/// are max_panels already.
+bool divide_panels(PhaseIterate& iterate, const EstimatedError& error, const ContactPhasesOptions& options);
 
 /// So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
-/// least a third more, or divided panels. False where neither is left.
-bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, double error,
+/// least a third more, or divided panels, where these take fewer unknowns or so many nodes are not allowed.
+/// False where neither is left.
+bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, const EstimatedError& error,
                 const ContactPhasesOptions& options);
 
 }  // namespace wavebalance::solvers::detail

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "phases/phase_layout.hpp"
+#include "phases/phase_refinement.hpp"
 #include "phases/pole_response.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/phase_cases.hpp"
@@ -180,6 +182,26 @@ TEST_F(Influence, TakesForcesToTheMotionThatTheyMake) {
       expect_same(motion.node_velocity, influence.node_velocity.leftCols(n) * force);
       expect_same(motion.mark_velocity, influence.mark_velocity * force);
     }
+}
+
+// Each cuts the panels of the other, and the cuts of one do not move with the passages of the other.
+TEST(Layout, DividedInEveryPanelHasNoCellWithoutLengthAfterItsPassagesMove) {
+  const detail::LegendreNodes nodes(8);
+  detail::Layout layout;
+  const double least = 0.5 * 0.1 * std::pow(0.15, 4);  // four layers at an end of the shortest panel
+  layout.passages = {{0, 0.1, 0.0}, {0, 0.9, 0.0}, {1, 0.2, 0.0}, {1, 0.7, 0.0}};
+  layout.phases = {{0, 1, 0, 1, 0.0, {}}, {1, 1, 2, 3, 0.0, {}}};
+  for (int round = 0; round < 4; ++round) {
+    detail::CellGrid grid = layout.grid();
+    const auto count = nodes.count() * Eigen::Index(grid.panels.size());
+    const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(count, 1.0, 2.0).array().cube().sin();
+    detail::PhaseIterate iterate{layout, detail::PanelForces(std::move(grid), nodes, force)};
+    ASSERT_TRUE(detail::divide(iterate, 1e-6));
+    layout = iterate.layout;
+    layout.passages[0].time += 1e-9;
+    const detail::CellGrid moved = layout.grid();
+    for (int cell = 0; cell < moved.cells(); ++cell) EXPECT_GT(moved.length(cell), least);
+  }
 }
 
 TEST(ContactPhases, OfContactsThatPassTogetherAreThoseOfOne) {
