@@ -78,8 +78,10 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     at.forces = PanelForces(now.grid, nodes, now.force);
     const double residual = result.newton.residual;
     if (!std::isfinite(residual)) return result;
-    result.newton.converged = residual < limits.tolerance || (own && now.is_rounding(before, influence));
-    own = result.newton.converged || !matrix || residual > enough * before;
+    const bool fits = matrix && matrix->factor.size() == n + m;  // panels may have come or gone
+    result.newton.converged =
+        residual < limits.tolerance || (fits && own && now.is_rounding(before, influence));
+    own = result.newton.converged || !fits || residual > enough * before;
     if (own) {
       const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
       influence = model.response.influence(*now.period, model.velocity);

@@ -102,9 +102,10 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     result.residual = now.error();
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     result.known.period = now.period;
-    if (result.residual < limits.tolerance || now.is_rounding(before, influence)) {
+    const bool fits = factor && factor->size() == now.residual.size();  // panels may have come or gone
+    if (result.residual < limits.tolerance || (fits && now.is_rounding(before, influence))) {
       result.converged = true;
-      if (now.residual.size() > 0 && !factor) set_factor(now);
+      if (now.residual.size() > 0 && !fits) set_factor(now);
       set_errors(result, now, nodes, influence, model.frequency,
                  [&](const Eigen::VectorXd& residual) { return factor->solve(Eigen::VectorXd(-residual)); });
       return result;

@@ -56,14 +56,12 @@ class MovingStates {
       : real_(Eigen::MatrixXd::Zero(poles, unknowns)), imag_(Eigen::MatrixXd::Zero(poles, unknowns)) {}
 
   void multiply(const Eigen::VectorXcd& factors) {
-    const Eigen::ArrayXd re = factors.real(), im = factors.imag();
-    Eigen::ArrayXd before(re.size());
-    for (Index k = 0; k < real_.cols(); ++k) {
-      auto own_re = real_.col(k).array(), own_im = imag_.col(k).array();
-      before = own_re;
-      own_re = re * before - im * own_im;
-      own_im = re * own_im + im * before;
-    }
+    for (Index k = 0; k < real_.cols(); ++k)
+      for (Index r = 0; r < real_.rows(); ++r) {
+        const double re = real_(r, k), im = imag_(r, k);
+        real_(r, k) = factors[r].real() * re - factors[r].imag() * im;
+        imag_(r, k) = factors[r].real() * im + factors[r].imag() * re;
+      }
   }
   void add(const Eigen::MatrixXcd& states, const std::vector<Index>& numbers) {
     for (std::size_t k = 0; k < numbers.size(); ++k) {
