@@ -104,8 +104,7 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     const Eigen::VectorXd step = ordered(matrix->factor.solve(Eigen::VectorXd(-now.residual)), number, 0.0);
     if (!step.allFinite()) return result;
     const double part = part_of_step(at, step, n, result.value);
-    at.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));
-    for (Index i = 0; i < m; ++i) at.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
+    move(at, now, nodes, part * step);
     result.value += part * step[n + m];
     result.newton.collapsed = has_collapsed(at.layout);
     if (result.newton.collapsed || !(result.value > 0.0)) return result;

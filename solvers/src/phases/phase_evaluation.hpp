@@ -39,9 +39,8 @@ struct Evaluation {
     return std::max(force_error(), places);
   }
   /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the
-  /// largest force, or forces of its size move the contacts by nothing. `influence`: that of the iterate
-  /// before. A short contact has a small force and
-  /// the rounding errors of large displacements.
+  /// largest force, or forces of its size move the contacts by nothing. A short contact has a small force and
+  /// the rounding errors of large displacements. `influence`: of the iterate before, of as many unknowns.
   bool is_rounding(double before, const Influence& influence) const {
     constexpr double small = 1e-9, nothing = 1e-11;
     const double now = error();

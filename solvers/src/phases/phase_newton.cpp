@@ -58,6 +58,14 @@ double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts) {
   return part;
 }
 
+void move(PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+          const Eigen::VectorXd& change) {
+  const Index n = now.force.size();
+  at.forces = PanelForces(now.grid, nodes, now.force + change.head(n));
+  for (Index i = 0; i < now.passing.size(); ++i)
+    at.layout.passages[static_cast<std::size_t>(i)].time += change[n + i];
+}
+
 bool has_collapsed(const Layout& layout) {
   constexpr double shortest = 1e-11;
   return std::any_of(layout.phases.begin(), layout.phases.end(), [&](const Phase& phase) {
@@ -116,11 +124,8 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     set_factor(now);
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
-    const Index n = now.force.size(), m = step.size() - n;
-    const double part = admissible_part(result.iterate.layout, step.tail(m));
-    result.iterate.forces = PanelForces(now.grid, nodes, now.force + part * step.head(n));
-    for (Index i = 0; i < m; ++i)
-      result.iterate.layout.passages[static_cast<std::size_t>(i)].time += part * step[n + i];
+    move(result.iterate, now, nodes,
+         admissible_part(result.iterate.layout, step.tail(now.passing.size())) * step);
     result.collapsed = has_collapsed(result.iterate.layout);
     if (result.collapsed) return result;
   }

@@ -47,6 +47,9 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
 /// The largest part of the shifts of the passages that leaves each phase half of its length, and no passage
 /// more than a fiftieth of the period behind.
 double admissible_part(const Layout& layout, const Eigen::VectorXd& shifts);
+/// Adds a change of the n forces and m instants, the first n + m of its values, to the iterate of an
+/// evaluation.
+void move(PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes, const Eigen::VectorXd& change);
 /// Whether a phase has no length, or more than a period.
 bool has_collapsed(const Layout& layout);
 

@@ -26,9 +26,11 @@ Eigen::MatrixXd vibrating(const Eigen::MatrixXd& displacement) {
 int repeats_of(const ContactProblem& problem) {
   const LinearStructure& structure = problem.structure();
   int common = structure.load.isZero(0.0) ? 0 : 1;
-  for (const PeriodicForce& force : structure.forces)
-    for (Eigen::Index n = 1; n < force.harmonics.size(); ++n)
-      if (force.harmonics[n] != 0.0) common = std::gcd(common, static_cast<int>(n));
+  for (const PeriodicForce& force : structure.forces) {
+    const Eigen::Index moving = std::max<Eigen::Index>(0, force.harmonics.size() - 1);
+    if (!force.harmonics.tail(moving).isZero(0.0))
+      common = std::gcd(common, repeats_within_period(force.harmonics));
+  }
   return load_periods(problem.condensed()) * std::max(1, common);
 }
 

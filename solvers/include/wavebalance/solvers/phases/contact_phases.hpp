@@ -137,9 +137,9 @@ class PhaseMotion {
 /// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and
 /// u = kink at the ends of the phases, whose instants are unknowns. In rigid contact u = gap takes the place
 /// of the law, which R_0 > 0 of a contact without mass makes an equation for f. Panels are cut where another
-/// contact changes its phase, and divided where the last Legendre coefficients are above the tolerance.
-/// Phases that the motion found does not have are removed, and those that it has are inserted, until both
-/// agree.
+/// contact changes its phase, and divided where they have more than their part in an error above the
+/// tolerance. Phases that the motion found does not have are removed, and those that it has are inserted,
+/// until both agree.
 ///
 /// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose phases
 /// friction_phases() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
