@@ -1,14 +1,16 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "phases/far_poles.hpp"
 #include "phases/legendre_integrals.hpp"
 
 namespace wavebalance::solvers::detail {
 
 /// exp(z_r (x + 1)) of P poles on a cell, x in [-1, 1], and what polynomial forces there leave of them at its
 /// end. The slow ones are sums of Legendre's polynomials, so that what many poles make together is one such
-/// sum; the few fast ones are taken one by one.
+/// sum. The far ones make polynomials of a polynomial force. The few fast ones between are taken one by one.
 class CellWaves {
  public:
   /// z: exponents times half the length of the cell, Re z <= 0. Forces have q = `count` coefficients.
@@ -24,15 +26,22 @@ class CellWaves {
   Eigen::VectorXd slow_series(const Eigen::VectorXcd& weights) const;
   Index series_length() const { return series_real_.rows(); }  ///< N
   const std::vector<Index>& fast() const { return fast_; }     ///< numbers of poles
-  /// N x P: Legendre coefficients of each exp(z (x + 1)), zero for fast poles.
+  const std::vector<Index>& far() const { return far_; }
+  const FarPoles& far_poles() const { return far_poles_; }
+  const std::vector<Index>& slow() const { return slow_; }
+  /// N x slow poles: Legendre coefficients of each exp(z (x + 1)).
   const Eigen::MatrixXd& series_real() const { return series_real_; }
   const Eigen::MatrixXd& series_imag() const { return series_imag_; }
 
  private:
+  void set_slow();
+  void set_far();
+
   Eigen::VectorXcd z_, decay_;
   Eigen::MatrixXcd at_end_;
   Eigen::MatrixXd series_real_, series_imag_;
-  std::vector<Index> fast_;
+  std::vector<Index> slow_, fast_, far_;
+  FarPoles far_poles_;
 };
 
 /// The same at points of the cell. Keeps references to both arguments.
@@ -48,6 +57,7 @@ class WavesAtNodes {
   /// states at the nodes. `number` counts CellWaves::fast(). O(q^2).
   Eigen::VectorXcd states(std::size_t number, std::complex<double> start,
                           const Eigen::VectorXcd& force) const;
+  const FarPoles::Decay& far_decay() const { return far_decay_; }
   /// q x K: Legendre's polynomials at the nodes.
   const Eigen::MatrixXd& polynomials() const { return own_points_ ? own_values_ : nodes_.values; }
   /// count x q: takes Legendre coefficients of a force to what the poles, weighted by w, make of it up to
@@ -73,6 +83,7 @@ class WavesAtNodes {
     Eigen::VectorXcd decay;
   };
   std::vector<Integrals> fast_integrals_;
+  FarPoles::Decay far_decay_;
 };
 
 }  // namespace wavebalance::solvers::detail

@@ -214,6 +214,7 @@ class Search {
       const LegendreNodes nodes = nodes_;
       const bool free = finer.forces.panels().empty();
       const bool resolved = free || (compared && error.resolution <= options_.tolerance);
+      if (!resolved && !compared) detail::join_panels(finer, error, nodes_, options_);
       const bool finest = resolved || !make_finer(finer, error, by_panels);
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);

@@ -31,19 +31,28 @@ struct Ranges {
   Index upwards, last;
 };
 
+bool is_near_real_axis(Complex z) { return std::abs(z.real()) > 0.3 * std::abs(z.imag()); }
+
 // Near the negative real axis a solution grows by exp(k^2 / (2 |z|)) upwards from k = 0, near the imaginary
-// axis none does below |z|. Beyond |z| the elimination from above has pivots of at least k + 1.
+// axis none does below |z|. Beyond |z| the elimination from above has pivots of at least k + 1. What the zero
+// beyond the last one is wrong by falls to rounding as the solution that grows does, downwards.
 Ranges ranges_of(Complex z, Index count) {
   constexpr Index padding = 16;
-  const double size = std::abs(z);
-  const bool real = std::abs(z.real()) > 0.3 * std::abs(z.imag());
-  const auto whole = Index(std::min(size, 1e6));
-  const bool all = real ? size > 0.25 * double(count * count) : whole >= count;
-  if (all) return {count - 1, count - 1};
-  return {real ? 0 : whole, (whole > 0 ? std::max(count, whole) + whole / 2 : count) + padding};
+  constexpr double digits = 40.0;  // e-folds
+  if (follows_upwards(z, count)) return {count - 1, count - 1};
+  const bool real = is_near_real_axis(z);
+  const auto whole = Index(std::min(std::abs(z), 1e6));
+  Index last = whole > 0 ? std::max(count, whole) + whole / 2 : count;
+  if (real)
+    last = std::min(last, Index(std::sqrt(double(count * count) + 2.0 * digits * std::norm(z) / -z.real())));
+  return {real ? 0 : whole, last + padding};
 }
 
 }  // namespace
+
+bool follows_upwards(Complex z, Index count) {
+  return is_near_real_axis(z) ? std::abs(z) > 0.25 * double(count * count) : std::abs(z) >= double(count);
+}
 
 Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Index count) {
   Eigen::MatrixXd values(points.size(), count);
@@ -105,21 +114,27 @@ void ExponentialIntegrals<Scalar>::solve_downwards(Scalar z, Index from, Index l
 template class ExponentialIntegrals<double>;
 template class ExponentialIntegrals<Complex>;
 
-std::vector<Complex> exponential_series(Complex z) {
+Index most_coefficients(Complex z) {
+  const double turns = std::abs(z.imag());
+  return Index(turns + 8.0 * std::cbrt(turns) + 9.0 * std::sqrt(std::abs(z.real())) + 17.0);
+}
+
+Index exponential_series(Complex z, Eigen::Ref<Eigen::VectorXd> real, Eigen::Ref<Eigen::VectorXd> imag) {
   constexpr double rounding = 1e-17, tiny = 1e-300;
   const double size = std::abs(z);
-  if (size < rounding) return {1.0};
-  const double turns = std::abs(z.imag());
-  const auto last =
-      static_cast<std::size_t>(turns + 8.0 * std::cbrt(turns) + 9.0 * std::sqrt(std::abs(z.real())) + 16.0);
-  std::vector<Complex> series(last + 1);
+  real.setZero();
+  imag.setZero();
+  real[0] = 1.0;
+  if (size < rounding) return 1;
   const double inverse_re = z.real() / (size * size), inverse_im = -z.imag() / (size * size);
   double above_re = 0.0, above_im = 0.0, re = tiny, im = 0.0, sum_re = 0.0, sum_im = 0.0;
-  for (std::size_t n = last;; --n) {
+  Index length = most_coefficients(z);
+  for (Index n = length - 1;; --n) {
     const double weight = double(2 * n + 1), sign = n % 2 == 0 ? 1.0 : -1.0;
-    series[n] = {weight * re, weight * im};
-    sum_re += sign * weight * re;
-    sum_im += sign * weight * im;
+    real[n] = weight * re;
+    imag[n] = weight * im;
+    sum_re += sign * real[n];
+    sum_im += sign * imag[n];
     if (n == 0) break;
     const double a = weight * inverse_re, b = weight * inverse_im;
     const double below_re = above_re + a * re - b * im, below_im = above_im + a * im + b * re;
@@ -130,37 +145,42 @@ std::vector<Complex> exponential_series(Complex z) {
   }
   // exp(z (x + 1)) is 1 at x = -1.
   const Complex scale = 1.0 / Complex(sum_re, sum_im);
-  for (Complex& coefficient : series)
-    coefficient = {coefficient.real() * scale.real() - coefficient.imag() * scale.imag(),
-                   coefficient.real() * scale.imag() + coefficient.imag() * scale.real()};
-  while (series.size() > 1 && std::norm(series.back()) < rounding * rounding) series.pop_back();
-  return series;
+  for (Index n = 0; n < length; ++n) {
+    const double own = real[n];
+    real[n] = own * scale.real() - imag[n] * scale.imag();
+    imag[n] = own * scale.imag() + imag[n] * scale.real();
+  }
+  while (length > 1 && std::abs(real[length - 1]) + std::abs(imag[length - 1]) < rounding) --length;
+  return length;
 }
 
 // The recurrence is stable at and below the diagonal; above it the columns follow by symmetry.
 Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count) {
   const Index last = kernel.size(), rows = last + count;
-  // Entry k + 1 of a column belongs to P_k; those beside the ends are zero.
-  const Eigen::ArrayXd degree = Eigen::ArrayXd::LinSpaced(rows + 2, -1.0, double(rows));
-  const Eigen::ArrayXd over = (2.0 * degree + 1.0).inverse();
-  Eigen::ArrayXXd b = Eigen::ArrayXXd::Zero(rows + 2, count);
-  Eigen::ArrayXd scaled = Eigen::ArrayXd::Zero(rows + 2);  // of the column before, over 2 k + 1
-  scaled.segment(1, last) = kernel.array() * over.segment(1, last);
-  b.col(0).segment(2, last) = scaled.segment(1, last) - scaled.segment(3, last);
-  b(1, 0) = kernel[0] - scaled[2];
+  // Entry k + 1 of these belongs to P_k; those beside the ends are zero.
+  Eigen::VectorXd over(rows + 2), scaled = Eigen::VectorXd::Zero(rows + 2);
+  for (Index k = -1; k <= rows; ++k) over[k + 1] = 1.0 / double(2 * k + 1);
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(rows, count);
+  for (Index k = 0; k < last; ++k) scaled[k + 1] = kernel[k] * over[k + 1];
+  b(0, 0) = kernel[0] - scaled[2];
+  for (Index k = 1; k <= last; ++k) b(k, 0) = scaled[k] - scaled[k + 2];
   for (Index n = 1; n < count; ++n) {
-    const Index size = last + 1;  // k from n to last + n
-    scaled = b.col(n - 1) * over;
-    auto own = b.col(n).segment(n + 1, size);
-    own = double(2 * n - 1) * (scaled.segment(n, size) - scaled.segment(n + 2, size));
-    if (n > 1)
-      own += b.col(n - 2).segment(n + 1, size);
-    else
-      own -= b.col(0).segment(2, size);
+    const double *before = b.col(n - 1).data(), *o = over.data() + 1;
+    double *own = b.col(n).data(), *s = scaled.data() + 1;
+    for (Index k = n - 1; k < last + n; ++k) s[k] = before[k] * o[k];
+    s[last + n] = s[last + n + 1] = 0.0;
+    const double weight = double(2 * n - 1);
+    if (n > 1) {
+      const double* two = b.col(n - 2).data();
+      for (Index k = n; k <= last + n; ++k) own[k] = weight * (s[k - 1] - s[k + 1]) + two[k];
+    } else {
+      for (Index k = 1; k <= last; ++k) own[k] = s[k - 1] - s[k + 1] - before[k];
+      own[last + 1] = s[last];
+    }
     for (Index k = 0; k < n; ++k)
-      b(k + 1, n) = ((k + n) % 2 == 0 ? 1.0 : -1.0) * double(2 * k + 1) / double(2 * n + 1) * b(n + 1, k);
+      own[k] = ((k + n) % 2 == 0 ? 1.0 : -1.0) * double(2 * k + 1) / double(2 * n + 1) * b(n, k);
   }
-  return b.middleRows(1, rows);
+  return b;
 }
 
 LegendreNodes::LegendreNodes(Index count) {

@@ -10,6 +10,9 @@ namespace wavebalance::solvers::detail {
 /// Legendre's polynomials P_0 to P_(count - 1) at points x in [-1, 1]: points x count. O(points count).
 Eigen::MatrixXd legendre_values(const Eigen::VectorXd& points, Index count);
 
+/// Whether the recurrence below is stable upwards up to y_(count - 1).
+bool follows_upwards(std::complex<double> z, Index count);
+
 /// The integrals of exp(z (x - s)) P_k(s) over s from -1 to x, for k < count and points x in [-1, 1]: the
 /// solutions of y' = z y + P_k with y(-1) = 0, for Re z <= 0, to a few units of rounding of the largest.
 ///
@@ -46,10 +49,12 @@ class ExponentialIntegrals {
 extern template class ExponentialIntegrals<double>;
 extern template class ExponentialIntegrals<std::complex<double>>;
 
-/// The Legendre coefficients of exp(z (x + 1)) on [-1, 1] for Re z <= 0, down to rounding of 1: (2 n + 1)
-/// exp(z) i_n(z) with the modified spherical Bessel functions i_n, by their recurrence downwards [J. C. P.
-/// Miller]. O(|z|).
-std::vector<std::complex<double>> exponential_series(std::complex<double> z);
+/// The Legendre coefficients of exp(z (x + 1)) on [-1, 1] for Re z <= 0: (2 n + 1) exp(z) i_n(z) with the
+/// modified spherical Bessel functions i_n, by their recurrence downwards [J. C. P. Miller], and zeros behind
+/// them. Returns how many are above rounding of 1. At least most_coefficients(z) have a place. O(|z|).
+Index exponential_series(std::complex<double> z, Eigen::Ref<Eigen::VectorXd> real,
+                         Eigen::Ref<Eigen::VectorXd> imag);
+Index most_coefficients(std::complex<double> z);
 
 /// Takes the Legendre coefficients of f to those of the integral of k(x - s - 1) f(s) over s from -1 to x,
 /// for the Legendre coefficients of a kernel k, N, and of f, q: (N + q) x q [N. Hale, A. Townsend, SIAM J.

@@ -92,12 +92,15 @@ void set_errors(PhaseNewtonResult& result, const Evaluation& now, const Legendre
 }
 
 // A residual is that of the motion by the forces, which takes far less than their influence. This is computed
-// where a step is taken; of a motion that a step has led to, that before the step gives its errors.
+// where a step is taken, unless the matrix of the step before has proved good; of a motion that a step has
+// led to, that before the step gives its errors.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,
                                const NewtonLimits& limits, KnownPeriod known) {
   PhaseNewtonResult result;
   result.iterate = std::move(start);
+  constexpr double good = 1e-3;  // what a step leaves of the residual
   double before = std::numeric_limits<double>::infinity();
+  bool again = false;  // whether the last step was taken by the matrix of the one before
   std::optional<Lu<double>> factor;
   Influence influence;
   const auto set_factor = [&](const Evaluation& now) {
@@ -111,17 +114,19 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     result.known.period = now.period;
     const bool fits = factor && factor->size() == now.residual.size();  // panels may have come or gone
-    if (result.residual < limits.tolerance || (fits && now.is_rounding(before, influence))) {
+    const bool is_rounding = fits && !again && now.is_rounding(before, influence);
+    if (result.residual < limits.tolerance || is_rounding) {
       result.converged = true;
       if (now.residual.size() > 0 && !fits) set_factor(now);
       set_errors(result, now, nodes, influence, model.frequency,
                  [&](const Eigen::VectorXd& residual) { return factor->solve(Eigen::VectorXd(-residual)); });
       return result;
     }
+    again = fits && result.residual < good * before;
     before = result.residual;
     if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
     if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
-    set_factor(now);
+    if (!again) set_factor(now);
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
     move(result.iterate, now, nodes,

@@ -81,6 +81,18 @@ bool divide(PhaseIterate& iterate, const Eigen::Array<bool, Eigen::Dynamic, 1>& 
   return cuts.any();
 }
 
+// So many that the last coefficients fall to the tolerance, and at least a third more.
+Index wanted_nodes(const PhaseIterate& iterate, Index q, const EstimatedError& error,
+                   const ContactPhasesOptions& options) {
+  const double digits = std::log(error.resolution / (margin * options.tolerance)),
+               decay = decay_of(iterate.forces);
+  // Where they do not decay, or the error is no number; of many panels the next size may be enough.
+  const double most = iterate.layout.cut_by_others ? double(options.max_nodes) : 0.5 * double(q);
+  const double more =
+      decay < 1.0 ? std::fmax(0.0, std::fmin(most, std::ceil(digits / -std::log(decay)))) : most;
+  return q + std::max<Index>(q / 3, Index(more));
+}
+
 }  // namespace
 
 EstimatedError error_of(const PhaseNewtonResult& solved, double motion_rms) {
@@ -98,6 +110,23 @@ bool divide(PhaseIterate& iterate, double share) {
   return divide(iterate, (last.array() > share * iterate.forces.coefficients().cwiseAbs().maxCoeff()).eval());
 }
 
+void join_panels(PhaseIterate& iterate, const EstimatedError& error, const LegendreNodes& nodes,
+                 const ContactPhasesOptions& options) {
+  constexpr double nothing = 1e-3, edge = 1e-6;
+  if (wanted_nodes(iterate, nodes.count(), error, options) >= options.max_nodes) return;
+  Layout& layout = iterate.layout;
+  const std::vector<Panel>& panels = iterate.forces.panels();
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    Phase& phase = layout.phases[static_cast<std::size_t>(panels[p].phase)];
+    if (phase.begin < 0 || !(error.shares[Index(p)] < nothing)) continue;
+    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
+    const double first = (panels[p].begin - begin) / length, last = (panels[p].end - begin) / length;
+    if (!(first < edge || last > 1.0 - edge)) continue;
+    std::erase_if(phase.cuts,
+                  [&](double cut) { return std::abs(cut - (first < edge ? last : first)) < edge; });
+  }
+}
+
 bool divide_panels(PhaseIterate& iterate, const EstimatedError& error, const ContactPhasesOptions& options) {
   const auto panels = iterate.forces.panels().size();
   const double limit = margin * options.tolerance / (error.resolution * double(panels));
@@ -108,13 +137,7 @@ bool make_finer(PhaseIterate& iterate, LegendreNodes& nodes, const EstimatedErro
                 const ContactPhasesOptions& options) {
   const Index q = nodes.count();
   if (q == options.max_nodes) return divide_panels(iterate, error, options);
-  const double digits = std::log(error.resolution / (margin * options.tolerance)),
-               decay = decay_of(iterate.forces);
-  // Where they do not decay, or the error is no number; of many panels the next size may be enough.
-  const double most = iterate.layout.cut_by_others ? double(options.max_nodes) : 0.5 * double(q);
-  const double more =
-      decay < 1.0 ? std::fmax(0.0, std::fmin(most, std::ceil(digits / -std::log(decay)))) : most;
-  nodes = LegendreNodes(std::min<Index>(options.max_nodes, q + std::max<Index>(q / 3, Index(more))));
+  nodes = LegendreNodes(std::min<Index>(options.max_nodes, wanted_nodes(iterate, q, error, options)));
   return true;
 }
 

@@ -24,6 +24,11 @@ double rms_of(const Eigen::MatrixXd& values);
 /// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
 bool divide(PhaseIterate& iterate, double share);
 
+/// Takes away the cuts of panels at an end of their phase that have next to no part in the error: no layer of
+/// fast modes is there. Not where the others need the largest number of nodes, so that every panel counts.
+void join_panels(PhaseIterate& iterate, const EstimatedError& error, const LegendreNodes& nodes,
+                 const ContactPhasesOptions& options);
+
 /// The panels that have more than their part in an error above the tolerance. False where none is or there
 /// are max_panels already.
 bool divide_panels(PhaseIterate& iterate, const EstimatedError& error, const ContactPhasesOptions& options);

@@ -80,6 +80,7 @@ Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
 // of all poles in the processor's cache.
 ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const {
   constexpr Index at_once = 64;
+  constexpr double nothing = -75.0;  // exponents
   const Eigen::MatrixXcd rates = shapes_ * exponents_.asDiagonal();
   const Eigen::MatrixXd shape_real = shapes_.real(), shape_imag = shapes_.imag(), rate_real = rates.real(),
                         rate_imag = rates.imag();
@@ -87,12 +88,17 @@ ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eig
   Eigen::MatrixXd real, imag;
   for (Index begin = 0; begin < since.size(); begin += at_once) {
     const Index count = std::min(at_once, since.size() - begin);
-    real.resize(state.size(), count);
-    imag.resize(state.size(), count);
-    for (Index r = 0; r < state.size(); ++r)
+    const double least = since.segment(begin, count).minCoeff();
+    Index left = state.size();  // poles are in the order of their decay
+    while (left > 0 && exponents_[left - 1].real() * least < nothing) --left;
+    real.resize(left, count);
+    imag.resize(left, count);
+    for (Index r = 0; r < left; ++r)
       decay(exponents_[r], since.segment(begin, count), state[r], real.row(r), imag.row(r));
-    result.displacement.middleCols(begin, count) = shape_real * real - shape_imag * imag;
-    result.velocity.middleCols(begin, count) = rate_real * real - rate_imag * imag;
+    result.displacement.middleCols(begin, count) =
+        shape_real.leftCols(left) * real - shape_imag.leftCols(left) * imag;
+    result.velocity.middleCols(begin, count) =
+        rate_real.leftCols(left) * real - rate_imag.leftCols(left) * imag;
   }
   return result;
 }
@@ -111,8 +117,13 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
   if (Index(cell.parts.size()) * contacts() > few_pairs)
     return by_poles(grid, cell, state, forces, points, velocity);
   const Index degree = cell.waves->series_length() + count;
-  const Eigen::MatrixXd values =
-      known ? known->polynomials().leftCols(degree).eval() : legendre_values(points, degree);
+  const Eigen::MatrixXd own_values = known ? Eigen::MatrixXd() : legendre_values(points, degree);
+  const Eigen::Ref<const Eigen::MatrixXd> values =
+      known ? known->polynomials().leftCols(degree) : own_values.leftCols(degree);
+  const std::vector<Index>& far = cell.waves->far();
+  const FarPoles::Series far_series = far_motion(grid, cell, forces);
+  const FarPoles::Decay own_decay = known ? FarPoles::Decay() : cell.waves->far_poles().decay(points);
+  const Eigen::VectorXcd far_states = state(far) - far_series.at_begin;
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), points.size()),
                        Eigen::MatrixXd::Zero(velocity ? contacts() : 0, points.size())};
   const auto add = [&](Eigen::MatrixXd& motion, int c, const Eigen::VectorXcd& factor,
@@ -126,6 +137,12 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
       const auto force = forces.col(Index(i));
       series += convolution(cell.waves->slow_series(weight), count) * force;
       series.head(count) += at_once(c, forced) * force;
+    }
+    if (!far.empty()) {
+      const Eigen::VectorXcd seen = shape(far), left = seen.cwiseProduct(far_states);
+      series.head(count) +=
+          far_series.real.transpose() * seen.real() - far_series.imag.transpose() * seen.imag();
+      motion.row(c) += (known ? known->far_decay() : own_decay).times(left).transpose();
     }
     motion.row(c) += (values * series).transpose();
   };
@@ -152,6 +169,17 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
         result);
   }
   return result;
+}
+
+// The polynomials that these forces make of the far poles.
+FarPoles::Series PoleResponse::far_motion(const CellGrid& grid, const Cell& cell,
+                                          const Eigen::MatrixXd& forces) const {
+  const std::vector<Index>& far = cell.waves->far();
+  Eigen::MatrixXcd left(Index(far.size()), forces.cols());
+  for (std::size_t i = 0; i < cell.parts.size(); ++i)
+    left.col(Index(i)) =
+        0.5 * cell.length * left_.row(grid.panels[cell.parts[i].panel].contact)(far).transpose();
+  return cell.waves->far_poles().solve(left.real() * forces.transpose(), left.imag() * forces.transpose());
 }
 
 // With many contacts all poles one by one take far less than a series for each pair of contacts.

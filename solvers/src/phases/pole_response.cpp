@@ -296,7 +296,7 @@ Influence PoleResponse::influence(const PeriodCells& period, bool velocity) cons
   Eigen::VectorXcd left = periodic_;
   for (std::size_t j = cells.size(); j-- > 0;) {
     const Sources& source = sources[j + 1 < cells.size() ? j + 1 : 0];
-    states.add(left.asDiagonal() * source.states, source.numbers);
+    states.add(source.states, source.numbers, left);
     left.array() *= cells[j].decay.array();
   }
   for (std::size_t j = 0; j < cells.size(); ++j) {

@@ -132,6 +132,7 @@ class PoleResponse {
   void set_at_marks(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
                     const Eigen::MatrixXcd& states, ForcedMotion& result) const;
   ContactMotion free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const;
+  FarPoles::Series far_motion(const CellGrid& grid, const Cell& cell, const Eigen::MatrixXd& forces) const;
   // `known`: the waves at these points.
   ContactMotion forced_flight(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
                               const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& points,

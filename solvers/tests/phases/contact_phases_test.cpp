@@ -97,6 +97,14 @@ TEST(ContactPhases, KeepToTheToleranceAndEstimateTheirError) {
   }
 }
 
+// The layer of fast modes lies where contact begins alone: the panel that was cut for another one at its end
+// is joined with the one beside it, or there would be 83 unknowns.
+TEST(ContactPhases, HaveNoPanelsForLayersThatAreNotThere) {
+  const PhaseMotion found = BarCase(testing::jl14_case_1).phases(1e-8, 32).motion;
+  ASSERT_TRUE(found.converged());
+  EXPECT_LE(found.unknowns, 60);
+}
+
 /// k u + c u^3.
 struct HardeningSpring {
   double linear, cubic;

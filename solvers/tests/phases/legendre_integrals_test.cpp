@@ -42,9 +42,12 @@ TEST(ExponentialIntegrals, AreThoseOfAQuadratureAtEveryRateAndDegree) {
       }
 }
 
-TEST(CellWaves, OfSlowAndFastPolesAreTheIntegralsOfEach) {
-  const LegendreNodes nodes(12);
-  Eigen::VectorXd points(13);
+class CellWavesOfNodes : public ::testing::TestWithParam<Eigen::Index> {};
+
+TEST_P(CellWavesOfNodes, OfSlowAndFastPolesAreTheIntegralsOfEach) {
+  const Eigen::Index count = GetParam();
+  const LegendreNodes nodes(count);
+  Eigen::VectorXd points(count + 1);
   points << nodes.points, 1.0;
   for (const std::complex<double> z : {std::complex<double>(0.0, 0.0),
                                        {-1e-9, 1e-7},
@@ -53,23 +56,49 @@ TEST(CellWaves, OfSlowAndFastPolesAreTheIntegralsOfEach) {
                                        {-1e-3, 33.0},
                                        {-63.0, 5.0},
                                        {-65.0, 0.0},
+                                       {-77.0, 0.0},
+                                       {-77.0, 9.0},
                                        {-20.0, 0.0},
                                        {-900.0, 0.0}}) {
-    const CellWaves waves(Eigen::VectorXcd::Constant(1, z), 12);
+    const CellWaves waves(Eigen::VectorXcd::Constant(1, z), count);
     const WavesAtNodes at_nodes(waves, nodes);
-    EXPECT_EQ(waves.fast().empty(), std::abs(z.imag()) < 32.0 && z.real() > -64.0);
-    ExponentialIntegrals<std::complex<double>> each(points, 12);
+    EXPECT_EQ(waves.slow().size(), std::abs(z.imag()) < 32.0 && z.real() > -64.0 ? 1u : 0u);
+    EXPECT_EQ(waves.slow().size() + waves.fast().size() + waves.far().size(), 1u);
+    ExponentialIntegrals<std::complex<double>> each(points, count);
     each.compute(z);
     const Eigen::MatrixXcd expected = each.values();
     const Eigen::VectorXcd one = Eigen::VectorXcd::Ones(1);
-    const Eigen::MatrixXd real = at_nodes.up_to(one, 0, 12),
-                          imag = at_nodes.up_to(std::complex<double>(0.0, -1.0) * one, 0, 12);
-    EXPECT_LT((real - expected.topRows(12).real()).cwiseAbs().maxCoeff(), 100 * eps);
-    EXPECT_LT((imag - expected.topRows(12).imag()).cwiseAbs().maxCoeff(), 100 * eps);
-    EXPECT_LT((waves.at_end().row(0) - expected.row(12)).cwiseAbs().maxCoeff(), 100 * eps);
-    EXPECT_LT((at_nodes.values().col(0) - each.decay().head(12)).cwiseAbs().maxCoeff(), 100 * eps);
+    const Eigen::MatrixXd real = at_nodes.up_to(one, 0, count),
+                          imag = at_nodes.up_to(std::complex<double>(0.0, -1.0) * one, 0, count);
+    EXPECT_LT((real - expected.topRows(count).real()).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((imag - expected.topRows(count).imag()).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((waves.at_end().row(0) - expected.row(count)).cwiseAbs().maxCoeff(), 100 * eps);
+    EXPECT_LT((at_nodes.values().col(0) - each.decay().head(count)).cwiseAbs().maxCoeff(), 100 * eps);
     EXPECT_LT(std::abs(waves.decay()[0] - std::exp(2.0 * z)), 100 * eps);
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Few, CellWavesOfNodes, ::testing::Values(12));
+INSTANTIATE_TEST_SUITE_P(Many, CellWavesOfNodes, ::testing::Values(24));
+
+// With 24 nodes the recurrence for integrals is not followed upwards at a rate of 77; polynomials are there.
+TEST(FarPoles, BeginBelowTheRatesAtWhichTheRecurrenceOfIntegralsIsStable) {
+  EXPECT_FALSE(follows_upwards(-77.0, 24));
+  EXPECT_EQ(CellWaves(Eigen::VectorXcd::Constant(1, -77.0), 24).far().size(), 1u);
+  EXPECT_EQ(CellWaves(Eigen::VectorXcd::Constant(1, -77.0), 32).fast().size(), 1u);
+}
+
+TEST(FarPoles, MakeOfAForceTheSumOfWhatTheyMakeOfItsCoefficients) {
+  constexpr Eigen::Index count = 9;
+  const FarPoles poles(Eigen::VectorXcd{{-300.0, Complex(-40.0, 120.0)}}, count);
+  const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(count, 1.0, -2.0);
+  const Eigen::VectorXcd left{{2.0, Complex(0.5, -1.5)}}, seen{{-1.0, Complex(0.7, 0.2)}};
+  const FarPoles::Series made = poles.solve(left.real() * force.transpose(), left.imag() * force.transpose());
+  const Eigen::VectorXd series = made.real.transpose() * seen.real() - made.imag.transpose() * seen.imag(),
+                        expected = poles.polynomials(seen.cwiseProduct(left)) * force;
+  EXPECT_LT((series - expected).norm(), 100 * eps * expected.norm());
+  const Eigen::VectorXcd begins = left.cwiseProduct(poles.at_begin() * force);
+  EXPECT_LT((made.at_begin - begins).norm(), 100 * eps * begins.norm());
 }
 
 TEST(ExponentialIntegrals, OfAFastDecayAreTheFunctionOverTheRate) {
