@@ -292,9 +292,16 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
   return found;
 }
 
-bool ArcLength::between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point) {
+bool ArcLength::between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point,
+                        double farthest) {
   int corrections = 0;
-  return CurveCorrector::between(from, to, fraction, point, corrections);
+  curve().set_scales(from.displacement);
+  return CurveCorrector::between(from, to, fraction, farthest, point, corrections);
+}
+
+double ArcLength::distance(const CurvePoint& from, const CurvePoint& to) {
+  curve().set_scales(from.displacement);
+  return CurveCorrector::distance(from, to);
 }
 
 }  // namespace wavebalance::solvers

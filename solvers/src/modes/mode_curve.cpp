@@ -96,9 +96,7 @@ bool ModeCurve::project_onto_curve_at(double frequency, double direction, CurveS
 bool ModeCurve::between(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double share, CurveState& state) {
   constexpr double farthest = 0.25;  // from the chord, over its length
   const CurveState from = state_of(a), to = state_of(b);
-  if (!CurveCorrector::between(from, to, share, state, state.iterations)) return false;
-  const CurvePoint way = chord(from, to), aside = chord(state_of(a + share * (b - a)), state);
-  return std::sqrt(inner(aside, aside)) <= farthest * std::sqrt(inner(way, way));
+  return CurveCorrector::between(from, to, share, farthest * distance(from, to), state, state.iterations);
 }
 
 bool ModeCurve::advance(CurveState& state) {

@@ -100,7 +100,10 @@ class Tracker {
       if (!is_known(here)) here.stability.unstable = -1;
       result_.points.push_back(here.stability);
       index_ = i;
-      if (before) examine(*before, here, 1.0);
+      if (before) {
+        step_ = path_.distance(before->point, here.point);
+        examine(*before, here, 0);
+      }
       before = std::move(here);
       if (result_.cancelled || !tell(value_of(point))) break;
     }
@@ -119,7 +122,7 @@ class Tracker {
     return !result_.cancelled;
   }
 
-  // The scales of displacement and parameter, which decide what is perpendicular to a chord.
+  // The scales of displacement and parameter by which frequency_sweep() measures steps.
   ArcLengthOptions scales() const {
     double largest = 0.0;
     const auto [low, high] =
@@ -129,7 +132,9 @@ class Tracker {
     ArcLengthOptions scales;
     const double interval = curve_.points.empty() ? 0.0 : value_of(*high) - value_of(*low);
     scales.max_corrections = 32;  // half as many without grazing events
-    scales.displacement_scale = largest > 0.0 ? largest : 1.0;
+    const double gap = laws_.largest_gap();
+    scales.displacement_scale = gap > 0.0 ? gap : largest > 0.0 ? largest : 1.0;
+    scales.least_scale = 1e-3;
     scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
     return scales;
   }
@@ -158,33 +163,35 @@ class Tracker {
     sample.stability.unstable = count.count;
   }
 
-  // Locates each difference between two points by bisection. Their distance is `width` times that of two
-  // neighbours on the curve. Points between them are measured only as far as the difference needs.
-  void examine(const CurveSample& a, const CurveSample& b, double width) {
+  // Locates each difference between two points by bisection, which has taken so many halvings of the distance
+  // of two neighbours on the curve. Points between them are measured only as far as the difference needs.
+  void examine(const CurveSample& a, const CurveSample& b, int halvings) {
     const Difference between = difference(a, b);
     if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
-    const bool located = width <= options_.tolerance;
+    const bool located = path_.distance(a.point, b.point) <= options_.tolerance * step_;
+    const bool ends = located || std::ldexp(1.0, -halvings) < 0.01 * options_.tolerance;
     const bool signs = between.fold || between.flip;
     const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;
-    const std::optional<CurveSample> middle = located ? std::nullopt : sample_between(a.point, b.point, what);
+    const std::optional<CurveSample> middle = ends ? std::nullopt : sample_between(a.point, b.point, what);
     if (!middle) {
       for (const SpecialPointType type :
            events(between, reverses_between(a.point.parameter, b.point.parameter)))
         result_.special_points.push_back(special_point(type, a, b, located));
       return;
     }
-    examine(a, *middle, 0.5 * width);
-    examine(*middle, b, 0.5 * width);
+    examine(a, *middle, halvings + 1);
+    examine(*middle, b, halvings + 1);
   }
 
   // A point between two others, preferably one whose stability is known. The plane through the middle of
   // their chord may meet the curve at a kink, where Newton's method cycles, or where contact has just begun.
   // Planes through other places of the chord are then tried.
   std::optional<CurveSample> sample_between(const CurvePoint& a, const CurvePoint& b, Measure what) {
+    constexpr double farthest = 0.25;  // from the chord, over the distance of two neighbours on the curve
     std::optional<CurveSample> found;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) {
       CurveSample sample{{}, {}};
-      if (!path_.between(a, b, share, sample.point)) continue;
+      if (!path_.between(a, b, share, sample.point, farthest * step_)) continue;
       measure(sample, what);
       if (what == Measure::contacts || is_known(sample)) return sample;
       if (!found) found = std::move(sample);
@@ -271,6 +278,7 @@ class Tracker {
   TrialEvaluator evaluator_;
   CurveStability result_;
   std::size_t index_ = 0;  // the point at the end of the piece that is examined
+  double step_ = 0.0;      // its scaled arc length
 };
 
 }  // namespace

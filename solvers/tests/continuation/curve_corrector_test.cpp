@@ -67,8 +67,10 @@ TEST(CurveCorrector, FindsPointsBetweenAndRefusesWhereNoneIs) {
   to.displacement[0] = 0.0;
   to.parameter = 1.0;
   int corrections = 0;
-  ASSERT_TRUE(corrector.between(at_the_top(), to, 0.5, point, corrections));
+  const double aside = 1.0 - std::sqrt(0.5);
+  ASSERT_TRUE(corrector.between(at_the_top(), to, 0.5, 1.01 * aside, point, corrections));
   EXPECT_NEAR(point.parameter, std::sqrt(0.5), 1e-12);
+  EXPECT_FALSE(corrector.between(at_the_top(), to, 0.5, 0.99 * aside, point, corrections));
   EXPECT_FALSE(corrector.correct(at_the_top(), 1.5, nullptr, point, corrections));
 }
 

@@ -147,9 +147,12 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
   /// a long step of more than 512 samples.
   bool locate_turning_point(CurvePoint& point);
   /// Finds a point of the curve between two of its points, in the plane through their chord at `fraction` of
-  /// it and perpendicular to it, whatever the present point. False when the corrector fails. The point has no
-  /// tangent.
-  bool between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point);
+  /// it and perpendicular to it, whatever the present point. False when the corrector fails or leads farther
+  /// from the chord than `farthest`, in arc length: to another curve. The point has no tangent.
+  bool between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point,
+               double farthest = std::numeric_limits<double>::infinity());
+  /// The scaled arc length of the chord of two points, measured at the first.
+  double distance(const CurvePoint& from, const CurvePoint& to);
 
   const CurvePoint& point() const { return point_; }
   const CurvePoint& previous() const { return previous_; }

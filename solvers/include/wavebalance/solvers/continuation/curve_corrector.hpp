@@ -82,6 +82,11 @@ class CurveCorrector {
     way.parameter_tangent = to.parameter - from.parameter;
     return way;
   }
+  /// The length of the chord of two points.
+  double distance(const CurvePoint& from, const CurvePoint& to) const {
+    const CurvePoint way = chord(from, to);
+    return std::sqrt(inner(way, way));
+  }
   CurvePoint ahead(const CurvePoint& from, double step) const {
     CurvePoint point;
     point.displacement = from.displacement + step * from.displacement_tangent;
@@ -149,15 +154,17 @@ class CurveCorrector {
   }
 
   /// Solves for a point, without a tangent, in the plane through the chord of two points at `fraction` of it
-  /// and perpendicular to it.
-  bool between(const CurvePoint& from, const CurvePoint& to, double fraction, CurvePoint& point,
-               int& corrections) {
-    CurvePoint way = chord(from, to);
+  /// and perpendicular to it. False also for one farther from the chord than `farthest`: Newton's method may
+  /// lead to another curve, which meets the plane, too.
+  bool between(const CurvePoint& from, const CurvePoint& to, double fraction, double farthest,
+               CurvePoint& point, int& corrections) {
+    CurvePoint way = chord(from, to), start;
     normalize(way);
-    point = {};
-    point.displacement = (1.0 - fraction) * from.displacement + fraction * to.displacement;
-    point.parameter = (1.0 - fraction) * from.parameter + fraction * to.parameter;
-    return solve_in(plane_across(way, point), nullptr, point, corrections);
+    start.displacement = (1.0 - fraction) * from.displacement + fraction * to.displacement;
+    start.parameter = (1.0 - fraction) * from.parameter + fraction * to.parameter;
+    point = start;
+    return solve_in(plane_across(way, start), nullptr, point, corrections) &&
+           distance(start, point) <= farthest;
   }
 
  private:
