@@ -70,4 +70,9 @@ void ReturnDetector::forget_after(std::size_t index) {
   for (KeptPoint& kept : kept_) kept.left = &kept != &kept_.back();
 }
 
+void ReturnDetector::forget_points_after(int count) {
+  while (kept_.size() > 1 && kept_.back().count > count) kept_.pop_back();
+  forget_after(kept_.size() - 1);
+}
+
 }  // namespace wavebalance::solvers

@@ -30,6 +30,8 @@ class ReturnDetector {
   std::optional<std::size_t> returned_to(ArcLength& curve);
   /// Forgets the points kept after the one of this index, from where the curve is followed again.
   void forget_after(std::size_t index);
+  /// Forgets those kept that have a higher number than `count`.
+  void forget_points_after(int count);
   const KeptPoint& operator[](std::size_t index) const { return kept_[index]; }
 
  private:

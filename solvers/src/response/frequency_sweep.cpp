@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -121,22 +122,29 @@ class Sweep {
   // Follows the curve from the first point. Where it returns to a point that the detector keeps, it is
   // followed again from the kept point before, each time with shorter steps.
   void follow_until_open(CurvePoint from, ArcLengthOptions arc) {
+    constexpr double shorter = 0.7;  // first step after one that was lost
     ReturnDetector detector(arc);
     turns_at_point_.clear();
+    recent_.clear();
+    lost_at_ = attempts_back_ = 0;
     while (true) {
-      ArcLength curve(system_, curve_parameter(parameter_), arc);
+      ArcLengthOptions now = arc;
+      now.initial_step *= std::pow(shorter, attempts_back_);
+      ArcLength curve(system_, curve_parameter(parameter_), now);
       if (start_curve(curve, from) != ArcLength::Status::advanced) return;
       if (result_.points.empty() && !record(curve.point())) {
         result_.status = SweepStatus::cancelled;
         return;
       }
       result_.status = follow(curve, detector);
+      if (result_.status == SweepStatus::lost && step_back(detector, from)) continue;
       result_.closed_at_start = result_.status == SweepStatus::closed && returned_to_ == 0;
       if (result_.status != SweepStatus::closed || result_.closed_at_start || !shorten(arc)) return;
       const std::size_t before = returned_to_ > 0 ? returned_to_ - 1 : 0;
       detector.forget_after(before);
       from = detector[before].point;
       forget_points_after(detector[before].count);
+      recent_.clear();
     }
   }
 
@@ -158,6 +166,29 @@ class Sweep {
       arc.initial_step = std::min(arc.initial_step, arc.max_step);
     }
     return true;
+  }
+
+  // Goes back from where the curve was lost, from there on with other steps: which kinks lie within one step
+  // depends on where it begins. Each time farther back; false when that has not helped.
+  bool step_back(ReturnDetector& detector, CurvePoint& from) {
+    constexpr std::size_t attempts = 4;
+    const std::size_t count = result_.points.size();
+    if (count > lost_at_) attempts_back_ = 0;
+    lost_at_ = std::max(lost_at_, count);
+    const std::size_t back = std::size_t{2} << attempts_back_;
+    if (attempts_back_++ == attempts || back >= recent_.size()) return false;
+    recent_.resize(recent_.size() - back);
+    from = recent_.back();
+    recent_.pop_back();
+    forget_points_after(static_cast<int>(count - back));
+    detector.forget_points_after(static_cast<int>(count - back));
+    return true;
+  }
+
+  void remember(const CurvePoint& point) {
+    constexpr std::size_t most = 40;
+    recent_.push_back(point);
+    if (recent_.size() > most) recent_.pop_front();
   }
 
   void forget_points_after(int count) {
@@ -198,6 +229,7 @@ class Sweep {
     const double direction = options_.to > options_.from ? 1.0 : -1.0;
     while (static_cast<int>(result_.points.size()) < options_.max_points) {
       detector.add(curve.point(), static_cast<int>(result_.points.size()));
+      remember(curve.point());
       if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
       if (start_ && start_->ends && start_->ends(curve.previous(), curve.point())) return SweepStatus::ended;
       note_turning_point(curve);
@@ -270,6 +302,9 @@ class Sweep {
   double step_share_ = 1.0;                  // factor on the largest step
   std::vector<std::size_t> turns_at_point_;  // number of turning points up to each point
   std::size_t returned_to_ = 0;              // the kept point that a closed curve came back to
+  std::deque<CurvePoint> recent_;            // the last points of the curve
+  std::size_t lost_at_ = 0;                  // the most points after which the curve was lost
+  std::size_t attempts_back_ = 0;            // from there
 };
 
 }  // namespace

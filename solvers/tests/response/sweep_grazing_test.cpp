@@ -271,5 +271,29 @@ TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
   expect_near(turning_frequencies(whole), turning_frequencies(sector), 1e-8);
 }
 
+// Near some kinks of a stop 650 times as stiff as the structure no step of some lengths leads on. The weight
+// deflects it twenty times as far as it vibrates.
+TEST(FrequencySweep, OfAHeavyMassOnAStiffStopReachesItsEndWithStepsOfAnyLength) {
+  const double from = 7.258013048393989, to = 16.710987934217528;
+  LinearStructure heavy = testing::Oscillator{.mass = 1.073514447533596,
+                                              .damping = 3.7231150496841336,
+                                              .stiffness = 6122.4230958026174,
+                                              .load = 0.2811668913552674}
+                              .structure();
+  heavy.forces.push_back({Eigen::VectorXd::Constant(1, 122.44846191605234), Eigen::VectorXcd::Ones(1)});
+  CondensedProblem problem(testing::fourier_pair(63, 252), heavy, testing::cosine_load());
+  for (const double steps : {80.0, 111.0, 130.0, 160.0, 200.0, 230.0, 300.0, 320.0, 400.0, 480.0, 640.0}) {
+    FrequencySweepOptions options;
+    options.from = from;
+    options.to = to;
+    options.output_points = 64;
+    options.arc_length.max_step = 20.0 / steps;
+    options.arc_length.initial_step = options.arc_length.max_step / 12.5;
+    options.arc_length.min_step = std::min(1e-3, options.arc_length.initial_step / 20.0);
+    const testing::LinearContact stop{3964183.877915115, 0.020389023978488015};
+    EXPECT_EQ(frequency_sweep(problem, stop, options).status, SweepStatus::reached_end) << steps;
+  }
+}
+
 }  // namespace
 }  // namespace wavebalance::solvers
