@@ -186,13 +186,28 @@ class MotionsSearch {
     const SettledMotion settled = problem_.settle(frequency_, how);
     if (settled.attractor_periods < 1) {
       near_returns(settled);
-      return std::nullopt;
+      return approached(settled, source);
     }
     const int within = load_periods(problem_.condensed());  // the load may repeat within its period
     const int periods = settled.attractor_periods / std::gcd(settled.attractor_periods, within);
     ContactProblem& problem = over(periods);
     const SettledMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
     return add(problem, periods, problem.phases(frequency_, whole, phases_options(result_.starts)), source);
+  }
+
+  // The stable motion that a structure of light damping had nearly come to when its integration ended.
+  std::optional<std::size_t> approached(const SettledMotion& settled, MotionSource source) {
+    constexpr double near = 1e-2;  // of what vibrates
+    if (cancelled_ || !settled.integrated()) return std::nullopt;
+    const auto found =
+        add(problem_, 1, problem_.phases(frequency_, settled, phases_options(result_.starts)), source);
+    if (!found || result_.motions[*found].stability.status != "stable") return std::nullopt;
+    const Eigen::MatrixXd& motion = samples_[*found].contacts.displacement;
+    if (motion.cols() != points_of_period) return std::nullopt;
+    const Eigen::VectorXd last = resample(settled.last.displacement, points_of_period, settled.start);
+    const Eigen::MatrixXd apart = motion - last.reshaped(points_of_period, motion.rows()).transpose();
+    const double vibrates = (motion.colwise() - motion.rowwise().mean()).norm();
+    return apart.norm() <= near * vibrates ? found : std::nullopt;
   }
 
   std::optional<std::size_t> arrive(const detail::StructureState& state, MotionSource source) {

@@ -6,16 +6,36 @@
 
 #include "linalg/dense.hpp"
 #include "period/modal_flow.hpp"
+#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
 
-// By what the motion without contact is to be multiplied so that its displacements reach a gap.
-double factor_to_gap(const ContactProblem& problem, const Motion& free) {
-  const Eigen::VectorXd gaps = problem.laws().gaps(problem.contacts());
-  const Eigen::VectorXd largest =
-      (problem.structure().contact_directions * free.displacement).cwiseAbs().rowwise().maxCoeff();
+// The displacements of all degrees of freedom under the static loads alone, with the contacts that they
+// close; at rest where that is not found.
+Eigen::VectorXd standing(ContactProblem& problem) {
+  CondensedProblem& condensed = problem.condensed();
+  condensed.set_load_scale(0.0);
+  const PeriodicResponse held = forced_response(condensed, problem.laws(), {});
+  Eigen::VectorXd displacement = Eigen::VectorXd::Zero(problem.structure().size());
+  if (held.converged()) displacement = structure_motion(condensed, held, 1).displacement.col(0);
+  condensed.set_load_scale(condensed.full_load());
+  return displacement;
+}
+
+// The motion about its mean.
+Motion vibration_of(Motion motion) {
+  motion.displacement.colwise() -= Eigen::VectorXd(motion.displacement.rowwise().mean());
+  return motion;
+}
+
+// By what a vibration is to be multiplied so that its displacements reach a gap from where the structure
+// stands.
+double factor_to_gap(const ContactProblem& problem, const Eigen::VectorXd& stands, const Motion& vibration) {
+  const Eigen::SparseMatrix<double>& directions = problem.structure().contact_directions;
+  const Eigen::VectorXd gaps = problem.laws().gaps(problem.contacts()) - directions * stands;
+  const Eigen::VectorXd largest = (directions * vibration.displacement).cwiseAbs().rowwise().maxCoeff();
   double factor = std::numeric_limits<double>::infinity();
   for (Eigen::Index c = 0; c < gaps.size(); ++c)
     if (gaps[c] > 0.0 && largest[c] > 0.0) factor = std::min(factor, gaps[c] / largest[c]);
@@ -30,28 +50,29 @@ std::optional<StateBox> StateBox::make(const LinearStructure& structure, double 
   StateBox box;
   box.shapes_ = flow->shapes();
   box.projection_ = flow->projection();
-  box.displacement_ = box.velocity_ = Eigen::VectorXd::Zero(flow->modes());
+  box.middle_ = box.displacement_ = box.velocity_ = Eigen::VectorXd::Zero(flow->modes());
   return box;
 }
 
+void StateBox::set_middle(const Eigen::VectorXd& displacement) { middle_ = projection_ * displacement; }
+
 void StateBox::include(const Motion& motion, double factor) {
-  const auto largest = [&](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
-    return factor * product(projection_, values).cwiseAbs().rowwise().maxCoeff();
+  const auto largest = [&](const Eigen::MatrixXd& values, const Eigen::VectorXd& from) -> Eigen::VectorXd {
+    return factor * (product(projection_, values).colwise() - from).cwiseAbs().rowwise().maxCoeff();
   };
-  displacement_ = displacement_.cwiseMax(largest(motion.displacement));
-  velocity_ = velocity_.cwiseMax(largest(motion.velocity));
+  displacement_ = displacement_.cwiseMax(largest(motion.displacement, middle_));
+  velocity_ = velocity_.cwiseMax(largest(motion.velocity, Eigen::VectorXd::Zero(middle_.size())));
 }
 
 StructureState StateBox::random(std::mt19937& generator) const {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto within = [&](const Eigen::VectorXd& sides) -> Eigen::VectorXd {
-    Eigen::VectorXd modes(sides.size());
-    for (Eigen::Index i = 0; i < sides.size(); ++i) modes[i] = sides[i] * uniform(generator);
+  const auto within = [&](Eigen::VectorXd modes, const Eigen::VectorXd& sides) -> Eigen::VectorXd {
+    for (Eigen::Index i = 0; i < sides.size(); ++i) modes[i] += sides[i] * uniform(generator);
     return shapes_ * modes;
   };
   StructureState state;
-  state.displacement = within(displacement_);
-  state.velocity = within(velocity_);
+  state.displacement = within(middle_, displacement_);
+  state.velocity = within(Eigen::VectorXd::Zero(velocity_.size()), velocity_);
   return state;
 }
 
@@ -61,11 +82,15 @@ std::optional<StateBox> box_of_free_motion(ContactProblem& problem, double frequ
   problem.condensed().set_load_frequency(frequency);
   auto box = StateBox::make(problem.structure(), frequency, SettlingOptions{}.max_modes);
   if (!box) return box;
+  const Eigen::VectorXd stands = standing(problem);
   PeriodicResponse open;
   open.frequency = problem.condensed().frequency();
   open.force_on_held_structure = Eigen::VectorXd::Zero(problem.samples());
-  const Motion free = structure_motion(problem.condensed(), open, points_of_period);
-  box->include(free, larger * factor_to_gap(problem, free));
+  Motion free = vibration_of(structure_motion(problem.condensed(), open, points_of_period));
+  const double factor = larger * factor_to_gap(problem, stands, free);
+  box->set_middle(stands);
+  free.displacement.colwise() += stands;
+  box->include(free, factor);
   return box;
 }
 

@@ -86,6 +86,38 @@ TEST(CoexistingMotions, AreTheSameForTheSameSeed) {
   EXPECT_NEAR(first.motions[1].max_displacement, others.motions[1].max_displacement, 1e-8);
 }
 
+// A static load moves the oscillator and its stop: all else is that of the one without.
+TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
+  constexpr double deflection = 40.0;
+  const MotionsOptions some{.random_starts = 12};
+  ContactProblem without = folded();
+  LinearStructure loaded = testing::unit_oscillator(0.05, 0.15);
+  PeriodicForce weight;
+  weight.shape = Eigen::VectorXd::Constant(1, deflection);
+  weight.harmonics = Eigen::VectorXcd::Ones(1);
+  loaded.forces.push_back(weight);
+  ContactProblem under(testing::fourier_pair(63, 256), loaded, LinearContact{4.0, 1.0 + deflection});
+  const CoexistingMotions light = coexisting_motions(without, 0.195, some),
+                          heavy = coexisting_motions(under, 0.195, some);
+  ASSERT_EQ(heavy.motions.size(), light.motions.size());
+  EXPECT_GT(light.motions[1].arrivals, 0);
+  for (std::size_t i = 0; i < light.motions.size(); ++i) {
+    EXPECT_EQ(heavy.motions[i].arrivals, light.motions[i].arrivals);
+    EXPECT_NEAR(heavy.motions[i].max_displacement, light.motions[i].max_displacement + deflection, 1e-7);
+  }
+}
+
+// 600 periods take it to a ten-thousandth of its start.
+TEST(CoexistingMotions, OfLightDampingCountTheStartsThatHaveNearlyArrived) {
+  ContactProblem problem(testing::fourier_pair(63, 256), testing::unit_oscillator(0.008, 0.15),
+                         LinearContact{4.0, 1.0});
+  const CoexistingMotions all = coexisting_motions(problem, 0.25, {.random_starts = 4});
+  ASSERT_EQ(all.motions.size(), 1u);
+  EXPECT_EQ(all.motions[0].stability.status, "stable");
+  EXPECT_EQ(all.motions[0].arrivals, 4);
+  EXPECT_EQ(all.none, 0);
+}
+
 TEST(CoexistingMotions, OfTwoPeriodsStandBesideTheUnstableOneThatTheyBranchFrom) {
   const double frequency = 2.6 / two_pi;
   ContactProblem problem = doubling();
