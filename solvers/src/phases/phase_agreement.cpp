@@ -65,7 +65,9 @@ bool PhaseSolution::agrees() const {
 
 bool PhaseSolution::is_lost() const {
   constexpr double large = 0.5;
-  return !(newton.residual < large);
+  constexpr std::size_t many = 4;
+  const bool astray = phases_of_motion.phases.size() > many * newton.iterate.layout.phases.size();
+  return !(newton.residual < large) || (!newton.converged && astray);
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -24,7 +24,8 @@ struct PhaseSolution {
 
   /// Whether Newton's method has converged and the motion has the phases of the equations.
   bool agrees() const;
-  /// Whether the residual is about as large as the forces, so that the motion says nothing about its phases.
+  /// Whether the motion says nothing about its phases: the residual is about as large as the forces, or
+  /// Newton's method has not converged and the motion has many times the phases of the equations.
   bool is_lost() const;
 };
 

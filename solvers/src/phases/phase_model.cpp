@@ -13,19 +13,27 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// Sums of harmonics at instants, each times (2 pi i n)^derivative, by Horner's rule.
-Eigen::VectorXd sum_of_harmonics(const Eigen::MatrixXcd& amplitudes, const std::vector<Instant>& instants,
-                                 int derivative) {
+// A sum of harmonics at the angle with this cosine and sine, times (2 pi i n)^derivative, by Horner's rule.
+double sum_of_harmonics(const Eigen::MatrixXcd& amplitudes, int contact, double cosine, double sine,
+                        int derivative) {
+  double re = 0.0, im = 0.0;
+  for (Index n = amplitudes.cols() - 1; n >= 0; --n) {
+    Complex own = amplitudes(contact, n);
+    if (derivative > 0) own = turn * double(n) * Complex(-own.imag(), own.real());
+    const double before = re;
+    re = before * cosine - im * sine + own.real();
+    im = before * sine + im * cosine + own.imag();
+  }
+  return re;
+}
+
+Eigen::VectorXd sums_of_harmonics(const Eigen::MatrixXcd& amplitudes, const std::vector<Instant>& instants,
+                                  int derivative) {
   Eigen::VectorXd values(Index(instants.size()));
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    const double re = std::cos(turn * instants[i].time), im = std::sin(turn * instants[i].time);
-    Complex sum = 0.0;
-    for (Index n = amplitudes.cols() - 1; n >= 0; --n) {
-      Complex own = amplitudes(instants[i].contact, n);
-      if (derivative > 0) own = turn * double(n) * Complex(-own.imag(), own.real());
-      sum = {sum.real() * re - sum.imag() * im + own.real(), sum.real() * im + sum.imag() * re + own.imag()};
-    }
-    values[Index(i)] = sum.real();
+    const double angle = turn * instants[i].time;
+    values[Index(i)] =
+        sum_of_harmonics(amplitudes, instants[i].contact, std::cos(angle), std::sin(angle), derivative);
   }
   return values;
 }
@@ -46,21 +54,22 @@ PhaseModel::PhaseModel(const PhasesProblem& problem, double length)
 }
 
 Eigen::VectorXd PhaseModel::free_displacement(const std::vector<Instant>& instants) const {
-  return sum_of_harmonics(contact_free, instants, 0);
+  return sums_of_harmonics(contact_free, instants, 0);
 }
 
 Eigen::VectorXd PhaseModel::free_velocity(const std::vector<Instant>& instants) const {
-  return sum_of_harmonics(contact_free, instants, 1);
+  return sums_of_harmonics(contact_free, instants, 1);
 }
 
 ContactMotion PhaseModel::free_motion(const Eigen::VectorXd& times) const {
   ContactMotion result{Eigen::MatrixXd(response.contacts(), times.size()),
                        Eigen::MatrixXd(response.contacts(), times.size())};
-  std::vector<Instant> instants(static_cast<std::size_t>(times.size()));
-  for (int c = 0; c < response.contacts(); ++c) {
-    for (Index l = 0; l < times.size(); ++l) instants[static_cast<std::size_t>(l)] = {c, times[l]};
-    result.displacement.row(c) = free_displacement(instants).transpose();
-    result.velocity.row(c) = free_velocity(instants).transpose();
+  for (Index l = 0; l < times.size(); ++l) {
+    const double cosine = std::cos(turn * times[l]), sine = std::sin(turn * times[l]);
+    for (int c = 0; c < response.contacts(); ++c) {
+      result.displacement(c, l) = sum_of_harmonics(contact_free, c, cosine, sine, 0);
+      result.velocity(c, l) = sum_of_harmonics(contact_free, c, cosine, sine, 1);
+    }
   }
   return result;
 }
