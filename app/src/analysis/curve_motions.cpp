@@ -63,6 +63,7 @@ class MotionsOfCurve {
     if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0};
     if (scene_.analysis.stability)
       motion.stability = problem_.stability(response, near ? &near->motion : nullptr);
+    if (near && near->motion.parts != nullptr) motion.near = std::move(near);
     return motion;
   }
 

@@ -21,12 +21,15 @@ void append_table(std::vector<ResultFile>& files, const std::string& name, const
   if (!table.empty()) files.push_back({name, csv_text(table), about});
 }
 
-void append_picture(RunFiles& run, const Record& record, bool report) {
+void append_record_pictures(RunFiles& run, const Record& record, bool report) {
   if (record.figure.panels.empty()) return;
   const std::string stem = !record.sweep.empty()      ? "sweep"
                            : !record.backbone.empty() ? "backbone"
                                                       : "response";
-  run.no_picture = append_pictures(run.files, {{stem, record.figure, "the picture"}}, report);
+  std::vector<RecordPicture> pictures{{stem, record.figure, "the picture"}};
+  for (const RecordFigure& motion : record.motion_pictures)
+    pictures.push_back({motion.stem, motion.figure, motion.about});
+  run.no_picture = append_pictures(run.files, pictures, report);
 }
 
 /// All files but the summary; with `report` first the report, still without contents.
@@ -42,7 +45,7 @@ RunFiles result_files(const Scene& scene, const Record& record, bool report) {
   for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
-  append_picture(run, record, report);
+  append_record_pictures(run, record, report);
   if (report && has_bar_motion(scene, record))
     files.push_back({"response.motion.js", bar_motion_script(scene, record, "response"),
                      "the moving bar of report.html"});

@@ -45,18 +45,35 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
   return table == nullptr ? "" : folded(title, table_html(text_rows(*table)));
 }
 
-/// The picture that `files` holds, with curves that zoom where its data are among them.
-std::string picture(const std::vector<ResultFile>& files, const std::string& heading) {
-  const auto named = [&](const std::string& suffix) {
-    return std::find_if(files.begin(), files.end(),
-                        [&](const auto& file) { return file.name.ends_with(suffix); });
-  };
-  const auto drawn = named(".svg");
-  if (drawn == files.end()) return "<p>There is no picture: gnuplot was not found.</p>\n";
-  FigureBlock block{drawn->name.substr(0, drawn->name.size() - 4)};
-  block.alternative = heading;
-  block.curves = named(".figure.js") != files.end();
+/// The picture of this name, with curves that zoom where its data are among the files.
+std::string picture(const std::vector<ResultFile>& files, const std::string& svg,
+                    const std::string& alternative) {
+  const std::string stem = svg.substr(0, svg.size() - std::string_view(".svg").size());
+  FigureBlock block{stem};
+  block.alternative = alternative;
+  block.curves = std::any_of(files.begin(), files.end(),
+                             [&](const auto& file) { return file.name == stem + ".figure.js"; });
   return figure_html(block);
+}
+
+/// The picture of the record.
+std::string record_picture(const std::vector<ResultFile>& files, const std::string& heading) {
+  const auto drawn =
+      std::find_if(files.begin(), files.end(), [](const auto& file) { return file.name.ends_with(".svg"); });
+  return drawn == files.end() ? "<p>There is no picture: gnuplot was not found.</p>\n"
+                              : picture(files, drawn->name, heading);
+}
+
+/// The pictures of single motions, and when each is in contact; empty without any.
+std::string motions_of_points(const Record& record, const std::vector<ResultFile>& files,
+                              const Summary& summary) {
+  std::string pictures;
+  for (const RecordFigure& motion : record.motion_pictures)
+    for (const ResultFile& file : files)
+      if (file.name == motion.stem + ".svg")
+        pictures += "<h3>" + escaped(motion.figure.title) + "</h3>\n" +
+                    picture(files, file.name, motion.figure.title);
+  return pictures.empty() ? "" : pictures + folded_table(summary, "phases", "Instants of contact");
 }
 
 /// The box in which motion.js moves the bar, where its data are among the files.
@@ -89,7 +106,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
       section_html(
           "What came out",
           paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
-              (record.figure.panels.empty() ? "" : picture(files, heading)) + motion(files) +
+              (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
               folded_table(summary, "motions",
                            scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
                                                                         : "Motions at points of the curve")) +
@@ -99,6 +116,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
                        folded_table(summary, "special_points", "Special points") +
                        folded_table(summary, "isolas", "Isolas") +
                        folded_table(summary, "special_points_of_isolas", "Special points of isolas")) +
+      section_html("Motions of points of the curve", motions_of_points(record, files, summary)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked", asked(arguments, scene)) +
       section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/sweep_axis.hpp"
+#include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
@@ -53,6 +54,39 @@ void append_files(Record& record, const StructureModel& model, const CurveMotion
   }
 }
 
+/// The motion as that of a single response, with the instants of contact where these are known.
+void append_motion_picture(Record& record, const Scene& scene, const Sweep& sweep, const CurveMotion& motion,
+                           const std::string& place) {
+  Response response;
+  response.converged = motion.converged;
+  response.contacts = motion.contacts;
+  response.contact = motion.contact;
+  response.periods = sweep.periods;
+  response.phases = motion.near;
+  RecordFigure picture{motion.name, motion_figure(scene, response, motion.place),
+                       "the motion of the curve " + place};
+  picture.figure.title = "Motion " + place + (motion.converged ? "" : " (NOT CONVERGED)");
+  record.motion_pictures.push_back(std::move(picture));
+}
+
+/// The instants of contact of all motions of which they are known.
+void append_contact_instants(Record& record, const std::vector<CurveMotion>& motions) {
+  Table all;
+  for (const CurveMotion& motion : motions) {
+    if (!motion.near) continue;
+    const Table phases = phases_table(motion.near->motion);
+    std::vector<std::string> columns{"file"};
+    columns.insert(columns.end(), phases.columns().begin(), phases.columns().end());
+    if (all.columns().empty()) all = Table(columns);
+    for (std::size_t i = 0; i < phases.rows(); ++i) {
+      std::vector<Cell> row{motion.name + ".csv"};
+      for (const Cell& cell : phases.row(i)) row.push_back(cell);
+      all.append_row(std::move(row));
+    }
+  }
+  if (!all.columns().empty()) record.summary.emplace_back(quantities::phases, std::move(all));
+}
+
 }  // namespace
 
 void append_motions(Record& record, const Scene& scene, const StructureModel& model, const Sweep& sweep,
@@ -73,6 +107,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
   for (const CurveMotion& motion : motions) {
     table.append_row(row_of(motion, with_phases));
     append_files(record, model, motion, place_of(motion, axis));
+    append_motion_picture(record, scene, sweep, motion, place_of(motion, axis));
     if (!motion.converged)
       record.warnings.push_back("The motion " + place_of(motion, axis) +
                                 " was not solved for to the tolerance: " + motion.name +
@@ -91,6 +126,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
           fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
                       cell_text(place), axis.unit));
   record.summary.emplace_back(quantities::motions, std::move(table));
+  append_contact_instants(record, motions);
 }
 
 }  // namespace wavebalance::app

@@ -51,6 +51,9 @@ void append_motion(Summary& summary, const solvers::Motion& leading);
 
 /// The motion of the structure near the response: its phases of contact and the errors of the response.
 void append_phases(Record& record, double tolerance, const Response& response);
+/// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
+/// them.
+Table phases_table(const solvers::PhaseMotion& motion);
 /// Whether the response is the motion of the structure itself, and not a balance beside it.
 bool is_by_phases(const Response& response);
 

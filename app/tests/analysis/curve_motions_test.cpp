@@ -108,6 +108,7 @@ TEST(CurveMotions, AreThoseOfThePeakTheFoldsAndTheFrequencies) {
   const Table peak = motions.where("at", "peak");
   EXPECT_EQ(peak.numbers("frequency_Hz"),
             std::vector<double>{value_of<double>(record.summary, "frequency_at_max_displacement_Hz")});
+  EXPECT_EQ(record.motion_pictures.size(), motions.rows());
   const Table folds = motions.where("at", "fold");
   const auto turns = value_of<std::vector<double>>(record.summary, "turning_points_Hz");
   ASSERT_EQ(folds.rows(), turns.size());
@@ -116,6 +117,33 @@ TEST(CurveMotions, AreThoseOfThePeakTheFoldsAndTheFrequencies) {
   const Table three = motions.where("frequency_Hz", "0.18");
   EXPECT_EQ(three.numbers("unstable_multipliers"), (std::vector<double>{0.0, 1.0, 0.0}));
   for (const double residual : motions.numbers("residual")) EXPECT_LT(residual, 1e-9);
+}
+
+// A picture shades the contact of the motion of the structure; the force of the balance begins and ends
+// there.
+TEST(CurveMotions, HaveTheInstantsOfContactInTheSummaryAndInTheirPictures) {
+  const Record record = analyse(stop_with({"analysis.motion_at=[\"peak\", 0.24]"}));
+  ASSERT_TRUE(record.converged);
+  ASSERT_EQ(record.motion_pictures.size(), 2u);
+  const Table phases = value_of<Table>(record.summary, "phases").where("file", "motion_peak.csv");
+  ASSERT_EQ(phases.rows(), 1u);  // at places asked for only with analysis.phases
+  const double begin = phases.numbers("begin")[0], end = phases.numbers("end")[0];
+  const Table motion = table_of(record, "motion_peak.csv");
+  const auto time = motion.numbers("time_fraction"), force = motion.numbers("contact_force_N");
+  constexpr double near = 0.02;
+  for (std::size_t l = 0; l < time.size(); ++l) {
+    if (!(force[l] > 0.0)) continue;
+    const double since = time[l] - begin - std::floor(time[l] - begin);
+    EXPECT_TRUE(since < end - begin + near || since > 1.0 - near) << time[l];
+  }
+  const RecordFigure& peak = record.motion_pictures.front();
+  EXPECT_EQ(peak.stem, "motion_peak");
+  EXPECT_NE(peak.figure.title.find("at the peak, "), std::string::npos) << peak.figure.title;
+  for (std::size_t p = 0; p < 3; ++p) {
+    ASSERT_FALSE(peak.figure.panels[p].rectangles.empty());
+    EXPECT_DOUBLE_EQ(peak.figure.panels[p].rectangles[0].x1, begin);
+  }
+  EXPECT_TRUE(record.motion_pictures.back().figure.panels.front().rectangles.empty());
 }
 
 // Shooting integrates in time with another method. From the state of a motion at the load's maximum it finds

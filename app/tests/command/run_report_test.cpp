@@ -61,6 +61,20 @@ TEST(RunReport, ReportSaysWhatImpactsDo) {
             std::string::npos);
 }
 
+TEST(RunReport, ReportShowsTheMotionsOfACurveBelowTheCurve) {
+  const TemporaryFolder folder;
+  const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "jones_legrand_2014" / "case2_sweep.toml";
+  const Outcome outcome =
+      run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.motion_at=peak"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_TRUE(fs::exists(folder / "out" / "motion_peak.svg"));
+  const std::string report = read_file(folder / "out" / "report.html");
+  const std::size_t curve = report.find("src=\"sweep.svg\""), motion = report.find("src=\"motion_peak.svg\"");
+  ASSERT_NE(motion, std::string::npos);
+  EXPECT_LT(curve, motion);
+  EXPECT_NE(report.find("Instants of contact"), std::string::npos);
+}
+
 TEST(RunReport, ReportSaysThatNothingWasFound) {
   const TemporaryFolder folder;
   const fs::path scene = fs::path(WAVEBALANCE_SCENES) / "jones_legrand_2014" / "case2_sweep.toml";

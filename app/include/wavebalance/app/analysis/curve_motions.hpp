@@ -1,9 +1,11 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 
 namespace wavebalance::app {
 
@@ -21,6 +23,8 @@ struct CurveMotion {
   /// At the peak and special points, and with analysis.phases at places asked for; where it is not empty, the
   /// stability is that of the motion found, or not known where there is none near.
   SweepPhases::Point phases;
+  /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
+  std::optional<solvers::ResponsePhases> near;
 };
 
 /// The motions of analysis.motion_at: that of the point with the largest displacement, those of the special

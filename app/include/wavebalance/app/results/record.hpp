@@ -20,6 +20,13 @@ struct RecordFile {
   std::string about;  ///< one sentence without its full stop
 };
 
+/// A further picture of a record.
+struct RecordFigure {
+  std::string stem;  ///< its name without the ending
+  Figure figure;
+  std::string about;  ///< as of RecordFile
+};
+
 /// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
 struct Record {
   bool converged = false;
@@ -39,7 +46,8 @@ struct Record {
   /// Displacements of the nodes of a bar from its clamp on (rows) at uniform instants of the period, m; empty
   /// for other structures and after a curve.
   Eigen::MatrixXd bar_motion;
-  Figure figure;  ///< without panels when there is nothing to draw
+  Figure figure;                              ///< without panels when there is nothing to draw
+  std::vector<RecordFigure> motion_pictures;  ///< of the motions of points of a curve
 };
 
 /// Where a solution starts, what watches it, and on how many threads it runs.
