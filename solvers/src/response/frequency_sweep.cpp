@@ -9,6 +9,7 @@
 #include "continuation/return_detector.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
+#include "response/bandwidth_steps.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
@@ -61,6 +62,8 @@ class Sweep {
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   FrequencySweep run() {
+    if (parameter_ == SweepParameter::frequency)
+      bounded_ = detail::BandwidthSteps::make(problem_, std::abs(options_.to - options_.from));
     // Whether long steps pass a narrow undamped resonance depends on where they end, so other lengths are
     // tried.
     for (const double share : {1.0, 0.7, 1.4}) {
@@ -130,7 +133,8 @@ class Sweep {
     while (true) {
       ArcLengthOptions now = arc;
       now.initial_step *= std::pow(shorter, attempts_back_);
-      ArcLength curve(system_, curve_parameter(parameter_), now);
+      ArcLength curve(system_, bounded_ ? *bounded_ : curve_parameter(parameter_), now);
+      if (bounded_) bounded_->begin_at(from.parameter, false);
       if (start_curve(curve, from) != ArcLength::Status::advanced) return;
       if (result_.points.empty() && !record(curve.point())) {
         result_.status = SweepStatus::cancelled;
@@ -230,6 +234,7 @@ class Sweep {
     while (static_cast<int>(result_.points.size()) < options_.max_points) {
       detector.add(curve.point(), static_cast<int>(result_.points.size()));
       remember(curve.point());
+      if (bounded_) bounded_->begin_at(curve.point().parameter, result_.points.back().contact_fraction > 0.0);
       if (curve.advance() != ArcLength::Status::advanced) return SweepStatus::lost;
       if (start_ && start_->ends && start_->ends(curve.previous(), curve.point())) return SweepStatus::ended;
       note_turning_point(curve);
@@ -302,9 +307,10 @@ class Sweep {
   double step_share_ = 1.0;                  // factor on the largest step
   std::vector<std::size_t> turns_at_point_;  // number of turning points up to each point
   std::size_t returned_to_ = 0;              // the kept point that a closed curve came back to
-  std::deque<CurvePoint> recent_;            // the last points of the curve
-  std::size_t lost_at_ = 0;                  // the most points after which the curve was lost
-  std::size_t attempts_back_ = 0;            // from there
+  std::optional<detail::BandwidthSteps> bounded_;
+  std::deque<CurvePoint> recent_;  // the last points of the curve
+  std::size_t lost_at_ = 0;        // the most points after which the curve was lost
+  std::size_t attempts_back_ = 0;  // from there
 };
 
 }  // namespace

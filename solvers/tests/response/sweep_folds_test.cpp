@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "constants.hpp"
+#include "dense_algebra.hpp"
 #include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
@@ -134,6 +136,52 @@ TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
   EXPECT_EQ(sweep.turning_points.size(), 1u);
   EXPECT_NEAR(sweep.points.back().frequency, 0.3, 1e-9);
   EXPECT_GT(sweep.points.back().max_displacement, 2.0 * sweep.points.front().max_displacement);
+}
+
+// A steel pipe of 6 m in three rows with its weight: in the middle of its length between stops, with its end
+// on a rest, driven between them. All modes have the same damping ratio.
+LinearStructure pipe_on_supports() {
+  constexpr double damping_ratio = 0.02, load = 120.0;
+  Eigen::Matrix3d mass, stiffness;
+  mass << 32.1597593071, -0.541306082163, -2.2023280058, -0.541306082163, 6.80790218635, 3.49064483296,
+      -2.2023280058, 3.49064483296, 23.9028798078;
+  stiffness << 1278086.08556603, 389782.986971706, -1246435.6289054, 389782.986971706, 290953.244826094,
+      -638380.014551808, -1246435.6289054, -638380.014551808, 1624080.99112254;
+  const auto modes = oracle::generalized_eigen(stiffness, mass);
+  const Eigen::Matrix3d shapes = mass * modes.vectors;
+  const Eigen::Vector3d damping = 2.0 * damping_ratio * modes.values.cwiseSqrt();
+  LinearStructure pipe;
+  pipe.mass = mass.sparseView();
+  pipe.stiffness = stiffness.sparseView();
+  pipe.damping = Eigen::MatrixXd(shapes * damping.asDiagonal() * shapes.transpose()).sparseView();
+  pipe.load = Eigen::Vector3d(0.0, 0.0, load);
+  pipe.forces.push_back(
+      {Eigen::Vector3d(-375.7836254295, -102.1279537959, -213.379188262), Eigen::VectorXcd::Ones(1)});
+  Eigen::MatrixXd contacts(3, 3);
+  contacts << 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  pipe.contact_directions = contacts.sparseView();
+  return pipe;
+}
+
+// Superharmonic resonances of light modes are narrower than an 80th of a wide interval.
+TEST(FrequencySweep, OfAPipeOnSupportsDoesNotPassOverALoopThatIsNarrowBesideTheInterval) {
+  CondensedProblem problem(testing::fourier_pair(63, 252), pipe_on_supports(), testing::cosine_load());
+  const ContactLaws stops(std::vector<AnyContactLaw>{testing::LinearContact{1e6, 3e-3},
+                                                     testing::LinearContact{1e6, 3e-3},
+                                                     testing::LinearContact{1e6, 5e-3}});
+  FrequencySweepOptions options;
+  options.from = 2.0;
+  options.to = 25.0;
+  options.output_points = 64;
+  options.smallest_return = 0.04;
+  const FrequencySweep usual = frequency_sweep(problem, stops, options);
+  options.arc_length.max_step = options.arc_length.max_step / 4.0;
+  const FrequencySweep fine = frequency_sweep(problem, stops, options);
+  EXPECT_EQ(usual.status, SweepStatus::reached_end);
+  ASSERT_EQ(usual.turning_points.size(), fine.turning_points.size());
+  for (std::size_t i = 0; i < fine.turning_points.size(); ++i)
+    EXPECT_NEAR(usual.turning_points[i].frequency, fine.turning_points[i].frequency, 0.03) << i;
+  EXPECT_LT(1.5 * double(usual.points.size()), double(fine.points.size()));
 }
 
 }  // namespace
