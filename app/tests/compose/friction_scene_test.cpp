@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -136,12 +137,12 @@ TEST(FrictionScene, ByPhasesRefusesTwoTangentsAndOtherLawsByName) {
   EXPECT_NE(mixed.find("linear"), std::string::npos) << mixed;
 }
 
-TEST(FrictionScene, OfABoltedBeamIsSweptThroughItsResonance) {
-  const Record record =
-      analyse(changed("bolted_beam.toml", {"analysis.largest_step=3", "analysis.frequency_from=138",
-                                           "analysis.frequency_to=146"}));
+// Steps that are measured by the slip at the start of the sweep take a thousand points.
+TEST(FrictionScene, OfABoltedBeamIsSweptThroughItsResonanceInFewPoints) {
+  const Record record = analyse(changed("bolted_beam.toml", {"analysis.stability=false"}));
   EXPECT_TRUE(record.converged) << record.status;
   EXPECT_EQ(record.status, "reached_end");
+  EXPECT_LE(value_of<std::int64_t>(record.summary, "points"), 100);
 }
 
 // With grazing events to follow, as other laws of few samples have them, the sweep is lost near its

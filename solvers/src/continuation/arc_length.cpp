@@ -108,7 +108,8 @@ void detail::ResponseEquations::set_scales(const Eigen::VectorXd& displacement) 
   }
   const double least =
       std::max(part_of_largest * scales.maxCoeff(), options.least_scale * options.displacement_scale);
-  scales = scales.cwiseMax(least).cwiseMin(options.displacement_scale);
+  scales = scales.cwiseMax(least);
+  if (!system.laws().act_over_period()) scales = scales.cwiseMin(options.displacement_scale);
 }
 
 // Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain

@@ -64,8 +64,7 @@ class Settling {
       tolerance = std::max(finest, finer * tolerance);
     }
     const bool settles = result.attractor_periods > 0 && load_periods_ % result.attractor_periods == 0;
-    // Newton's method on returns takes the motion as the whole state, which it is without memory.
-    if (!result.cancelled && !settles && !has_memory_) add_returns(result);
+    if (!result.cancelled && !settles) add_returns(result);
     return result;
   }
 
@@ -186,6 +185,12 @@ class Settling {
     return std::nullopt;
   }
 
+  // Laws with memory have more state than the motion, and many differences of it take longer than to solve
+  // the balance from the return itself.
+  PeriodState periodic_or_near(const PeriodState& state) {
+    return has_memory_ ? state : periodic_near(state).value_or(state);
+  }
+
   void add_returns(SettledMotion& result) {
     if (!result.integrated()) return;
     return_limit_ = map_.operations() + options_.max_operations;
@@ -195,7 +200,7 @@ class Settling {
       result.cancelled = !goes_on(options_.observer,
                                   {"settling", result.periods, change, "relative change per period", 1.0});
       if (result.cancelled) return;
-      const PeriodState state = periodic_near(states_[k]).value_or(states_[k]);
+      const PeriodState state = periodic_or_near(states_[k]);
       const bool known = std::any_of(found.begin(), found.end(),
                                      [&](const auto& one) { return distance(one, state) <= same; });
       if (known) continue;

@@ -202,9 +202,15 @@ void Condensation::condense(const StiffnessSpectrum& factors, const StiffnessSpe
   condense_by_method(factors, derivatives, result, load);
   constexpr double largest_modal_error = 1e-8;
   if (!structure_ || !(rounding_.load_response > largest_modal_error)) return;
+  const double modal_error = rounding_.load_response;
   chosen_ = elimination(*structure_);
-  method_ = make_method(*std::exchange(structure_, nullptr), chosen_, symmetric_);
+  MethodPointer modal = std::exchange(method_, make_method(*structure_, chosen_, symmetric_));
+  structure_.reset();
   method_->set_threads(threads_);
+  condense_by_method(factors, derivatives, result, load);
+  if (rounding_.load_response < modal_error) return;
+  method_ = std::move(modal);
+  chosen_ = CondensationMethod::modal;
   condense_by_method(factors, derivatives, result, load);
 }
 

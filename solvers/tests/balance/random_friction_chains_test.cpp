@@ -1,5 +1,5 @@
-// Random chains of one to ten contacts that open and rub: most have a response, and every response is a
-// motion that integration in time leads back to itself after a period.
+// Random chains of one to ten contacts that open and rub: nine in ten have a response, and every response is
+// a motion that integration in time leads back to itself after a period.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -15,6 +16,7 @@
 #include "period/modal_map.hpp"
 #include "support/friction_scenes.hpp"
 #include "support/small_problems.hpp"
+#include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
@@ -82,6 +84,19 @@ double distance_after_a_period(const FrictionScene& scene, CondensedProblem& pro
   return (period.state.motion - begin.motion).norm() / begin.motion.norm();
 }
 
+// The same of 127 functions and 1024 points, from the motion of fewer on; infinite where none is found.
+double finer_distance(const FrictionScene& scene, const PeriodicResponse& coarse, int points) {
+  constexpr int functions = 127, finer_points = 1024;
+  CondensedProblem problem(testing::fourier_pair(functions, finer_points), scene.structure,
+                           testing::cosine_load());
+  problem.set_frequency(scene.frequency());
+  const Eigen::MatrixXd by_contact = coarse.displacement.reshaped(points, problem.contacts()).transpose();
+  const PeriodicResponse finer =
+      forced_response(problem, scene.contact_laws(), {}, resample(by_contact, finer_points, 0.0));
+  return finer.converged() ? distance_after_a_period(scene, problem, finer)
+                           : std::numeric_limits<double>::infinity();
+}
+
 TEST(RandomFrictionChains, HaveResponsesThatRepeatAfterAPeriod) {
   constexpr double same =
       0.05;  // of the state: the error of 31 functions, which an unstable motion multiplies
@@ -105,13 +120,17 @@ TEST(RandomFrictionChains, HaveResponsesThatRepeatAfterAPeriod) {
     }
     ++solved;
     ++strategies[std::string(to_string(response.strategy))];
-    const double distance = distance_after_a_period(scene, problem, response);
+    double distance = distance_after_a_period(scene, problem, response);
+    if (distance >= same) {
+      std::printf("seed %d: distance %.1e with 31 functions\n", seed, distance);
+      distance = finer_distance(scene, response, problem.points());
+    }
     worst = std::max(worst, distance);
     EXPECT_LT(distance, same) << seed << ", " << scene.laws.size() << " contacts";
   }
   for (const auto& [strategy, times] : strategies) std::printf("%s: %d\n", strategy.c_str(), times);
   std::printf("%d of %d solved, the longest in %.1f s, worst distance %.1e\n", solved, count, longest, worst);
-  EXPECT_GE(4 * solved, 3 * count);
+  EXPECT_GE(10 * solved, 9 * count);
 }
 
 }  // namespace

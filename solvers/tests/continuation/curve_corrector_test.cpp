@@ -36,6 +36,21 @@ class Circle {
   double u_ = 0.0, p_ = 0.0, determinant_ = 0.0;
 };
 
+/// A circle whose radius is known up to a rounding that differs from one parameter to the next.
+class RoundedCircle : public Circle {
+ public:
+  double evaluate(const CurvePoint& at, const Pieces* pieces) {
+    Circle::evaluate(at, pieces);
+    const double rounding = 1e-9 * std::sin(1e16 * at.parameter);
+    rounded_ = Circle::residual() + Eigen::VectorXd::Constant(1, rounding);
+    return std::abs(rounded_[0]);
+  }
+  const Eigen::VectorXd& residual() const { return rounded_; }
+
+ private:
+  Eigen::VectorXd rounded_;
+};
+
 CurvePoint at_the_top() {
   CurvePoint point;
   point.displacement = Eigen::VectorXd::Ones(1);
@@ -72,6 +87,17 @@ TEST(CurveCorrector, FindsPointsBetweenAndRefusesWhereNoneIs) {
   EXPECT_NEAR(point.parameter, std::sqrt(0.5), 1e-12);
   EXPECT_FALSE(corrector.between(at_the_top(), to, 0.5, 0.99 * aside, point, corrections));
   EXPECT_FALSE(corrector.correct(at_the_top(), 1.5, nullptr, point, corrections));
+}
+
+TEST(CurveCorrector, SolvesAtOneParameterWhatRoundsDifferentlyAtEach) {
+  CurveCorrector<RoundedCircle> corrector{RoundedCircle()};
+  CurvePoint point = at_the_top(), next;
+  int corrections = 0;
+  for (int step = 0; step < 5; ++step) {
+    ASSERT_TRUE(corrector.correct(point, 0.15, nullptr, next, corrections)) << step;
+    EXPECT_NEAR(std::hypot(next.displacement[0], next.parameter), 1.0, 1e-9);
+    point = next;
+  }
 }
 
 TEST(CurveCorrector, StepsAreHalvedUntilOneIsTakenOrLost) {

@@ -185,6 +185,44 @@ TEST(CondensationRounding, ReplacesTheModalSumWhereItLosesTheContactFreeResponse
             1e-13 * double(std::abs(exact(0, 1))));
 }
 
+// A clamped beam of short elements: the rounding of its stiffness is that of its first mode times the fourth
+// power of their number, to which an elimination adds its own.
+LinearStructure finely_divided_beam(int elements) {
+  const double length = 1.0 / elements;
+  Eigen::Matrix4d bending, inertia;
+  bending << 12, 6, -12, 6, 6, 4, -6, 2, -12, -6, 12, -6, 6, 2, -6, 4;
+  inertia << 156, 22, 54, -13, 22, 4, 13, -3, 54, 13, 156, -22, -13, -3, -22, 4;
+  const int size = 2 * elements;  // displacement and rotation times the length of an element
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size + 2, size + 2), mass = stiffness;
+  for (int e = 0; e < elements; ++e) {
+    stiffness.block<4, 4>(2 * e, 2 * e) += bending / std::pow(length, 3);
+    mass.block<4, 4>(2 * e, 2 * e) += inertia * length / 420.0;
+  }
+  LinearStructure s;
+  s.stiffness = stiffness.bottomRightCorner(size, size).sparseView();
+  s.mass = mass.bottomRightCorner(size, size).sparseView();
+  s.damping = 1e-3 * s.stiffness;
+  s.load = Eigen::VectorXd::Unit(size, size - 2);
+  s.contact_directions = contact_rows({elements}, size);
+  return s;
+}
+
+TEST(CondensationRounding, KeepsTheModalSumWhereAnEliminationLosesMore) {
+  const LinearStructure beam = finely_divided_beam(160);
+  const StiffnessSpectrum factors = spectrum_of(4, 3.5);
+  const Eigen::VectorXcd cosine = Eigen::VectorXcd::Unit(4, 1);
+  CondensedSpectrum result, expected;
+  Condensation chosen(beam), modal(beam, CondensationMethod::modal), sparse(beam, CondensationMethod::sparse);
+  chosen.condense(factors, factors, result, cosine);
+  sparse.condense(factors, factors, expected, cosine);
+  modal.condense(factors, factors, expected, cosine);
+  EXPECT_GT(modal.rounding().load_response, 1e-8);
+  EXPECT_GT(sparse.rounding().load_response, modal.rounding().load_response);
+  EXPECT_EQ(chosen.method(), CondensationMethod::modal);
+  EXPECT_EQ(chosen.rounding().load_response, modal.rounding().load_response);
+  EXPECT_EQ(result.load_response, expected.load_response);
+}
+
 // The modal sum also takes the coupling of the damping off its diagonal as zero, up to 1e-8.
 TEST(CondensationRounding, ErrorsOfTheModalSumHoldTheDampingThatItLeavesOut) {
   LinearStructure chain = weakly_coupled(6, 1e-3, 0, true);

@@ -57,8 +57,10 @@ enum class GrazingEvents {
 struct ArcLengthOptions {
   double displacement_scale = 1.0;  ///< m: an rms change of u of this size is an arc length of 1
   double parameter_scale = 1.0;     ///< a change of p of this size is an arc length of 1
-  /// At each point lengths are measured by how its contacts vibrate: by the rms of each less its mean,
-  /// between this share of displacement_scale and all of it. 1: by displacement_scale everywhere. In (0, 1].
+  /// At each point lengths are measured by how its contacts vibrate: by the rms of each less its mean, at
+  /// least by this share of displacement_scale. Laws of one instant change over a gap: displacement_scale is
+  /// then the most. Friction changes over how far it slips, which has no bound. 1: by displacement_scale
+  /// everywhere. In (0, 1].
   double least_scale = 1.0;
   double initial_step = 0.02;  ///< scaled arc length
   double min_step = 1e-3;      ///< scaled arc length of a long step; within a piece steps may be 1e-4 of it

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <utility>
 
 namespace wavebalance::solvers {
@@ -102,26 +103,37 @@ class CurveCorrector {
   }
 
   /// Newton's method on R = 0 in the plane from `point` on, on the smooth continuation of one piece when it
-  /// is given.
+  /// is given. Where the residual does not fall and the parameter hardly changes, the parameter is held: the
+  /// matrices of R round differently from one parameter to the next, and at one of them not at all.
   bool solve_in(const CurvePlane& plane, const Pieces* pieces, CurvePoint& point, int& corrections) {
+    constexpr double near = 1e-8, falls = 0.1;  // near: scaled arc length
+    const double least_change = near * std::sqrt(curve_.squared_parameter_scale());
+    bool held = false;
     double parameter_change = 0.0;
     const int most = curve_.max_corrections(pieces != nullptr);
-    for (corrections = 0; corrections <= most; ++corrections) {
-      point.residual = curve_.evaluate(point, pieces);
-      if (!std::isfinite(point.residual)) return false;
-      const double miss = plane.miss(point);
-      if (point.residual <= curve_.tolerance() && std::abs(miss) <= plane.tolerance) return true;
-      if (!curve_.solve_bordered(plane.row, plane.parameter, curve_.residual(), miss, change_,
+    point.residual = curve_.evaluate(point, pieces);
+    for (corrections = 0; corrections <= most && std::isfinite(point.residual); ++corrections) {
+      const double miss = plane.miss(point), before = point.residual;
+      if (before <= curve_.tolerance() && (held || std::abs(miss) <= plane.tolerance)) return true;
+      const CurvePlane in = held ? at_parameter(point) : plane;
+      if (!curve_.solve_bordered(in.row, in.parameter, curve_.residual(), in.miss(point), change_,
                                  parameter_change))
         return false;
-      if (!take_change(pieces, parameter_change, point)) return false;
+      take_change(pieces, held ? 0.0 : parameter_change, point);
+      held = held || (std::abs(parameter_change) <= least_change && std::abs(plane.miss(point)) <= near &&
+                      point.residual > falls * before);
     }
     return false;
   }
 
+  static CurvePlane at_parameter(const CurvePoint& point) {
+    return {Eigen::VectorXd::Zero(point.displacement.size()), 1.0, point.parameter, 0.0};
+  }
+
   /// Takes the whole change, or of equations without known pieces a part of it that lowers the residual: such
-  /// a force changes its slopes from sample to sample, among which whole steps may cycle.
-  bool take_change(const Pieces* pieces, double parameter_change, CurvePoint& point) {
+  /// a force changes its slopes from sample to sample, among which whole steps may cycle. Evaluates the
+  /// point.
+  void take_change(const Pieces* pieces, double parameter_change, CurvePoint& point) {
     bool damped = false;
     if constexpr (requires { curve_.lowers_residual(); }) damped = curve_.lowers_residual();
     constexpr double least = 1.0 / 64.0;
@@ -129,7 +141,8 @@ class CurveCorrector {
     for (double share = 1.0;; share *= 0.5) {
       point.displacement = from.displacement - share * change_;
       point.parameter = from.parameter - share * parameter_change;
-      if (!damped || share <= least || curve_.evaluate(point, pieces) < from.residual) return true;
+      point.residual = curve_.evaluate(point, pieces);
+      if (!damped || share <= least || point.residual < from.residual) return;
     }
   }
 
