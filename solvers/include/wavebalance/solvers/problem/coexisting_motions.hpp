@@ -59,9 +59,9 @@ struct CoexistingMotions {
 };
 
 /// The periodic motions at a frequency of the load: those that the structure settles to from rest and from
-/// random states, and unstable ones between them. The states are uniform in a box of the modes. Its half
-/// sides are twice the largest displacements and velocities of the motion settled to from rest, and of the
-/// motion without contact, enlarged until it reaches a gap. Each motion is solved for by contact phases, so
+/// random states, and unstable ones between them. The states are uniform in a box of the modes around the
+/// static deflection, of half sides twice the largest displacements and velocities of the settled motion
+/// and of that without contact, enlarged until it reaches a gap. Motions are solved for by contact phases, so
 /// that two are the same where their displacements agree to 1e-6, also by whole periods of the load later.
 ///
 /// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
