@@ -62,7 +62,8 @@ class Sweep {
         evaluator_(problem.pair().trial(), options.output_points, 0) {}
 
   FrequencySweep run() {
-    if (parameter_ == SweepParameter::frequency)
+    // Friction damps the superharmonics that it excites.
+    if (parameter_ == SweepParameter::frequency && !laws_.act_over_period())
       bounded_ = detail::BandwidthSteps::make(problem_, std::abs(options_.to - options_.from));
     // Whether long steps pass a narrow undamped resonance depends on where they end, so other lengths are
     // tried.
