@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
+#include <vector>
 
 #include "linalg/dense.hpp"
 #include "phases/phase_count.hpp"
@@ -33,6 +35,56 @@ int count_with_friction(const PhaseMotion& motion, int max_evaluations) {
   return count.status == StabilityStatus::converged ? count.count : -1;
 }
 
+// How fast a perturbation of a closed contact turns or decays, in rad per period: by the contact's own mass
+// and the largest slopes of its law on a part of a phase.
+double perturbation_rate(const PhaseMotion::Parts& parts, int phase, double begin, double end) {
+  const int contact = parts.iterate.layout.phases[static_cast<std::size_t>(phase)].contact;
+  const detail::PoleResponse& response = parts.model.response;
+  const double acceleration = response.acceleration_at_once(contact);
+  double rate = 0.0;
+  for (const double share : {0.01, 0.25, 0.5, 0.75, 0.99}) {
+    const double time = begin + share * (end - begin);
+    const double slope = std::abs(parts.tangent.in_phase(phase, time));
+    const double stiffness = slope / (1.0 + slope * response.displacement_at_once(contact));
+    const double damping = std::abs(parts.damping.in_phase(phase, time)) * parts.model.frequency;
+    rate = std::max(rate, std::sqrt(stiffness * acceleration) + damping * acceleration);
+  }
+  return rate;
+}
+
+// The motion with its phases cut into panels that resolve perturbations, which may move faster than it does:
+// at most one radian a node. Nothing where they would be too many.
+std::optional<detail::PhaseIterate> resolving_perturbations(const PhaseMotion::Parts& parts) {
+  constexpr double most_unknowns = 4000.0;
+  detail::PhaseIterate result = parts.iterate;
+  const auto q = double(parts.nodes.count());
+  double unknowns = 0.0;
+  for (std::size_t i = 0; i < result.layout.phases.size(); ++i) {
+    detail::Phase& phase = result.layout.phases[i];
+    const double begin = result.layout.begin(phase), length = result.layout.end(phase) - begin;
+    std::vector<double> ends = phase.cuts, cuts;
+    ends.push_back(1.0);
+    double from = 0.0;
+    for (const double to : ends) {
+      const double rate =
+          perturbation_rate(parts, static_cast<int>(i), begin + from * length, begin + to * length);
+      const double pieces = std::max(1.0, std::ceil(rate * (to - from) * length / q));
+      if ((unknowns += pieces * q) > most_unknowns) return std::nullopt;
+      for (double k = 1.0; k <= pieces; ++k)
+        cuts.push_back(k < pieces ? from + (to - from) * k / pieces : to);
+      from = to;
+    }
+    cuts.pop_back();
+    phase.cuts = std::move(cuts);
+  }
+  return result;
+}
+
+std::optional<detail::PeriodMap> map_of(const PhaseMotion::Parts& parts) {
+  const std::optional<detail::PhaseIterate> iterate = resolving_perturbations(parts);
+  return iterate ? detail::period_map(parts.model, *iterate, parts.nodes) : std::nullopt;
+}
+
 }  // namespace
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
@@ -55,7 +107,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
   if (!friction.empty()) return multipliers_with_friction(*this, max_states);
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
   if (!parts->iterate.forces.panels().empty()) {
-    const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);
+    const auto map = map_of(*parts);
     const bool computed = map && map->free.rows() <= max_states && map->unknowns_by.allFinite();
     values = computed ? detail::eigenvalues(map->all()) : Eigen::VectorXcd();
   }
@@ -69,7 +121,7 @@ int PhaseMotion::count_unstable(int max_evaluations) const {
   if (!friction.empty()) return count_with_friction(*this, max_evaluations);
   if (parts->iterate.forces.panels().empty())
     return static_cast<int>((parts->model.response.free_multipliers().array().abs() > 1.0).count());
-  const auto map = detail::period_map(parts->model, parts->iterate, parts->nodes);
+  const auto map = map_of(*parts);
   return map && map->unknowns_by.allFinite() ? detail::count_unstable(*map, max_evaluations) : -1;
 }
 

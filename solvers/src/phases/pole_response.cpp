@@ -37,6 +37,10 @@ PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : con
   jump_ = (jump_.array().abs() > rounding * size.array()).select(jump_, 0.0);
 }
 
+double PoleResponse::acceleration_at_once(int c) const {
+  return std::abs(weights(c, c).cwiseProduct(exponents_).sum().real());
+}
+
 Eigen::VectorXcd PoleResponse::weights(int displaced, int forced) const {
   return shapes_.row(displaced).cwiseProduct(left_.row(forced)).transpose();
 }

@@ -90,6 +90,8 @@ class PoleResponse {
   /// period.
   double displacement_at_once(int c) const { return constant_(c, c); }
   double velocity_at_once(int c) const { return jump_(c, c); }
+  /// With mass the acceleration, m per period squared, its size.
+  double acceleration_at_once(int c) const;
 
   /// Keeps a reference to the nodes. O(cells poles q).
   std::shared_ptr<const PeriodCells> cells(const CellGrid& grid, const LegendreNodes& nodes) const;

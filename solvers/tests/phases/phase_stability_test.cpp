@@ -90,6 +90,33 @@ TEST(PhaseMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
   expect_same(monodromy(dynamics, contact_stiffness(motion), 0.2), expected, 2e-8);
 }
 
+// A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. On the
+// panels of the motion alone multipliers appeared that the structure does not have.
+TEST(PhaseMultipliers, OfAContactThatStaysClosedAreExponentialsHoweverFastItIs) {
+  LinearStructure structure;
+  const auto scalar = [](double value) {
+    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
+  };
+  structure.mass = structure.stiffness = structure.contact_directions = scalar(1.0);
+  structure.damping = scalar(0.1);
+  structure.load = Eigen::VectorXd::Constant(1, 0.1);
+  for (const double damping : {0.0, 3.0, 30.0}) {
+    constexpr double stop = 4e4, frequency = 1.0;
+    SCOPED_TRACE(damping);
+    const ContactDynamics dynamics(structure);
+    const PhaseMotion motion = motion_of(
+        structure, ContactLaws(AnyContactLaw(DampedStop{stop, damping, -1.0})), frequency, dynamics);
+    ASSERT_TRUE(motion.converged());
+    ASSERT_EQ(motion.phases.size(), 1u);
+    const double decay = 0.5 * (0.1 + damping);
+    const std::complex<double> turn = std::sqrt(std::complex<double>(decay * decay - stop - 1.0));
+    const Eigen::VectorXcd expected{
+        {std::exp((-decay + turn) / frequency), std::exp((-decay - turn) / frequency)}};
+    expect_same(motion.multipliers(), expected, 1e-9);
+    EXPECT_EQ(motion.count_unstable(), 0);
+  }
+}
+
 // The other map projects perturbations where contact begins and holds the contacts until it ends.
 TEST(PhaseMultipliers, OfRigidContactAreThoseOfHeldContacts) {
   const LinearStructure structure = with_massless_contacts(0.3);
