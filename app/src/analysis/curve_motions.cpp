@@ -23,30 +23,28 @@ class MotionsOfCurve {
 
   CurveMotion peak() {
     const solvers::SweepPoint& highest = sweep_.curve.points[peak_of(sweep_.curve)];
-    return measured("peak", parameter_of(highest, sweep_.curve.parameter), highest.unknown, true);
+    return measured("peak", parameter_of(highest, sweep_.curve.parameter), highest.unknown);
   }
 
   CurveMotion special(std::size_t index) {
     const auto& point = sweep_.stability.special_points[index];
-    return measured(std::string(to_string(point.type)), point.unknown_parameter, point.unknown, true);
+    return measured(std::string(to_string(point.type)), point.unknown_parameter, point.unknown);
   }
 
   /// At a frequency or amplitude of the load.
   std::vector<CurveMotion> at_place(double place) {
     std::vector<CurveMotion> motions;
     for (const auto& response : problem_.responses_at(sweep_.curve, place))
-      motions.push_back(
-          measured(over_amplitude_ ? "amplitude" : "frequency", place, response, scene_.analysis.phases));
+      motions.push_back(measured(over_amplitude_ ? "amplitude" : "frequency", place, response));
     return motions;
   }
 
  private:
-  CurveMotion measured(std::string at, double value, const Eigen::VectorXd& unknown, bool with_phases) {
-    return measured(std::move(at), value, problem_.response(sweep_.curve, value, unknown), with_phases);
+  CurveMotion measured(std::string at, double value, const Eigen::VectorXd& unknown) {
+    return measured(std::move(at), value, problem_.response(sweep_.curve, value, unknown));
   }
 
-  CurveMotion measured(std::string at, double place, const solvers::PeriodicResponse& response,
-                       bool with_phases) {
+  CurveMotion measured(std::string at, double place, const solvers::PeriodicResponse& response) {
     CurveMotion motion;
     motion.at = std::move(at);
     motion.place = place;
@@ -58,8 +56,7 @@ class MotionsOfCurve {
       motion.structure = problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
     if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.phases)) return motion;
-    std::optional<solvers::ResponsePhases> near;
-    if (with_phases) near = solvers::near_phases(problem_, response);
+    std::optional<solvers::ResponsePhases> near = solvers::near_phases(problem_, response);
     if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0};
     if (scene_.analysis.stability)
       motion.stability = problem_.stability(response, near ? &near->motion : nullptr);
