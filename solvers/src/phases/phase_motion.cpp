@@ -53,11 +53,11 @@ double perturbation_rate(const PhaseMotion::Parts& parts, int phase, double begi
 }
 
 // The motion with its phases cut into panels that resolve perturbations, which may move faster than it does:
-// at most one radian a node. Nothing where they would be too many.
+// at most one radian a node. Nothing where cuts would make too many.
 std::optional<detail::PhaseIterate> resolving_perturbations(const PhaseMotion::Parts& parts) {
-  constexpr double most_unknowns = 4000.0;
   detail::PhaseIterate result = parts.iterate;
   const auto q = double(parts.nodes.count());
+  const double most_unknowns = std::max(4000.0, q * double(parts.iterate.forces.panels().size()));
   double unknowns = 0.0;
   for (std::size_t i = 0; i < result.layout.phases.size(); ++i) {
     detail::Phase& phase = result.layout.phases[i];

@@ -20,8 +20,8 @@ struct CurveMotion {
   int contact = 0;              ///< the leading one, see leading_contact()
   Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
-  /// At the peak and special points, and with analysis.phases at places asked for; where it is not empty, the
-  /// stability is that of the motion found, or not known where there is none near.
+  /// With analysis.stability or analysis.phases; where it is not empty, the stability is that of the motion
+  /// found, or not known where there is none near.
   SweepPhases::Point phases;
   /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
   std::optional<solvers::ResponsePhases> near;

@@ -112,8 +112,8 @@ class PhaseMotion {
   double damping(int contact, double time) const;
 
   /// The Floquet multipliers of the motion, by falling modulus; those below rounding are left out.
-  /// Perturbations satisfy the equations of the motion, linearized at the same nodes and instants. Rigid
-  /// contact has them, too. Empty where they are not found, or with more than max_states. O(s^3 + s n^2 +
+  /// Perturbations satisfy the linearized equations, on panels cut to what they need. Rigid contact has them,
+  /// too. Empty where they are not found, need too many panels, or with more than max_states. O(s^3 + s n^2 +
   /// n^3) for n unknowns and s states of the structure, of which those count that the longest flight without
   /// contact leaves.
   Eigen::VectorXcd multipliers(int max_states = 400) const;
