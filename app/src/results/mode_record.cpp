@@ -25,12 +25,20 @@ namespace {
 using solvers::ModePoint;
 using solvers::ModeStatus;
 
-/// The largest of a number over the accepted points.
+/// Whether the curve comes to its end along an internal resonance, whose points are then those of the mode.
+bool ends_on_resonance(const Backbone& curve) {
+  return curve.complete && !curve.points.empty() &&
+         curve.points.back().status == ModeStatus::internal_resonance;
+}
+
+/// The largest of a number over the points of the mode.
 template <class Number>
 double largest(const Backbone& curve, Number number) {
+  const bool resonant = ends_on_resonance(curve);
   double value = missing;
   for (const ModePoint& point : curve.points)
-    if (point.accepted()) value = std::fmax(value, number(point));
+    if (point.accepted() || (resonant && point.status == ModeStatus::internal_resonance))
+      value = std::fmax(value, number(point));
   return value;
 }
 
@@ -157,6 +165,13 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   return record;
 }
 
+/// Whether a point is a motion of the energy asked for, on an internal resonance or not.
+bool is_motion_of(const ModePoint& point, double energy_ratio) {
+  constexpr double same = 1e-8;
+  return point.accepted() || (point.status == ModeStatus::internal_resonance &&
+                              std::abs(point.energy_ratio / energy_ratio - 1.0) <= same);
+}
+
 Record motion_record(const ModeStudy& study) {
   const Scene& scene = study.scene();
   const auto start = std::chrono::steady_clock::now();
@@ -165,11 +180,13 @@ Record motion_record(const ModeStudy& study) {
   response.contacts = study.contact_motion(point, scene.analysis.output_points);
   response.contact = leading_contact(response.contacts, study.model().gaps);
   response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const bool moves = point.accepted() && !response.contacts.empty();
+  const bool found = is_motion_of(point, scene.analysis.energy_ratio);
+  const bool moves = found && !response.contacts.empty();
+  const bool resonant = point.status == ModeStatus::internal_resonance;
   Record record;
-  record.converged = response.converged = point.accepted();
-  record.status = to_string(point.status);
-  if (point.status == ModeStatus::internal_resonance) record.status += " " + resonance_name(point.resonance);
+  record.converged = response.converged = found;
+  record.status = found && resonant ? "converged" : std::string(to_string(point.status));
+  if (resonant && !found) record.status += " " + resonance_name(point.resonance);
   if (point.status == ModeStatus::no_contact) {
     const Backbone curve = study.backbone(scene.analysis.energy_ratio);
     record.status += curve.early_end.empty() ? ": no neighbouring points of the curve enclose the energy"
@@ -185,6 +202,13 @@ Record motion_record(const ModeStudy& study) {
   record.summary.emplace_back(quantities::rayleigh_frequency_ratio,
                               moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
   record.summary.emplace_back(quantities::energy_ratio, moves ? point.energy_ratio : missing);
+  if (found && resonant) {
+    record.summary.emplace_back(quantities::tongues, resonance_name(point.resonance));
+    record.warnings.push_back(fmt::format(
+        "The motion lies on the internal resonance {}, in which mode {} has {:.0f} % of the kinetic energy: the "
+        "curve of the mode goes along it, and no motion off the resonance was found beyond.",
+        resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share));
+  }
   append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
                  moves ? point.virial_residual : missing);
   if (!moves) return record;

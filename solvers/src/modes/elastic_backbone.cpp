@@ -141,16 +141,27 @@ std::optional<BackboneStatus> ModeFollower::step() {
   const CurveState last = state_;
   bridged_ = false;
   if (!curve_.advance(state_)) {
+    if (on_resonance_) return BackboneStatus::internal_resonance;
     if (!pass_resonance()) return result_.points.empty() ? BackboneStatus::no_start : BackboneStatus::lost;
   } else {
     before_ = last;
     before_energy_ = energy_;
   }
   ModePoint point = measure(state_.iterations);
-  if (point.status == ModeStatus::internal_resonance) {
-    result_.points.push_back(std::move(point));
-    if (!pass_resonance()) return BackboneStatus::internal_resonance;
-    point = measure(state_.iterations);
+  if (point.status != ModeStatus::internal_resonance) {
+    on_resonance_ = false;
+  } else if (!on_resonance_) {
+    const CurveState here = state_;
+    result_.points.push_back(point);
+    if (pass_resonance()) {
+      point = measure(state_.iterations);
+    } else {
+      // No motion lies beyond: the curve itself goes on along the resonance.
+      on_resonance_ = true;
+      result_.points.pop_back();
+      state_ = here;
+      curve_.restart();
+    }
   }
   const auto end = end_at(point);
   keep(std::move(point));

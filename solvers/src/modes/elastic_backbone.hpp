@@ -44,6 +44,7 @@ class ModeFollower {
   double highest_ = 0.0;                       // frequency of the points accepted, over omega_m
   double energy_ = 1.0, before_energy_ = 1.0;  // energy ratios of state_ and before_
   bool bridged_ = false;                       // the last step was no arc length
+  bool on_resonance_ = false;                  // of the last point, beyond which no other motion was found
   ElasticBackbone result_;
 };
 

@@ -116,10 +116,11 @@ bool ModeCurve::advance(CurveState& state) {
 }
 
 bool ModeCurve::leap(CurveState& state, const std::function<bool()>& accepts) {
-  constexpr double longest = 1.0;
+  // A chord much longer than the step leads aside, to another curve.
+  constexpr double longest = 1.0, most_chord = 1.2;
   CurveState next;
   for (double length = 2.0 * options_.initial_step; length <= longest; length *= 1.5) {
-    if (!correct(state, length, next)) continue;
+    if (!correct(state, length, next) || distance(state, next) > most_chord * length) continue;
     curve().evaluate(next, nullptr);
     if (!accepts()) continue;
     last_step_ = length;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -329,6 +330,30 @@ TEST(ElasticMode, InternalResonanceBesideTheLinearFrequencyIsPassed) {
   const ModePoint& last = curve.points.back();
   EXPECT_EQ(last.status, ModeStatus::converged);
   EXPECT_GT(last.omega, 1.05 * mode.linear_omega());
+}
+
+// A chain of four masses with omega_2 = 2.086 omega_1. The frequency ratios are those of shooting on the
+// event-driven flow, a program of its own.
+TEST(ElasticMode, GoesAlongAnInternalResonanceThatNoMotionLiesBeyond) {
+  Eigen::Matrix4d stiffness{{8327.56, -3352.706, 0.0, 0.0},
+                            {-3352.706, 5609.372, -2256.666, 0.0},
+                            {0.0, -2256.666, 3417.922, -1161.256},
+                            {0.0, 0.0, -1161.256, 1161.256}};
+  const Eigen::Matrix4d mass = Eigen::Vector4d(1.5721635, 1.7891257, 0.7152621, 1.1018919).asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix4d> modes(stiffness, mass);
+  const double gap = 0.734738e-3;
+  const ModalModel model{modes.eigenvalues(), modes.eigenvectors().row(3), Eigen::VectorXd::Constant(1, gap)};
+  const ElasticMode mode(model, fourier_pair(61, 512), LinearContact{3947.904, gap});
+  for (const auto& [energy, ratio] : {std::pair{2.0, 1.024191}, std::pair{4.0, 1.031834}}) {
+    const ModePoint point = mode.at_energy(energy, far(energy));
+    EXPECT_EQ(point.status, ModeStatus::internal_resonance);
+    EXPECT_EQ(point.resonance.harmonic, 2);
+    EXPECT_EQ(point.resonance.mode, 2);
+    EXPECT_NEAR(point.energy_ratio, energy, 1e-9 * energy);
+    EXPECT_NEAR(point.omega / mode.linear_omega(), ratio, 1e-5);
+    EXPECT_LT(point.virial_residual, 1e-9);
+  }
+  EXPECT_EQ(mode.backbone(far(4.0)).status, BackboneStatus::reached_energy);
 }
 
 TEST(ElasticMode, BackboneSaysWhereItEnds) {

@@ -49,7 +49,7 @@ struct ElasticBackboneOptions {
 enum class BackboneStatus {
   reached_energy,      ///< at max_energy
   reached_frequency,   ///< at max_frequency_ratio or min_frequency_ratio, below max_energy
-  internal_resonance,  ///< on an internal resonance that no step passed
+  internal_resonance,  ///< on an internal resonance that no step passed, and along which it was lost
   lost,                ///< no further point was found
   no_start,            ///< no point was found beside the linear mode
   point_limit,         ///< after max_points
@@ -103,8 +103,9 @@ class ElasticMode {
   /// The curve from the linear mode on. Throws as the options' validate() does.
   ElasticBackbone backbone(const ElasticBackboneOptions& options = {}) const;
   /// The motion of an energy ratio: the linear mode up to 1 if there is contact beyond it only, else a point
-  /// of the curve that backbone() follows up to there. Status no_contact where the curve ends before, and
-  /// internal_resonance where it passes that energy on a resonance alone.
+  /// of the curve that backbone() follows up to there. Status no_contact where the curve ends before;
+  /// internal_resonance on a resonance along which the curve goes and, with another energy, where the curve
+  /// passes the one asked for between two points across a resonance.
   ModePoint at_energy(double energy_ratio, ElasticBackboneOptions options = {},
                       double tolerance = 1e-10) const;
 
