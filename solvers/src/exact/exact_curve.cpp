@@ -75,23 +75,35 @@ class Tracer {
 
   // The next point, if it lies where it is expected.
   std::optional<PathPoint> corrected() {
-    constexpr double near = 0.05, farthest = 0.25, longest = 2.5, sharper = 0.3;
+    constexpr double sharper = 0.3;
     const PathPoint& last = points_.back();
     // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
-    const bool smooth =
-        points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place);
-    Prediction expected = smooth ? detail::through(neighbours(), last.place + step_)
-                                 : detail::along_tangent(last, step_, model_.speed(last));
+    if (points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place))
+      return near(detail::through(neighbours(), last.place + step_));
+    // A tangent says how forces, instants and the parameter change, and not by how much the displacement
+    // does.
+    const double speed = model_.speed(last);
+    std::optional<PathPoint> next = near(detail::along_tangent(last, step_, speed));
+    if (!next && arc_ > step_) next = near(detail::along_tangent(last, step_ * step_ / arc_, speed));
+    return next;
+  }
+
+  // The solution near a prediction. Sets arc_, its distance from the last point; 0 where there is none.
+  std::optional<PathPoint> near(Prediction expected) {
+    constexpr double close = 0.05, farthest = 0.25, longest = 2.5;
+    const PathPoint& last = points_.back();
+    arc_ = 0.0;
     if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
     const Held held = model_.fastest(last, true);
     if (held.kind != Held::Kind::force) expected.iterate = model_.coarser(last, std::move(expected.iterate));
     std::optional<PathPoint> next =
-        model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
+        model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, expected, held));
     if (!next) return std::nullopt;
-    const double off = model_.distance(expected, *next), arc = model_.arc_length(last, *next);
-    if (off > farthest * step_ || arc > longest * step_) return std::nullopt;
-    growth_ = off < near * step_ ? 1.5 : 1.0;
-    next->place = last.place + arc;
+    const double off = model_.distance(expected, *next);
+    arc_ = model_.arc_length(last, *next);
+    if (off > farthest * step_ || arc_ > longest * step_) return std::nullopt;
+    growth_ = off < close * step_ ? 1.5 : 1.0;
+    next->place = last.place + arc_;
     return next;
   }
 
@@ -186,7 +198,7 @@ class Tracer {
   const PathModel& model_;
   const ExactCurveOptions& options_;
   ExactCurve& curve_;
-  double step_, growth_ = 1.5;
+  double step_, growth_ = 1.5, arc_ = 0.0;
   std::deque<PathPoint> points_;
 };
 

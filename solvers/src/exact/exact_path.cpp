@@ -15,8 +15,19 @@ namespace {
 // much of the largest one.
 constexpr double passage_scale = 0.05, force_scale = 0.5;
 
+// Instants of contact that move much faster than all else count in the length of a step by this share.
+constexpr double passage_share = 0.2;
+
 // At least so many instants of a period at which motions are held against their phases.
 constexpr Index samples = 256;
+
+// How far a passage has moved, periods.
+double farthest_passage(const Layout& from, const Layout& to) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < std::min(from.passages.size(), to.passages.size()); ++i)
+    farthest = std::max(farthest, std::abs(to.passages[i].time - from.passages[i].time));
+  return farthest;
+}
 
 double vibration_of(const Eigen::MatrixXd& displacement) {
   return rms_of(displacement.colwise() - displacement.rowwise().mean());
@@ -65,7 +76,8 @@ PathModel::PathModel(const PhaseFamily& family, const PhaseMotion& first, const 
 double PathModel::arc_length(const PathPoint& from, const PathPoint& to) const {
   const double vibration = std::max(vibration_, from.vibration);
   const double moved = rms_of(to.displacement - from.displacement) / vibration;
-  return std::hypot(moved, (to.value - from.value) / parameter_scale_);
+  return std::max(std::hypot(moved, (to.value - from.value) / parameter_scale_),
+                  passage_share * farthest_passage(from.iterate.layout, to.iterate.layout) / passage_scale);
 }
 
 Held PathModel::fastest(const PathPoint& at, bool parameter) const {
@@ -98,13 +110,19 @@ double PathModel::sign_of(const PathPoint& at, const Held& held) const {
   return at.motion_of(held) < 0.0 ? -1.0 : 1.0;
 }
 
-double PathModel::distance(const Prediction& expected, const PathPoint& found) const {
-  double farthest = std::abs(found.value - expected.value) / parameter_scale_;
-  for (std::size_t i = 0; i < expected.iterate.layout.passages.size(); ++i) {
-    const double moved = found.iterate.layout.passages[i].time - expected.iterate.layout.passages[i].time;
-    farthest = std::max(farthest, std::abs(moved) / passage_scale);
+double PathModel::sign_of(const PathPoint& at, const Prediction& expected, const Held& held) const {
+  double change = 0.0;
+  if (held.kind == Held::Kind::parameter) change = expected.value - at.value;
+  if (held.kind == Held::Kind::passage) {
+    const auto number = static_cast<std::size_t>(held.index);
+    change = expected.iterate.layout.passages[number].time - at.iterate.layout.passages[number].time;
   }
-  return farthest;
+  return change == 0.0 ? sign_of(at, held) : std::copysign(1.0, change);
+}
+
+double PathModel::distance(const Prediction& expected, const PathPoint& found) const {
+  return std::max(std::abs(found.value - expected.value) / parameter_scale_,
+                  farthest_passage(expected.iterate.layout, found.iterate.layout) / passage_scale);
 }
 
 PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const {

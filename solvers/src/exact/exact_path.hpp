@@ -53,6 +53,8 @@ class PathModel {
   double speed(const PathPoint& at) const;
   /// Of the change of the unknown held, forwards: 1 or -1.
   double sign_of(const PathPoint& at, const Held& held) const;
+  /// The same on the way from a point to what is expected ahead of it.
+  double sign_of(const PathPoint& at, const Prediction& expected, const Held& held) const;
   /// Of a point from where it was expected, of the parameter and the passages; as arc length.
   double distance(const Prediction& expected, const PathPoint& found) const;
 

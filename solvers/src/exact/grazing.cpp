@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "linalg/root.hpp"
 #include "linalg/index.hpp"
+#include "linalg/root.hpp"
 #include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -87,7 +87,26 @@ double growth(const PathPoint& at, const Interval& interval) {
   return at.motion_of(interval.to) - at.motion_of(interval.from);
 }
 
+Layout with_cuts_of(const Layout& other, Layout layout) {
+  constexpr double least = 1e-3;  // of a phase, between cuts
+  for (Phase& phase : layout.phases) {
+    const double begin = layout.begin(phase), length = layout.end(phase) - begin;
+    const auto add = [&](double time) {
+      const double share = (time - std::floor(time - begin) - begin) / length;
+      const bool apart = std::none_of(phase.cuts.begin(), phase.cuts.end(),
+                                      [&](double cut) { return std::abs(cut - share) < least; });
+      if (share > least && share < 1.0 - least && apart) phase.cuts.push_back(share);
+    };
+    for (const Phase& one : other.phases)
+      if (one.contact == phase.contact && one.piece == phase.piece)
+        for (const double cut : one.cuts) add(other.begin(one) + cut * (other.end(one) - other.begin(one)));
+    std::sort(phase.cuts.begin(), phase.cuts.end());
+  }
+  return layout;
+}
+
 Layout without(Layout layout, std::vector<Interval> intervals) {
+  const Layout before = layout;
   std::vector<int> numbers;
   for (const Interval& interval : intervals) {
     std::erase_if(layout.phases, [&](const Phase& phase) {
@@ -100,7 +119,7 @@ Layout without(Layout layout, std::vector<Interval> intervals) {
   std::sort(numbers.rbegin(), numbers.rend());
   for (const int number : numbers) erase_passage(layout, number);
   set_turns(layout);
-  return layout;
+  return with_cuts_of(before, std::move(layout));
 }
 
 Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& interval) {

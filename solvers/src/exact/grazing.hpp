@@ -18,7 +18,11 @@ std::vector<Interval> intervals_of(const Layout& layout);
 /// How an interval's length changes along a direction, as of PathPoint.
 double growth(const PathPoint& at, const Interval& interval);
 
-/// The phases without intervals that vanish.
+/// The cuts of phases of another layout, wherever they lie in phases of the same contact on the same piece,
+/// beside those of a layout: what resolves the forces by those phases then resolves them by these.
+Layout with_cuts_of(const Layout& other, Layout layout);
+
+/// The phases without intervals that vanish, with the cuts of all.
 Layout without(Layout layout, std::vector<Interval> intervals);
 
 /// A place where a contact may graze.

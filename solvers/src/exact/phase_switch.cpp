@@ -11,27 +11,62 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 // Periods. The length of a new interval grows like the root of the distance from grazing, so that intervals
-// of this length lie very near to it; the cubics between samples still see them.
-constexpr double short_interval = 1e-2, vanishing_interval = 6e-3;
+// of this length lie very near to it. That of a stiff contact is soon shorter than without its force: it is
+// sought with a quarter of the length, and so on.
+constexpr double short_interval = 1e-2, shortest_interval = 1e-5, vanishing_interval = 6e-3;
 
-// The shortest interval of the motion that the equations do not have.
-std::optional<Interval> new_interval(const PathPoint& point) {
-  for (const Interval& interval : intervals_of(point.phases_of_motion))
-    if (!same_phases(point.iterate.layout, point.phases_of_motion, interval.contact)) return interval;
-  return std::nullopt;
+// The phase of a contact at a time, if it has one.
+const Phase* phase_at(const Layout& layout, int contact, double time) {
+  for (const Phase& phase : layout.phases) {
+    if (phase.contact != contact) continue;
+    const double begin = layout.begin(phase), shifted = time - std::floor(time - begin);
+    if (shifted <= layout.end(phase)) return &phase;
+  }
+  return nullptr;
 }
 
-// A point beyond grazing whose motion has the new interval with about the length that is wanted.
+// Whether a contact is on other pieces of its law by the two at a time.
+bool differ_at(const Layout& a, const Layout& b, int contact, double time) {
+  const Phase *const one = phase_at(a, contact, time), *const other = phase_at(b, contact, time);
+  return one && other ? one->piece != other->piece : one != other;
+}
+
+// The intervals of the motion that the equations do not have, the shortest first.
+std::vector<Interval> new_intervals(const PathPoint& point) {
+  std::vector<Interval> intervals = intervals_of(point.phases_of_motion);
+  std::erase_if(intervals, [&](const Interval& interval) {
+    return !differ_at(point.iterate.layout, point.phases_of_motion, interval.contact,
+                      interval.begin + 0.5 * interval.length);
+  });
+  return intervals;
+}
+
+// A point beyond grazing whose motion has the new interval, which has a length in `next`, with about the
+// length that is wanted.
 std::optional<PathPoint> slightly_beyond(const PathModel& model, const PathPoint& grazing,
-                                         const PathPoint& next, double length, const Held& held,
-                                         double forwards) {
-  if (length <= short_interval) return next;
-  const double share = std::pow(short_interval / length, 2);
+                                         const PathPoint& next, double length, double wanted,
+                                         const Held& held, double forwards) {
+  if (length <= wanted) return next;
+  const double share = std::pow(wanted / length, 2);
   const double place = grazing.place + share * (next.place - grazing.place);
   Prediction expected = through({&grazing, &next}, place);
   return model.solve(expected.value, std::move(expected.iterate), held, forwards);
 }
 
+// Passages that the equations have are known far better than samples of the motion tell.
+void keep_passages(const Layout& known, Layout& layout) {
+  constexpr double same = 1e-4;  // periods
+  for (Passage& passage : layout.passages)
+    for (const Passage& one : known.passages) {
+      const double apart = passage.time - one.time, shift = std::round(apart);
+      if (one.contact == passage.contact && one.breakpoint == passage.breakpoint &&
+          std::abs(apart - shift) < same)
+        passage.time = one.time + shift;
+    }
+}
+
+// The phases of the motion of a solution. The forces are those of the solution but in new phases, where they
+// are the law's along the motion.
 PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
   constexpr Index instants = 1024;
   const PhaseModel own(model.family().at(at.value), model.length());
@@ -39,8 +74,16 @@ PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
   const ContactMotion motion = own.motion(
       at.iterate.forces, nodes, Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / double(instants)));
   Layout layout = layout_of(own.laws, own.frequency, motion.displacement, motion.velocity);
-  PanelForces forces = forces_along(own, layout, nodes, motion);
-  return {std::move(layout), std::move(forces)};
+  const PanelForces along = forces_along(own, layout, nodes, motion);
+  keep_passages(at.iterate.layout, layout);
+  layout.cut_by_others = at.iterate.layout.cut_by_others;
+  layout = with_cuts_of(at.iterate.layout, std::move(layout));
+  const std::vector<Phase> phases = layout.phases;
+  return with_forces(std::move(layout), nodes, [&](const Panel& panel, double time) {
+    const Phase* const before = phase_at(at.iterate.layout, panel.contact, time);
+    const bool known = before && before->piece == phases[static_cast<std::size_t>(panel.phase)].piece;
+    return known ? at.iterate.forces.at(panel.contact, time) : along.in_phase(panel.phase, time);
+  });
 }
 
 void turn_around(PathPoint& point) { point.direction = -point.direction; }
@@ -84,11 +127,12 @@ std::optional<std::vector<PathPoint>> towards(const PathModel& model, const Path
 }
 
 // The solution with the phases of its own motion, of which the end of the new interval is held.
-std::optional<WithInterval> with_new_interval(const PathModel& model, const PathPoint& beyond) {
+std::optional<WithInterval> with_new_interval(const PathModel& model, const PathPoint& beyond,
+                                              double wanted) {
   PhaseIterate start = along_own_motion(model, beyond);
   const std::vector<Interval> intervals = intervals_of(start.layout);
   for (const Interval& interval : intervals) {
-    if (interval.length > 3.0 * short_interval) break;
+    if (interval.length > 3.0 * wanted) break;
     const Held held{Held::Kind::passage, interval.to};
     std::optional<PathPoint> found = model.solve(beyond.value, start, held, 1.0);
     if (!found || !found->agrees) continue;
@@ -103,15 +147,19 @@ std::optional<WithInterval> with_new_interval(const PathModel& model, const Path
 std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint& start,
                                          const Grazing& grazing) {
   constexpr int most = 20;
+  constexpr double apart = 1e-9;
   const Held held{};
   double before = start.value, passed_before = passed_by(start, grazing);
   double now = before * (1.0 + 1e-7);
   std::optional<PathPoint> point;
   PhaseIterate iterate = start.iterate;
+  double slope = 0.0;
   for (int i = 0; i < most; ++i) {
     point = model.solve(now, iterate, held, 1.0);
     if (!point) return std::nullopt;
-    const double passed = passed_by(*point, grazing), slope = (passed - passed_before) / (now - before);
+    const double passed = passed_by(*point, grazing);
+    // That of two points which are nearly one is rounding.
+    if (i == 0 || std::abs(now - before) > apart * now) slope = (passed - passed_before) / (now - before);
     if (!std::isfinite(slope)) return std::nullopt;
     const double step = -passed / slope;
     if (std::abs(step) < 1e-14 * now || passed == passed_before) {
@@ -127,23 +175,44 @@ std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint
   return std::nullopt;
 }
 
+// The first grazing point of the way to `next` by new intervals of its motion, and the interval.
+struct FirstGrazing {
+  PathPoint point;
+  double length;  // of the interval in `next`
+};
+
+std::optional<FirstGrazing> first_grazing(const PathModel& model, const PathPoint& current,
+                                          const PathPoint& next, const Held& held) {
+  constexpr std::size_t most = 6;
+  const std::vector<Interval> intervals = new_intervals(next);
+  if (intervals.size() > most) return std::nullopt;
+  std::optional<FirstGrazing> first;
+  for (const Interval& interval : intervals) {
+    const Grazing grazing = grazing_of(next, next.phases_of_motion, interval);
+    std::optional<PathPoint> at = zero_between(
+        model, current, next, held, [&](const PathPoint& point) { return passed_by(point, grazing); });
+    if (!at) return std::nullopt;
+    if (!first || at->place < first->point.place) first = FirstGrazing{std::move(*at), interval.length};
+  }
+  return first;
+}
+
 }  // namespace
 
 std::optional<Switch> appearance(const PathModel& model, const PathPoint& current, const PathPoint& next) {
-  const std::optional<Interval> interval = new_interval(next);
-  if (!interval) return std::nullopt;
-  const Grazing grazing = grazing_of(next, next.phases_of_motion, *interval);
   const bool turns = current.slope() * next.slope() < 0.0;
   const Held held = model.fastest(current, !turns);
-  std::optional<PathPoint> at = zero_between(
-      model, current, next, held, [&](const PathPoint& point) { return passed_by(point, grazing); });
-  if (!at) return std::nullopt;
-  const std::optional<PathPoint> beyond =
-      slightly_beyond(model, *at, next, interval->length, held, model.sign_of(current, held));
-  if (!beyond) return std::nullopt;
-  std::optional<WithInterval> behind = with_new_interval(model, *beyond);
-  if (!behind) return std::nullopt;
-  std::optional<std::vector<PathPoint>> between = towards(model, *at, *behind);
+  std::optional<FirstGrazing> first = first_grazing(model, current, next, held);
+  if (!first) return std::nullopt;
+  PathPoint* const at = &first->point;
+  std::optional<WithInterval> behind;
+  std::optional<std::vector<PathPoint>> between;
+  for (double wanted = short_interval; !between && wanted > shortest_interval; wanted *= 0.25) {
+    const std::optional<PathPoint> beyond =
+        slightly_beyond(model, *at, next, first->length, wanted, held, model.sign_of(current, held));
+    if (beyond) behind = with_new_interval(model, *beyond, wanted);
+    if (beyond && behind) between = towards(model, *at, *behind);
+  }
   if (!between) return std::nullopt;
   const PathPoint& nearest = between->empty() ? behind->point : between->back();
   const bool reverses = nearest.slope() * at->slope() < 0.0;
@@ -157,12 +226,16 @@ std::optional<Switch> disappearance(const PathModel& model, const PathPoint& cur
     return interval.length > vanishing_interval || growth(current, interval) >= 0.0;
   });
   if (vanishing.empty()) return std::nullopt;
+  // Equal contacts vanish together, others one after the other.
+  constexpr double equal = 1.0 + 1e-6;
+  const double shortest = vanishing.front().length;
+  std::erase_if(vanishing, [&](const Interval& interval) { return interval.length > equal * shortest; });
   const Grazing grazing = grazing_of(current, current.iterate.layout, vanishing.front());
   const std::optional<PathPoint> start = model.solve(
       current.value, with_layout(current, without(current.iterate.layout, vanishing)), Held{}, 1.0);
   if (!start) return std::nullopt;
   std::optional<PathPoint> at = grazing_without(model, *start, grazing);
-  if (!at) return std::nullopt;
+  if (!at || at->iterate.layout.shortest_interval() < shortest_interval) return std::nullopt;
   std::optional<std::vector<PathPoint>> between = towards(model, *at, {current, vanishing.front()});
   if (!between) return std::nullopt;
   const bool reverses = (between->empty() ? current : between->back()).slope() * at->slope() < 0.0;
