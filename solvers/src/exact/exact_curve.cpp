@@ -78,8 +78,11 @@ class Tracer {
     constexpr double sharper = 0.3;
     const PathPoint& last = points_.back();
     // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
-    if (points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place))
-      return near(detail::through(neighbours(), last.place + step_));
+    if (points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place)) {
+      Prediction expected = detail::through(neighbours(), last.place + step_);
+      if (last.passages() == 0 || model_.cosine(last, expected) > least_cosine)
+        return near(std::move(expected));
+    }
     // A tangent says how forces, instants and the parameter change, and not by how much the displacement
     // does.
     const double speed = model_.speed(last);
@@ -97,11 +100,15 @@ class Tracer {
     const Held held = model_.fastest(last, true);
     if (held.kind != Held::Kind::force) expected.iterate = model_.coarser(last, std::move(expected.iterate));
     std::optional<PathPoint> next =
-        model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, expected, held));
+        model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
     if (!next) return std::nullopt;
     const double off = model_.distance(expected, *next);
     arc_ = model_.arc_length(last, *next);
     if (off > farthest * step_ || arc_ > longest * step_) return std::nullopt;
+    // The unknown held says the direction where it changes all the way. The way itself says it always.
+    const double ahead = next->passages() > 0 ? model_.cosine(last, *next) : 1.0;
+    if (std::abs(ahead) < least_cosine) return std::nullopt;
+    if (ahead < 0.0) next->direction = -next->direction;
     growth_ = off < close * step_ ? 1.5 : 1.0;
     next->place = last.place + arc_;
     return next;
@@ -194,6 +201,9 @@ class Tracer {
     curve_.status = last ? status : SweepStatus::lost;
     if (last) go_to(std::move(*last));
   }
+
+  // Of the angles between the directions of two points and the way from one to the other.
+  static constexpr double least_cosine = 0.3;
 
   const PathModel& model_;
   const ExactCurveOptions& options_;

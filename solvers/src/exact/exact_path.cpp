@@ -11,9 +11,8 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// A passage that moves by so much of a period has made a unit of arc length, and a force that changes by so
-// much of the largest one.
-constexpr double passage_scale = 0.05, force_scale = 0.5;
+// A force that changes by so much of the largest one has made a unit of arc length.
+constexpr double force_scale = 0.5;
 
 // Instants of contact that move much faster than all else count in the length of a step by this share.
 constexpr double passage_share = 0.2;
@@ -110,14 +109,29 @@ double PathModel::sign_of(const PathPoint& at, const Held& held) const {
   return at.motion_of(held) < 0.0 ? -1.0 : 1.0;
 }
 
-double PathModel::sign_of(const PathPoint& at, const Prediction& expected, const Held& held) const {
-  double change = 0.0;
-  if (held.kind == Held::Kind::parameter) change = expected.value - at.value;
-  if (held.kind == Held::Kind::passage) {
-    const auto number = static_cast<std::size_t>(held.index);
-    change = expected.iterate.layout.passages[number].time - at.iterate.layout.passages[number].time;
+double PathModel::cosine(const PathPoint& from, const PathPoint& to) const {
+  return cosine(change(from, to.value, to.iterate.layout), to);
+}
+
+double PathModel::cosine(const PathPoint& from, const Prediction& to) const {
+  return cosine(change(from, to.value, to.iterate.layout), from);
+}
+
+Eigen::VectorXd PathModel::change(const PathPoint& from, double value, const Layout& layout) const {
+  const Index m = from.passages();
+  Eigen::VectorXd way(m + 1);
+  for (Index i = 0; i < m; ++i) {
+    const auto number = static_cast<std::size_t>(i);
+    way[i] = (layout.passages[number].time - from.iterate.layout.passages[number].time) / passage_scale;
   }
-  return change == 0.0 ? sign_of(at, held) : std::copysign(1.0, change);
+  way[m] = (value - from.value) / parameter_scale_;
+  return way;
+}
+
+double PathModel::cosine(const Eigen::VectorXd& way, const PathPoint& at) const {
+  Eigen::VectorXd direction = at.direction.tail(at.passages() + 1) / passage_scale;
+  direction[at.passages()] = at.slope() / parameter_scale_;
+  return way.dot(direction) / (way.norm() * direction.norm());
 }
 
 double PathModel::distance(const Prediction& expected, const PathPoint& found) const {

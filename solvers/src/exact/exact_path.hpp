@@ -10,6 +10,9 @@
 
 namespace wavebalance::solvers::detail {
 
+/// A passage that moves by so much of a period has made a unit of arc length.
+inline constexpr double passage_scale = 0.05;
+
 /// A motion of a curve, and how the curve goes on from it.
 struct PathPoint {
   double value = 0.0;
@@ -53,8 +56,10 @@ class PathModel {
   double speed(const PathPoint& at) const;
   /// Of the change of the unknown held, forwards: 1 or -1.
   double sign_of(const PathPoint& at, const Held& held) const;
-  /// The same on the way from a point to what is expected ahead of it.
-  double sign_of(const PathPoint& at, const Prediction& expected, const Held& held) const;
+  /// Of the angle between the way from one point to another with the same phases and the direction there, in
+  /// the parameter and the passages; of that to a prediction, with the direction of the point.
+  double cosine(const PathPoint& from, const PathPoint& to) const;
+  double cosine(const PathPoint& from, const Prediction& to) const;
   /// Of a point from where it was expected, of the parameter and the passages; as arc length.
   double distance(const Prediction& expected, const PathPoint& found) const;
 
@@ -69,6 +74,8 @@ class PathModel {
 
  private:
   PathPoint point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const;
+  Eigen::VectorXd change(const PathPoint& from, double value, const Layout& layout) const;
+  double cosine(const Eigen::VectorXd& way, const PathPoint& at) const;
 
   const PhaseFamily& family_;
   const ExactCurveOptions& options_;

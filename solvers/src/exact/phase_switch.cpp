@@ -31,12 +31,15 @@ bool differ_at(const Layout& a, const Layout& b, int contact, double time) {
   return one && other ? one->piece != other->piece : one != other;
 }
 
+bool is_new(const Interval& interval, const Layout& before, const Layout& now) {
+  return differ_at(before, now, interval.contact, interval.begin + 0.5 * interval.length);
+}
+
 // The intervals of the motion that the equations do not have, the shortest first.
 std::vector<Interval> new_intervals(const PathPoint& point) {
   std::vector<Interval> intervals = intervals_of(point.phases_of_motion);
   std::erase_if(intervals, [&](const Interval& interval) {
-    return !differ_at(point.iterate.layout, point.phases_of_motion, interval.contact,
-                      interval.begin + 0.5 * interval.length);
+    return !is_new(interval, point.iterate.layout, point.phases_of_motion);
   });
   return intervals;
 }
@@ -100,12 +103,22 @@ bool differ(const PathModel& model, const PathPoint& a, const PathPoint& b) {
          unstable_of(a.motion.multipliers()) != unstable_of(b.motion.multipliers());
 }
 
+// Whether an interval is about as long in a solution as it was in its start. Else it is another one of the
+// curve, which may turn soon behind grazing.
+bool has_about_the_length(const PathPoint& found, const Interval& interval, double length) {
+  for (const Interval& one : intervals_of(found.iterate.layout))
+    if (one.from == interval.from && one.to == interval.to)
+      return one.length > 0.5 * length && one.length < 2.0 * length;
+  return false;
+}
+
 // Points with the interval from one of them towards grazing, each with half of its length, until slope and
 // stability are those of grazing. The parameter differs by the square of the length, so that what is not
-// found then is one with grazing to ten digits. Nothing where Newton's method does not converge.
+// found then is one with grazing to ten digits. Where the contact is so stiff that rounding stops Newton's
+// method before, it is one to six; nothing where it stops earlier.
 std::optional<std::vector<PathPoint>> towards(const PathModel& model, const PathPoint& grazing,
                                               const WithInterval& from) {
-  constexpr double shortest = 1e-5;
+  constexpr double shortest = 1e-5, one = 1e-6;
   std::vector<PathPoint> points;
   const PathPoint* last = &from.point;
   const auto moves = [&](int passage) { return std::abs(from.point.motion_of(passage)); };
@@ -118,6 +131,8 @@ std::optional<std::vector<PathPoint>> towards(const PathModel& model, const Path
        length *= 0.5) {
     const Prediction expected = along_tangent(*last, -0.5 * length, growth(*last, from.interval));
     std::optional<PathPoint> shorter = model.solve(expected.value, expected.iterate, held, forwards);
+    if (shorter && !has_about_the_length(*shorter, from.interval, 0.5 * length)) shorter.reset();
+    if (!shorter && std::abs(last->value - grazing.value) < one * grazing.value) break;
     if (!shorter) return std::nullopt;
     shorter->place = last->place - std::copysign(length, order);
     points.push_back(std::move(*shorter));
@@ -133,9 +148,10 @@ std::optional<WithInterval> with_new_interval(const PathModel& model, const Path
   const std::vector<Interval> intervals = intervals_of(start.layout);
   for (const Interval& interval : intervals) {
     if (interval.length > 3.0 * wanted) break;
+    if (!is_new(interval, beyond.iterate.layout, start.layout)) continue;
     const Held held{Held::Kind::passage, interval.to};
     std::optional<PathPoint> found = model.solve(beyond.value, start, held, 1.0);
-    if (!found || !found->agrees) continue;
+    if (!found || !found->agrees || !has_about_the_length(*found, interval, interval.length)) continue;
     if (growth(*found, interval) < 0.0) turn_around(*found);
     return WithInterval{std::move(*found), interval};
   }
@@ -173,6 +189,19 @@ std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint
     now += step;
   }
   return std::nullopt;
+}
+
+// The length of an interval falls like the root of the distance from grazing, by its half over as long a way.
+// Whether neither the parameter nor other passages change by more than a step may on that way.
+bool vanishes_soon(const PathModel& model, const PathPoint& at, const Interval& interval) {
+  const double shrinks = -growth(at, interval);
+  if (!(shrinks > 0.0)) return false;
+  const double way = 0.5 * interval.length / shrinks, most = model.options().largest_step;
+  double farthest = std::abs(at.slope()) / model.parameter_scale();
+  for (int i = 0; i < at.passages(); ++i)
+    if (i != interval.from && i != interval.to)
+      farthest = std::max(farthest, std::abs(at.motion_of(i)) / passage_scale);
+  return way * farthest < most;
 }
 
 // The first grazing point of the way to `next` by new intervals of its motion, and the interval.
@@ -223,7 +252,7 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
 std::optional<Switch> disappearance(const PathModel& model, const PathPoint& current) {
   std::vector<Interval> vanishing = intervals_of(current.iterate.layout);
   std::erase_if(vanishing, [&](const Interval& interval) {
-    return interval.length > vanishing_interval || growth(current, interval) >= 0.0;
+    return interval.length > vanishing_interval || !vanishes_soon(model, current, interval);
   });
   if (vanishing.empty()) return std::nullopt;
   // Equal contacts vanish together, others one after the other.
