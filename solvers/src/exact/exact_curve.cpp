@@ -34,9 +34,20 @@ class Tracer {
       else
         advance();
     }
+    if (!turns_as_it_ends()) curve_.status = SweepStatus::lost;
   }
 
  private:
+  // A curve that ends ahead turns an even number of times, one that returns an odd one. Else a fold is
+  // missing.
+  bool turns_as_it_ends() const {
+    const auto folds = std::count_if(curve_.events.begin(), curve_.events.end(), [](const ExactEvent& event) {
+      return event.type == SpecialPointType::fold;
+    });
+    if (curve_.status == SweepStatus::reached_end) return folds % 2 == 0;
+    return curve_.status != SweepStatus::returned || folds % 2 == 1;
+  }
+
   bool within(double value) const {
     return value >= std::min(behind(), options_.to) && value <= std::max(behind(), options_.to);
   }

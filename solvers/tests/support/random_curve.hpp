@@ -34,7 +34,7 @@ inline LinearStructure damped_chain(int size, double damping_ratio, std::mt19937
 }
 
 inline RandomCurve random_curve(unsigned seed) {
-  std::mt19937 generator(9000 + seed);
+  std::mt19937 generator(9001 + seed);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   const int size = 1 + int(4.0 * any(generator)), contacts = 1 + (size > 1 && any(generator) < 0.4 ? 1 : 0);
   const double ratio = std::pow(10.0, -2.3 + 1.2 * any(generator));

@@ -1,0 +1,63 @@
+// Curves of random structures on supports and between stops: the same ends and folds by default steps and by
+// steps ten times smaller.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "campaign.hpp"
+#include "support/random_curve.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+ExactCurve traced(const testing::RandomCurve& drawn, double share_of_steps) {
+  ExactCurveOptions options;
+  options.from = drawn.from;
+  options.to = drawn.to;
+  options.first_step *= share_of_steps;
+  options.largest_step *= share_of_steps;
+  options.max_points = static_cast<int>(1500.0 / share_of_steps);
+  options.stability = false;
+  return drawn.problem(63, 512).exact_sweep(options);
+}
+
+std::vector<double> folds_of(const ExactCurve& curve) {
+  std::vector<double> folds;
+  for (const ExactEvent& event : curve.events)
+    if (event.type == SpecialPointType::fold) folds.push_back(event.value);
+  return folds;
+}
+
+bool ends(const ExactCurve& curve) {
+  return curve.status == SweepStatus::reached_end || curve.status == SweepStatus::returned;
+}
+
+// Folds that lie at grazing to six digits are told apart to as many.
+bool are_equal(const ExactCurve& one, const ExactCurve& other) {
+  constexpr double digits = 1e-6;
+  const std::vector<double> a = folds_of(one), b = folds_of(other);
+  bool equal = one.status == other.status && a.size() == b.size();
+  for (std::size_t i = 0; equal && i < a.size(); ++i) equal = std::abs(a[i] - b[i]) <= digits * a[i];
+  return equal;
+}
+
+TEST(RandomCurves, HaveTheSameEndsAndFoldsByStepsTenTimesSmaller) {
+  const int count = campaign_seeds(15, 100);
+  int same = 0, folds = 0;
+  for (int seed = 1; seed <= count; ++seed) {
+    const testing::RandomCurve drawn = testing::random_curve(static_cast<unsigned>(seed));
+    const ExactCurve usual = traced(drawn, 1.0);
+    const bool equal = ends(usual) && are_equal(usual, traced(drawn, 0.1));
+    if (!equal) std::printf("seed %d: %s\n", seed, std::string(to_string(usual.status)).c_str());
+    same += equal ? 1 : 0;
+    folds += static_cast<int>(folds_of(usual).size());
+  }
+  std::printf("%d of %d curves the same, %d folds\n", same, count, folds);
+  // 97 of 100, and all of the first 15: what is left are curves of a hundred folds and more.
+  EXPECT_GE(100 * same, 95 * count);
+  EXPECT_GT(folds, count);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
