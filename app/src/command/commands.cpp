@@ -49,7 +49,7 @@ std::string summary_text(const Summary& summary) {
 
 void say_not_converged(const Scene& scene, const std::string& status) {
   std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", status.c_str());
-  const std::string step = next_step(scene.analysis.type, status);
+  const std::string step = next_step(scene.analysis.type, status, scene.analysis.exact);
   if (!step.empty()) std::fprintf(stderr, "wavebalance: what may help: %s\n", step.c_str());
 }
 

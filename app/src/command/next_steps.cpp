@@ -45,9 +45,19 @@ const Remedies& of_sweeps() {
       {"returned", "both ends of the interval exchanged, or a start outside the resonance"},
       {"no_start", "another start of the interval, away from the resonance"},
       {"closed", "another start or direction of the interval, or more time.quadrature_points"},
-      {"lost", "a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
+      {"lost",
+       "analysis.exact = true, a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
       {"missed_part", "a smaller analysis.largest_step"},
       {"unbounded", "more damping, or time.nyquist = \"drop\""},
+      {"point_limit", "a larger analysis.max_points, or analysis.exact = true"}};
+  return all;
+}
+
+const Remedies& of_exact_sweeps() {
+  static const Remedies all{
+      {"returned", "both ends of the interval exchanged, or a start outside the resonance"},
+      {"no_start", "another start of the interval, away from the resonance, or analysis.exact = false"},
+      {"lost", "a smaller analysis.largest_step, or analysis.exact = false"},
       {"point_limit", "a larger analysis.max_points"}};
   return all;
 }
@@ -95,7 +105,7 @@ const Remedies& of_motions() {
 
 }  // namespace
 
-std::string next_step(AnalysisType type, const std::string& status) {
+std::string next_step(AnalysisType type, const std::string& status, bool exact) {
   if (type == AnalysisType::nonlinear_mode && status.starts_with("ended at"))
     return "a higher analysis.last_frequency_ratio, other analysis.harmonics and analysis.samples, or more analysis.points";
   const Remedies& remedies = type == AnalysisType::forced_response  ? of_responses()
@@ -103,6 +113,7 @@ std::string next_step(AnalysisType type, const std::string& status) {
                              : type == AnalysisType::time_stepping  ? of_time_stepping()
                              : type == AnalysisType::shooting       ? of_shooting()
                              : type == AnalysisType::motions        ? of_motions()
+                             : exact                                ? of_exact_sweeps()
                                                                     : of_sweeps();
   const auto found = remedies.find(status);
   return found == remedies.end() ? "" : found->second;

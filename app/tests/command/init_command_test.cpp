@@ -196,10 +196,11 @@ TEST(NextSteps, NameKeysThatExist) {
                                "step_failure",
                                "no_motion",
                                "no_modes"})
-      for (const std::string& key : keys_in(next_step(type, status))) {
-        ++advised;
-        EXPECT_TRUE(key == "forcing.terms" || find_scene_key(key) != nullptr) << key;
-      }
+      for (const bool exact : {false, true})
+        for (const std::string& key : keys_in(next_step(type, status, exact))) {
+          ++advised;
+          EXPECT_TRUE(key == "forcing.terms" || find_scene_key(key) != nullptr) << key;
+        }
   EXPECT_GT(advised, 20);
 }
 
