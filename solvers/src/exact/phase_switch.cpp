@@ -68,8 +68,7 @@ void keep_passages(const Layout& known, Layout& layout) {
     }
 }
 
-// The phases of the motion of a solution. The forces are those of the solution but in new phases, where they
-// are the law's along the motion.
+// The phases of the motion of a solution and the forces along it.
 PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
   constexpr Index instants = 1024;
   const PhaseModel own(model.family().at(at.value), model.length());
@@ -77,16 +76,11 @@ PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
   const ContactMotion motion = own.motion(
       at.iterate.forces, nodes, Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / double(instants)));
   Layout layout = layout_of(own.laws, own.frequency, motion.displacement, motion.velocity);
-  const PanelForces along = forces_along(own, layout, nodes, motion);
   keep_passages(at.iterate.layout, layout);
   layout.cut_by_others = at.iterate.layout.cut_by_others;
   layout = with_cuts_of(at.iterate.layout, std::move(layout));
-  const std::vector<Phase> phases = layout.phases;
-  return with_forces(std::move(layout), nodes, [&](const Panel& panel, double time) {
-    const Phase* const before = phase_at(at.iterate.layout, panel.contact, time);
-    const bool known = before && before->piece == phases[static_cast<std::size_t>(panel.phase)].piece;
-    return known ? at.iterate.forces.at(panel.contact, time) : along.in_phase(panel.phase, time);
-  });
+  PanelForces forces = forces_along(own, layout, nodes, motion);
+  return {std::move(layout), std::move(forces)};
 }
 
 void turn_around(PathPoint& point) { point.direction = -point.direction; }
