@@ -54,7 +54,7 @@ TEST(RandomCurves, HaveTheSameEndsAndFoldsByStepsTenTimesSmaller) {
     folds += static_cast<int>(folds_of(usual).size());
   }
   std::printf("%d of %d curves the same, %d folds\n", same, count, folds);
-  // 97 of 100, and all of the first 15: what is left are curves of a hundred folds and more.
+  // 97 of 100, and all of the first 15; seeds 16, 28 and 73 are lost or do not end.
   EXPECT_GE(100 * same, 95 * count);
   EXPECT_GT(folds, count);
 }
