@@ -2,10 +2,18 @@
 // Data come from figure_script() of app/plot; d3 draws scales, axes and zooms.
 "use strict";
 (() => {
-  const margin = { top: 8, right: 12, bottom: 42, left: 58 };
+  const margin = { top: 8, right: 24, bottom: 42, left: 58 };
   const reach = 40;  // pixels within which a curve answers to the pointer
   const element = wavebalance.element;
-  const symbols = () => [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, d3.symbolWye,
+  // Those of the pictures: five filled ones, then three open ones.
+  const downwards = { draw(context, size) {
+    const y = -Math.sqrt(size / (Math.sqrt(3) * 3));
+    context.moveTo(0, -2 * y);
+    context.lineTo(-Math.sqrt(3) * y, y);
+    context.lineTo(Math.sqrt(3) * y, y);
+    context.closePath();
+  } };
+  const symbols = () => [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, downwards,
                          d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
   const number = (value) => d3.format(".5~g")(value).replace("-", "\u2212");
 
@@ -128,8 +136,9 @@
       node.addEventListener("keydown", (event) => this.key(event));
     }
 
-    // One finger scrolls the page, unless the panel is enlarged.
+    // The wheel scrolls the page unless Ctrl is held, as on maps; one finger does so unless the panel is enlarged.
     takes(event) {
+      if (event.type === "wheel") return event.ctrlKey || event.metaKey;
       const fingers = event.touches?.length ?? 2;
       return !event.button && (fingers > 1 || d3.zoomTransform(this.svg.node()).k > 1);
     }
@@ -205,11 +214,11 @@
       at.filter((point, i) => i % series.every === 0 && there(point)).forEach(([u, v]) => mark(this.plot, series, u, v));
     }
 
-    // The point of a series next to the pixel (u, v), on the lines between its points where it is drawn as a line.
+    // The point of a series next to the pixel (u, v): one of its points where they have symbols, else on the lines between.
     nearest(series, u, v) {
       let best = { distance: reach };
       let before = null;
-      const joined = series.style === "line" || series.style === "line_points";
+      const joined = series.style === "line";
       series.x.forEach((value, i) => {
         const there = finite(this.x, value) && finite(this.y, series.y[i]);
         const point = there ? [this.x(value), this.y(series.y[i])] : null;
@@ -311,8 +320,8 @@
     const name = source.slice(source.lastIndexOf("/") + 1, -".figure.js".length);
     const picture = figure.querySelector("a");
     const box = element("div", { class: "curves", hidden: "" });
-    const hint = element("span", { class: "hint", hidden: "" }, "Point at a curve for its values. Wheel or pinch " +
-      "zooms, dragging moves, a double click resets; a name hides its curve.");
+    const hint = element("span", { class: "hint", hidden: "" }, "Point at a curve for its values. Ctrl + wheel or a " +
+      "pinch zooms, dragging moves, a double click resets; a name hides its curve.");
     const button = element("button", { type: "button", "aria-pressed": "false" }, "Zoom and read values");
     const again = element("button", { type: "button", hidden: "" }, "Reset");
     let reset = () => {};
@@ -326,10 +335,47 @@
       button.textContent = show ? "Show the picture" : "Zoom and read values";
       if (show) reset = drawFigure(box, wavebalance.figures[name]);
     });
-    picture.after(box, element("div", { class: "tools" }, button, again, hint));
+    picture.after(box, element("div", { class: "tools" }, button, again, hint), valuesOf(source, name));
+    figure.redrawCurves = () => { if (!box.hidden) reset = drawFigure(box, wavebalance.figures[name]); };
+  }
+
+  // The points of a curve as a table, at most so many of them.
+  function table(panel, letter, series) {
+    const most = 100, every = Math.max(1, Math.ceil(series.x.length / most));
+    const row = (tag, ...cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, ...[cell].flat())));
+    const rows = [];
+    for (let i = 0; i < series.x.length; i += every)
+      if (series.y[i] !== null) rows.push(row("td", number(series.x[i]), number(series.y[i])));
+    const name = element("caption", {}, `${letter} `, ...html(series.label || panel.title), every > 1 ? `, every ${every}th point` : "");
+    return element("table", {}, name, element("thead", {}, row("th", html(panel.x.label || "x"), html(panel.y.label || "y"))),
+      element("tbody", {}, ...rows));
+  }
+
+  function valuesOf(source, name) {
+    const place = element("div", { class: "wide tables" });
+    const details = element("details", { class: "table-of-values" }, element("summary", {}, "Table of values"), place);
+    details.addEventListener("toggle", async () => {
+      if (!details.open || place.firstChild) return;
+      await wavebalance.load(source);
+      const data = wavebalance.figures[name];
+      data.panels.forEach((panel, i) => panel.series.filter((series) => series.x.length).forEach((series) =>
+        place.append(table(panel, data.letters ? `(${String.fromCharCode(97 + i)})` : "", series))));
+    });
+    return details;
   }
 
   document.addEventListener("DOMContentLoaded", () => {
-    if (window.d3) document.querySelectorAll("figure[data-curves]").forEach(prepare);
+    if (!window.d3) return;
+    const figures = [...document.querySelectorAll("figure[data-curves]")];
+    figures.forEach(prepare);
+    let width = window.innerWidth;
+    window.addEventListener("resize", () => {
+      if (window.innerWidth === width) return;
+      width = window.innerWidth;
+      figures.forEach((figure) => figure.redrawCurves());
+    });
+    // On narrow screens the panels of the curves stand below each other, which a picture cannot.
+    if (window.matchMedia("(max-width: 700px)").matches)
+      wavebalance.whenNear("figure[data-curves]", (figure) => figure.querySelector(".tools button").click());
   });
 })();

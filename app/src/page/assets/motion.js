@@ -18,6 +18,13 @@
     svg("text", { x, y, "text-anchor": anchor }, parent).textContent = content;
   }
 
+  // An arrow of a length, its point away from the obstacle and its foot at the tip; nothing for no force.
+  function arrow(tip, length) {
+    const y = 49, head = Math.min(10, length);
+    if (length < 0.5) return "";
+    return `M${tip},${y - 3}h${head - length}v-4l${-head},7l${head},7v-4h${length - head}z`;
+  }
+
   // The order in which instants are shown: contact, about t = 0, stands in the middle of a diagram.
   function ordered(times) {
     const shown = times.map((time, index) => ({ index, time: time >= 0.5 ? time - 1 : time }));
@@ -107,7 +114,7 @@
       this.body = svg("g", {}, this.svg);
       this.reference = svg("line", { y1: 16, y2: 82, class: "time-stepping" }, this.svg);
       this.tip = svg("line", { y1: 26, y2: 72, class: "tip" }, this.svg);
-      this.force = svg("line", { y1: 49, y2: 49, class: "push" }, this.svg);
+      this.force = svg("path", { class: "push" }, this.svg);
     }
 
     show(index, pair) {
@@ -120,8 +127,7 @@
       const reference = this.place(nodes.length - 1, this.data.reference.tip[index]);
       for (const name of ["x1", "x2"]) this.reference.setAttribute(name, reference);
       const most = Math.max(...this.data.reference.force, 1e-300);
-      this.force.setAttribute("x1", tip);
-      this.force.setAttribute("x2", tip - Math.max(0, pair.force[index] / most) * 60);
+      this.force.setAttribute("d", arrow(tip, Math.max(0, pair.force[index] / most) * 60));
     }
   }
 
@@ -169,7 +175,7 @@
       element("h4", {}, `The bar over a period, ${number(data.frequency, 4)} Hz`),
       element("div", { class: "tools" }, list, play, slider, values), element("div", {}, bar.svg),
       element("div", { class: "pair" }, ...diagrams.map((diagram) => element("div", {}, diagram.svg))),
-      element("p", { class: "quiet" }, (data.pairs.length ? "Grey dashed: time stepping. " : "") + "Displacements are enlarged; the arrow is the contact force. Drag " +
+      element("p", { class: "quiet" }, (data.pairs.length ? `Grey dashed: ${data.reference.label}. ` : "") + "Displacements are enlarged; the arrow is the contact force. Drag " +
         "in a diagram to set the time."));
     new ResizeObserver(draw).observe(box);
     draw();

@@ -40,7 +40,28 @@ wavebalance.whenNear = (selector, start) => {
   check();
 };
 
+// What is folded is printed too.
+{
+  let opened = [];
+  window.addEventListener("beforeprint", () => {
+    document.querySelectorAll("img[loading]").forEach((image) => { image.loading = "eager"; });
+    opened = [...document.querySelectorAll("main details:not([open], .table-of-values, .origin)")];
+    opened.forEach((one) => { one.open = true; });
+  });
+  window.addEventListener("afterprint", () => opened.forEach((one) => { one.open = false; }));
+}
+
+// On narrow screens a picture is shown at three quarters of its size at least, so that its letters have 10 px; it scrolls.
+function keepReadable(image) {
+  const narrow = window.matchMedia("(max-width: 700px)");
+  const fit = () => { image.style.minWidth = narrow.matches && image.naturalWidth ? `${0.75 * image.naturalWidth}px` : ""; };
+  narrow.addEventListener("change", fit);
+  image.addEventListener("load", fit);
+  fit();
+}
+
 document.addEventListener("DOMContentLoaded", () => {
+  document.querySelectorAll(".picture img").forEach(keepReadable);
   if (window.katex)
     for (const formula of document.querySelectorAll(".math"))
       katex.render(formula.textContent, formula, { throwOnError: false });
