@@ -318,8 +318,19 @@ void write_data(report::Artefact& artefact, const Study& study) {
   free.add_column("frequency_Hz", frequencies(study.linear))
       .add_column("max_displacement_m", largest_displacements(study.linear));
   artefact.more_data("without_contact", free, "Hz; largest radial displacement of a contact node in m");
-  artefact.more_data("curve", app::sweep_table(study.traced.curve),
-                     "Hz, m; Fourier by arc length, points in their order along the curve");
+  app::Table curve = app::sweep_table(study.traced.curve);
+  std::vector<double> unstable(curve.rows(), solvers::missing);
+  for (std::size_t i = 0; i < study.parts.points.size(); ++i)
+    if (study.parts.points[i].unstable >= 0) unstable[i] = study.parts.points[i].unstable;
+  curve.add_column("unstable", unstable);
+  artefact.more_data(
+      "curve", curve,
+      "Hz, m; Fourier by arc length, points in their order along the curve; unstable: multipliers outside "
+      "the unit circle in this part of the curve, missing where not known");
+  app::Table folds({"type", "frequency_Hz", "max_displacement_m"});
+  for (const auto& fold : study.parts.folds)
+    folds.append_row({std::string("fold"), fold.frequency, fold.max_displacement});
+  artefact.more_data("special_points", folds, "Hz and m; of the curve by arc length");
   artefact.more_data(
       "histories", histories(study.curves, study.frequency()),
       fmt::format(

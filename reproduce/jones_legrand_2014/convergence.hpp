@@ -13,8 +13,8 @@ namespace wavebalance::jl14 {
 /// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
 std::vector<int> sizes();
 
-/// Those of all_sums() under which Figs. 10 and 11 are judged, one of the details changed at a time and all
-/// of them. The first is that of the scenes, and of the pictures.
+/// Those of all_sums() under which Figs. 10 and 11 are judged: the two that the text allows, and others with
+/// one of the details changed at a time and all of them. The first is that of the scenes and of the pictures.
 const std::vector<Sums>& convergence_sums();
 
 /// What one solution is measured by, NaN where it was not found. Errors of the displacement of the tip

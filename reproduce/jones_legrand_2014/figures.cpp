@@ -7,10 +7,10 @@ namespace wavebalance::jl14 {
 const std::vector<report::Step>& figures() {
   static const std::vector<report::Step> all{
       {"reference_case1",
-       identity("reference 1", "Contact phases and time stepping, case 1", "reference_case1"),
+       identity("Reference 1", "Contact phases and time stepping, case 1", "reference_case1"),
        [](report::Artefact& artefact) { reference(artefact, 1); }},
       {"reference_case2",
-       identity("reference 2", "Contact phases and time stepping, case 2", "reference_case2"),
+       identity("Reference 2", "Contact phases and time stepping, case 2", "reference_case2"),
        [](report::Artefact& artefact) { reference(artefact, 2); }},
       {"fig01", identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch"), fig01},
       {"fig02", identity("Fig. 2", "First six functions of the Fourier basis", "fig02_fourier_functions"),
@@ -35,7 +35,7 @@ const std::vector<report::Step>& figures() {
       {"tab01", identity("Table 1", "Test cases", "tab01_cases"), tab01},
       {"tab02", identity("Table 2", "Combinations of trial and weighting functions", "tab02_pairs"), tab02},
       {"haar_readings",
-       identity("readings", "What the paper leaves open, and what it decides", "haar_readings"),
+       identity("Section 4.1, sums", "What the paper leaves open, and what it decides", "haar_readings"),
        haar_readings},
       {"rigid_plateau",
        identity("Rigid contact", "The contact plateau against a rigid obstacle", "rigid_plateau"),

@@ -10,25 +10,29 @@
 namespace wavebalance::jl14 {
 
 /// One way to compute the inner products. The paper computes them "as discrete inner products using 256
-/// points"; it does not say where these lie, over what the 256 count, or how the force is sampled where
-/// connection coefficients give the rest.
+/// points", and its Fourier functions are 1, cos 2 pi t, sin 2 pi t, ..., so that the last of 64 is a cosine.
+/// It does not say where the points lie.
 struct Sums {
   int samples = 256;          ///< uniform, over the period
   double offset = 0.0;        ///< 0: at the left ends of the 1/samples, 0.5: at their middles
   bool exact = false;         ///< exact A_d; the force is summed over the samples in any case
   bool keeps_nyquist = true;  ///< the Nyquist coefficient of 64 functions
+  bool sine = false;          ///< the sine in place of the cosine as last Fourier function opposite Haar
 
   std::string name() const;  ///< "256 left ends, same sums"
   std::string key() const;   ///< "256_left_sums", for the columns of a table
   /// The overrides of a scene with this pair. One sample per function is a reading of pairs with Haar trial
-  /// functions alone, which have one value per cell; the others keep 256.
+  /// functions alone, which have one value per cell; the others keep 256. At mid-points the cosine has no
+  /// product with the alternating Haar function, so that this coefficient is zero; a scene takes the sine
+  /// there unless it drops the coefficient.
   std::vector<std::string> overrides(const Pair& pair) const;
-  /// Whether the paper's words give it: 256 points for all inner products.
-  bool literal() const { return samples == 256 && !exact; }
+  /// Whether the paper's text allows it.
+  bool of_text() const { return samples == 256 && !exact && keeps_nyquist && !sine; }
 };
 
-/// 64, 256, 512 and 1024 samples, at left ends and at mid-points, with the same sums for A_d or exact; and
-/// 256 samples without the Nyquist coefficient. The first is that of the scenes.
+/// The two that the text allows, 256 points at left ends and at mid-points, come first, and of these that of
+/// the scenes. Then 256 points without the Nyquist coefficient and with the sine; exact products; and 64, 512
+/// and 1024 samples, at left ends and at mid-points, with the same sums for A_d or exact.
 const std::vector<Sums>& all_sums();
 
 /// What a statement is found to be under one reading.
@@ -63,6 +67,9 @@ app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& 
 Eigen::VectorXd cell_values(const app::Response& response, int cells);
 std::string cells_column(const Pair& pair, const Sums& sums);
 
+/// "both readings", "all 6 readings"
+std::string all_readings_text(std::size_t count);
+
 /// A finding for each of all_sums(); a reading for which `missing` names a pair differs and says so.
 std::vector<report::Reading> judged(const std::function<Finding(std::size_t)>& judge,
                                     const std::function<std::string(std::size_t)>& missing);
@@ -75,15 +82,15 @@ std::vector<report::Reading> judged(const Readings& readings, const std::vector<
 /// differs. Throws as report::lower().
 report::Verdict at_most_similar(const std::vector<double>& errors, const std::vector<double>& others);
 
-/// The statement with the readings' common verdict, and what the first found with the number of those that
-/// agree as `measured`; without its reason where all agree.
+/// The statement with the verdict of the readings, and what the first found with the number of those that
+/// agree as `measured`; without its reason where it agrees.
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings);
 
 /// The statement without its reason if it agrees, so that one can be given beforehand.
 report::Statement reasoned(report::Statement statement);
 
-/// Under which readings a statement agrees: their names where they are few, else how many by each detail. The
-/// readings are those of all_sums(), once or several times over.
+/// Under which readings of the text a statement agrees, and under which it would if the sums were formed
+/// otherwise: their names where they are few, else how many.
 std::string spread(const std::vector<report::Reading>& readings);
 
 /// Notes which keys of the scene the readings set.

@@ -44,13 +44,14 @@ app::Sweep stable_sweep(const app::Scene& scene) {
 
 Resonance swept(report::Artefact& artefact, const std::string& file, const std::vector<Pair>& pairs,
                 const std::vector<std::string>& overrides) {
-  Resonance resonance{pairs, {}, {}, 0.0};
+  Resonance resonance{pairs, {}, {}, 0.0, 0};
   for (const auto& pair : pairs) {
     std::vector<std::string> all{"time.trial=" + pair.trial, "time.weight=" + pair.weight};
     all.insert(all.end(), overrides.begin(), overrides.end());
     const auto scene = artefact.scene(file, all);
     resonance.sweeps.push_back(resonance.sweeps.empty() ? stable_sweep(scene) : app::frequency_sweep(scene));
     resonance.gap = scene.contact.gap;
+    resonance.functions = scene.time.functions;
     const auto& sweep = resonance.sweeps.back();
     if (!sweep.converged())
       artefact.note(pair.label + " in " + file +
@@ -249,13 +250,31 @@ std::string end_text(const app::Sweep& sweep) {
   return fmt::format("ends early, last at {} Hz", report::number(sweep.curve.points.back().frequency, 5));
 }
 
+void append_sweep(Table& table, const Pair& pair, int functions, const app::Sweep& sweep) {
+  const auto& points = sweep.curve.points;
+  const auto& stability = sweep.stability.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool counted = i < stability.size() && stability[i].unstable >= 0;
+    table.append_row({pair.trial, pair.weight, points[i].frequency, points[i].max_displacement,
+                      points[i].rms_displacement, points[i].max_abs_displacement,
+                      counted ? static_cast<double>(stability[i].unstable) : solvers::missing,
+                      std::int64_t{functions}});
+  }
+}
+
 Table sweeps_table(const Resonance& resonance) {
-  Table table({"trial", "weight", "frequency_Hz", "max_displacement_m", "rms_displacement_m"});
+  Table table({"trial", "weight", "frequency_Hz", "max_displacement_m", "rms_displacement_m",
+               "max_abs_displacement_m", "unstable", "functions"});
   for (std::size_t i = 0; i < resonance.pairs.size(); ++i)
-    for (const auto& point : resonance.sweeps[i].curve.points)
-      table.append_row({resonance.pairs[i].trial, resonance.pairs[i].weight, point.frequency,
-                        point.max_displacement, point.rms_displacement});
+    append_sweep(table, resonance.pairs[i], resonance.functions, resonance.sweeps[i]);
   return table;
+}
+
+Table special_points_table() { return Table({"curve", "type", "frequency_Hz", "max_displacement_m"}); }
+
+void append_special_points(Table& table, const std::string& curve, const app::Sweep& sweep) {
+  for (const auto& point : sweep.stability.special_points)
+    table.append_row({curve, std::string(to_string(point.type)), point.frequency, point.max_displacement});
 }
 
 }  // namespace wavebalance::jl14

@@ -12,7 +12,8 @@ struct Resonance {
   std::vector<Pair> pairs;
   std::vector<app::Sweep> sweeps;  ///< one per pair, the first with its stability
   app::Sweep free;
-  double gap = 0.0;  ///< m
+  double gap = 0.0;   ///< m
+  int functions = 0;  ///< of every pair
 };
 
 /// Follows the response of the scene `file`; a curve that ends early is noted in the artefact.
@@ -20,7 +21,7 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
                 const std::vector<std::string>& overrides = {});
 /// Fourier:Fourier with 63 functions, 31 full harmonics, and steps of 1 Hz at most.
 app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file);
-/// What the paper leaves open of its continuation.
+/// What the paper does not say of its continuation, and the Nyquist coefficient, which its 64 functions have.
 struct SweepReading {
   double largest_step = 0.0;  ///< Hz
   bool keeps_nyquist = true;
@@ -66,7 +67,13 @@ void add_points(app::Panel& panel, const Pair& pair, const std::string& label, c
 /// The special points of a sweep with its stability.
 void add_special_points(app::Panel& panel, const app::Sweep& sweep);
 
-/// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m of all pairs.
+/// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m, max_abs_displacement_m,
+/// unstable (multipliers outside the unit circle, missing where it was not counted), functions; of all pairs.
 Table sweeps_table(const Resonance& resonance);
+/// Adds the rows of one more curve.
+void append_sweep(Table& table, const Pair& pair, int functions, const app::Sweep& sweep);
+/// Adds the special points of a sweep: curve, type, frequency_Hz, max_displacement_m.
+Table special_points_table();
+void append_special_points(Table& table, const std::string& curve, const app::Sweep& sweep);
 
 }  // namespace wavebalance::jl14

@@ -143,15 +143,20 @@ std::string errors_text(const app::ModeStudy& study, const app::Backbone& backbo
                      report::percent(distance.largest, 2));
 }
 
-std::string interruptions_text(const app::Backbone& backbone) {
-  std::string text;
-  for (const auto& gap : backbone.interruptions) {
-    std::string names;
-    for (const auto& name : gap.resonances) names += (names.empty() ? "" : " and ") + name;
-    text += fmt::format("{}{} at {} to {}", text.empty() ? "" : ", ", names.empty() ? gap.status : names,
-                        report::number(gap.first_ratio, 5), report::number(gap.last_ratio, 5));
-  }
-  return text.empty() ? "none" : text;
+/// Where internal resonances cut the curves.
+Table resonances_table(const RodCurves& curves) {
+  Table table({"Mass matrix", "n:k", "ω over the linear one, from", "to"});
+  const auto add = [&](const std::string& matrix, const app::Backbone& backbone) {
+    for (const auto& gap : backbone.interruptions) {
+      std::string names;
+      for (const auto& name : gap.resonances) names += (names.empty() ? "" : ", ") + name;
+      table.append_row({matrix, names.empty() ? gap.status : names, report::number(gap.first_ratio, 5),
+                        report::number(gap.last_ratio, 5)});
+    }
+  };
+  add("eq. (28)", curves.backbone);
+  add("half-lumped", curves.remedy_backbone);
+  return table;
 }
 
 double frequency_quotient(const app::ModeStudy& study) {
@@ -169,10 +174,7 @@ void notes(report::Artefact& artefact, const RodCurves& curves) {
       "lumped mass is no part of the paper; it has {} and is drawn as the remedy that it is.",
       report::number(frequency_quotient(curves.study), 6),
       report::number(frequency_quotient(curves.remedy), 6)));
-  artefact.note(fmt::format(
-      "Internal resonances, as harmonic:mode with the frequencies over the linear one at which they cut the "
-      "curve. Eq. (28): {}. Half-lumped: {}.",
-      interruptions_text(curves.backbone), interruptions_text(curves.remedy_backbone)));
+  artefact.printed(resonances_table(curves));
   const auto agreement =
       lagrangian_agreement(curves.study, curves.backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
   artefact.check(
@@ -226,7 +228,8 @@ void fig03(report::Artefact& artefact) {
       "half-lumped mass matrix, and by the printed equations (augmented Lagrangian, eq. (28), N = {}). The paper "
       "states neither its N nor its m. (b) shows the beginning of contact with a symbol at each point, (a) and (c) at each fourth; (c) is what the paper takes for ω. "
       "Stability is not drawn: where contacts have mass, no motion beside that of a rigid obstacle is "
-      "determined without a law of impact.",
+      "determined without a law of impact. The table lists the internal resonances that cut the curves: n:k means that "
+      "harmonic n of the motion resonates with linear mode k.",
       published_scene.analysis.harmonics));
   rod_statements(artefact, curves);
   notes(artefact, curves);

@@ -172,6 +172,8 @@ void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const E
     least = std::min(least, frequency);
     largest = std::max(largest, frequency);
   }
+  const Sampled &few = sampled_at(rows, main_harmonics, *std::begin(samples_per_harmonic)),
+                &many = sampled_at(rows, main_harmonics, *std::rbegin(samples_per_harmonic));
   judge(
       artefact,
       {.place = "section 4",
@@ -187,7 +189,11 @@ void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const E
            forces_text(rows), number(1e-3 * exact.largest_force, 4), percent(exact.contact_fraction)),
        .verdict = report::over(readings),
        .readings = readings,
-       .earlier = "Not judged."},
+       .earlier = report::not_judged,
+       .headline = fmt::format(
+           "With N = {} and m = {} to {} the largest contact force grows from {} to {} kN; the exact one is {} kN.",
+           main_harmonics, few.samples, many.samples, number(1e-3 * few.largest_force, 3),
+           number(1e-3 * many.largest_force, 4), number(1e-3 * exact.largest_force, 3))},
       "N harmonics can meet the gap at few samples only. Where a single one bears the force, its mean is fixed by "
       "the motion, so that it grows with m while the motion stays, and the contact shrinks to an instant.");
 }

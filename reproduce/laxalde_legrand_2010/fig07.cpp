@@ -104,7 +104,8 @@ void claim_hardening(report::Artefact& artefact, const std::vector<SecondSolutio
          .criterion = "ω over the linear frequency rises from one to the next of the energies compared",
          .measured = measured,
          .verdict = report::plain(rising),
-         .panel = "(a)"},
+         .panel = "(a)",
+         .apart = on_our_blade},
         "The frequency falls between two of these energies.");
 }
 
@@ -150,7 +151,8 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study, cons
                      measured,
          .verdict = report::together({at_unity(first.leading), at_unity(first.trailing)}),
          .panel = "(a)",
-         .earlier = "Agrees, by no contact below energy 1 and both edges touching at 4.7 and 10.4."},
+         .earlier = "No contact below energy 1, and both edges touching at 4.7 and 10.4, decided. It agreed.",
+         .apart = on_our_blade},
         fmt::format("The edges do not touch together: one does so from energy {}, the other from {} on.",
                     number(std::min(first.leading, first.trailing), 3),
                     number(std::max(first.leading, first.trailing), 3)));

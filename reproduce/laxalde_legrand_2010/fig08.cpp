@@ -118,7 +118,8 @@ void claim_torsion(report::Artefact& artefact, const app::ModeStudy& study,
            "a gap of 1 mm, are lower at each of the paper's three energies than at the next",
        .measured = measured,
        .verdict = report::together({grows(shares), grows(twists)}),
-       .earlier = "Agrees, by growth of any size."},
+       .earlier = "Growth of any size decided. It agreed.",
+       .apart = on_our_blade},
       "One of them does not grow from one energy to the next.");
 }
 
@@ -141,7 +142,8 @@ void claim_sensitivity(report::Artefact& artefact, const std::vector<Shape>& sha
          .measured = measured,
          .verdict = report::plain(largest_difference > report::visible_share),
          .panel = "(c) to (f)",
-         .earlier = "Agrees, by a likeness |<a,b>| / (|a||b|) below 0.99."},
+         .earlier = "A likeness |<a,b>| / (|a||b|) below 0.99 decided. It agreed.",
+         .apart = on_our_blade},
         "The shapes differ by less.");
 }
 

@@ -45,6 +45,9 @@ std::string discretisation(const app::Scene& scene);
 /// Adds the statement, with the reason unless it agrees.
 void judge(report::Artefact& artefact, report::Statement statement, const std::string& because);
 
+/// Why the statements on the blade are judged apart.
+inline constexpr const char* on_our_blade = "on our blade";
+
 /// An axis with its limits.
 app::Axis axis(const std::string& label, double lower, double upper);
 

@@ -22,11 +22,13 @@ void fig05(report::Artefact& artefact) {
   int boxes = 0;
   for (int level = 0; level <= 5; ++level)
     boxes += is_box(table.numbers("level_" + std::to_string(level)), level) ? 1 : 0;
-  artefact.check({"section 3.5",
-                  "Since the compact support of the father scaling function is S1, the periodized function "
-                  "is equivalent.",
-                  "every level is exactly the dilated box $2^J$ on $[0, 2^{-J})$",
-                  std::to_string(boxes) + " of 6 levels are", boxes == 6});
+  artefact.check(
+      {"section 3.5",
+       "Since the compact support of the father scaling function is S1, the periodized function "
+       "is equivalent.",
+       "every level is exactly the dilated box $2^J$ on $[0, 2^{-J})$",
+       boxes == 6 ? std::string("all six levels are") : std::to_string(boxes) + " of six levels are",
+       boxes == 6});
 }
 
 }  // namespace wavebalance::jl14

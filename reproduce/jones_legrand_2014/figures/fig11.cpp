@@ -16,7 +16,7 @@ void fig11(report::Artefact& artefact) {
   figure.panels = drawn.panels(&Measures::rms, "Relative rms error (-)", true);
   artefact.picture(figure);
   artefact.caption(
-      "rms of u − u_ref over a period divided by the rms of u_ref, tip. Both panels have one ordinate. Curves "
+      "Rms of the difference from the exact motion over a period, divided by the rms of the exact motion, at the tip. Both panels have one ordinate. Curves "
       "stand side by side about each number of functions, so that none hides another.");
   state_errors(artefact, all);
   state_haar_errors(artefact, all);

@@ -110,7 +110,8 @@ void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& 
            "Fourier:Fourier for most numbers of functions and cases, by the rms and by the mean; and most of "
            "their orders are within a factor of {:g}",
            report::similar_factor, report::similar_factor),
-       .earlier = "two statements that differed: within half a decade with 128 functions; orders within 1/2"},
+       .earlier =
+           "There were two statements, by half a decade with 128 functions and by orders within 1/2. Both differed."},
       all, judge,
       fmt::format(
           "Piecewise constants are of first order, however the equations are weighted: at 1275 Hz the "
@@ -141,7 +142,7 @@ void state_conclusions(report::Artefact& artefact, const std::vector<Convergence
                                 "at every time with 128 functions and of more than first order, in "
                                 "both cases",
                                 percent(report::visible_share)),
-       .earlier = "was not judged"},
+       .earlier = report::not_judged},
       all, rapid, "Drawn: " + rapid(all.front()).measured + ".");
 }
 

@@ -25,8 +25,8 @@ app::Response by_stepping(const app::Scene& scene) {
 
 /// Both cases with a part of their damping: is it the damping that ends the transient?
 void state_transient(report::Artefact& artefact) {
-  constexpr double share = 0.1;
-  constexpr int longer = 2;
+  constexpr double share = 1.0 / report::parameter_factor;
+  constexpr int longer = static_cast<int>(report::similar_factor);
   std::vector<report::Verdict> parts;
   std::string text;
   for (const char* name : {"stepping_case1.toml", "stepping_case2.toml"}) {
@@ -71,9 +71,9 @@ void check_agreement(report::Artefact& artefact, const app::Scene& scene, const 
   artefact.check(
       {"", "Time stepping, the reference of the paper, finds the motion of the contact phases.",
        fmt::format(
-           "the relative rms distance of the tip displacements is below {:g}, {:g} times the difference "
+           "the relative rms distance of the tip displacements is below {}, {:g} times the difference "
            "of two periods at which time stepping ends",
-           limit, far),
+           report::number(limit), far),
        fmt::format("{}; of the tip velocities {}, of the contact forces {}, of the energies {}",
                    report::number(distance),
                    report::number(app::relative_rms_error(stepping.velocity(), phases.velocity())),

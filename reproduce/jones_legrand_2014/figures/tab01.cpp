@@ -36,6 +36,32 @@ Table printed(const app::Scene& one, const app::Scene& two, double free_one, dou
   return table;
 }
 
+void leave_unjudged(report::Artefact& artefact) {
+  artefact.unjudged(
+      {"section 4",
+       "The values of $a_c$ and $\\alpha$ in Eq. (5) were selected to simulate a reasonably rigid penalty "
+       "function while maintaining good conditioning of the system of nonlinear equations.",
+       "The paper gives no measure of conditioning, and no value that it calls good."});
+  artefact.unjudged(
+      {"section 1",
+       "Unlike the shooting method which can become numerically sensitive to possible jumps in the "
+       "velocity field, weighted residual techniques directly enforce the periodicity conditions",
+       "It says what can happen and names no system. With the exponential law of the cases the velocity "
+       "has no jumps."});
+}
+
+void list_slips(report::Artefact& artefact) {
+  artefact.slip({"eq. (1)", "the sign of $E S u_{xx}$", "the one that makes it a wave equation",
+                 "Eq. (7) has M and K with one sign, both positive."});
+  artefact.slip(
+      {"section 1",
+       "“five sections: Section 2 introduces the system of interest; ... and Section 6 presents and compares "
+       "results”",
+       "Section 1 introduces the system, Section 2 the weighted residuals, Section 3 the bases, Section 4 the "
+       "model, Section 5 presents results, and Section 6 concludes.",
+       "The headings of the sections."});
+}
+
 }  // namespace
 
 void tab01(report::Artefact& artefact) {
@@ -57,7 +83,7 @@ void tab01(report::Artefact& artefact) {
                               "the lowest natural frequency of the 25 elements, rounded to 1 Hz",
                               number(fundamental, 7) + " Hz", report::plain(reads(fundamental, 1273.0, 0))};
   frequency.because = "It is " + frequency.measured + ".";
-  frequency.earlier = "Formerly a difference of 0.5 Hz was allowed, which is the same; it agreed.";
+  frequency.earlier = "A difference of 0.5 Hz was allowed, which is the same. It agreed.";
   artefact.statement(reasoned(frequency));
   report::Statement free{
       "section 4",
@@ -68,8 +94,10 @@ void tab01(report::Artefact& artefact) {
       report::together(
           {report::plain(reads(1e3 * free_one, 1.4, 1)), report::plain(reads(1e3 * free_two, 29.0, 0))})};
   free.because = "They are " + free.measured + ".";
-  free.earlier = "Formerly two statements, one for each frequency; both agreed.";
+  free.earlier = "There were two statements, one for each frequency. Both agreed.";
   artefact.statement(reasoned(free));
+  leave_unjudged(artefact);
+  list_slips(artefact);
 }
 
 }  // namespace wavebalance::jl14

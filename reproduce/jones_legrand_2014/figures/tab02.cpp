@@ -53,13 +53,13 @@ void note_inadmissible(report::Artefact& artefact) {
 void tab02(report::Artefact& artefact) {
   Table data({"trial", "weight", "trial_sobolev_exponent", "weight_sobolev_exponent", "sobolev_sum",
               "admissible", "inner_products"});
-  Table printed({"Trial function", "Weighting function", "s_q", "s_p", "s_q + s_p", "admissible (> 2)",
+  Table printed({"Trial function", "Weighting function", "$s_q$", "$s_p$", "$s_q + s_p$", "admissible (> 2)",
                  "inner products"});
   for (const auto& pair : pairs()) append(data, printed, pair);
   artefact.data(data, "Sobolev exponents without unit", {"admissible: the exponents sum to more than 2"});
   artefact.printed(printed);
   artefact.caption(
-      "The Sobolev exponents s_q, s_p of trial and weighting functions and whether their pairing with two "
+      "The Sobolev exponents $s_q$, $s_p$ of trial and weighting functions and whether their pairing with two "
       "time derivatives exists are computed; the paper lists the first two columns.");
   int admissible = 0;
   for (std::size_t i = 0; i < data.rows(); ++i)
@@ -68,7 +68,8 @@ void tab02(report::Artefact& artefact) {
       {"conclusions",
        "This allowed piecewise constant Haar scaling functions to be used as a trial basis in the current "
        "investigation.",
-       "all six pairs are admissible in the distributional form", std::to_string(admissible) + " of 6 are",
+       "all six pairs are admissible in the distributional form",
+       admissible == 6 ? std::string("all six are") : std::to_string(admissible) + " of six are",
        admissible == 6});
   note_inadmissible(artefact);
 }

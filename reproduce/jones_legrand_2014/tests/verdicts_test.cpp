@@ -20,46 +20,51 @@ TEST(Jl14Paper, StatementsOnTheCasesHaveTheirVerdicts) {
                   "fig09", "tab01", "rigid_plateau"});
   const std::vector<std::tuple<std::string, std::string, Verdict>> expected{
       {"reference_case2", "transient response to decay", Verdict::agrees},
-      {"fig04_daubechies6_levels", "no longer scale-invariant", Verdict::agrees},
+      {"fig04_daubechies6_levels", "wrapped around the", Verdict::agrees},
       {"fig04_daubechies6_levels", "the shape does not converge", Verdict::differs},
       {"fig04_daubechies6_levels", "prone to error", Verdict::agrees},
       {"tab01_cases", "fundamental frequency", Verdict::agrees},
       {"tab01_cases", "maximum tip displacements", Verdict::agrees},
       {"fig06_tip_displacement_case1", "HBM (Fourier:Fourier) approximates", Verdict::agrees},
       {"fig06_tip_displacement_case1", "oscillations due to Gibbs", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "less well due to the blocky nature", Verdict::agrees},
-      {"fig06_tip_displacement_case1", "contact plateau is well represented", Verdict::depends},
+      {"fig06_tip_displacement_case1", "contact plateau is well represented", Verdict::differs},
       {"fig06_tip_displacement_case1", "localized error", Verdict::depends},
-      {"fig07_tip_displacement_case2", "less suited", Verdict::depends},
+      {"fig07_tip_displacement_case2", "less suited", Verdict::partly},
       {"fig07_tip_displacement_case2", "tip penetration", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "sharp jump in velocity", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "ringing due to Gibbs", Verdict::agrees},
-      {"fig08_tip_velocity_case1", "more pronounced", Verdict::depends},
-      {"fig08_tip_velocity_case1", "best job", Verdict::depends},
-      {"fig08_tip_velocity_case1", "velocity function envelope", Verdict::depends},
+      {"fig07_tip_displacement_case2", "no distinct contact plateau", Verdict::agrees},
+      {"fig08_tip_velocity_case1", "more pronounced", Verdict::differs},
+      {"fig08_tip_velocity_case1", "best job", Verdict::differs},
+      {"fig08_tip_velocity_case1", "velocity function envelope", Verdict::differs},
       {"fig08_tip_velocity_case1", "sparse representation", Verdict::agrees},
-      {"fig09_contact_force_case1", "Gibbs phenomenon can be seen", Verdict::depends},
-      {"fig09_contact_force_case1", "relatively well", Verdict::depends},
-      {"fig09_contact_force_case1", "most accurately approximate", Verdict::partly},
-      {"fig09_contact_force_case1", "more accurate contact force", Verdict::depends},
+      {"fig09_contact_force_case1", "Gibbs phenomenon can be seen", Verdict::agrees},
+      {"fig09_contact_force_case1", "relatively well", Verdict::differs},
+      {"fig09_contact_force_case1", "most accurately approximate", Verdict::agrees},
+      {"fig09_contact_force_case1", "more accurate contact force", Verdict::differs},
       {"fig09_contact_force_case1", "comparable prediction accuracy", Verdict::partly},
-      {"rigid_plateau", "perform even better", Verdict::agrees},
-      {"rigid_plateau", "perfectly flat contact plateaus", Verdict::depends}};
+      {"rigid_plateau", "perform even better", Verdict::agrees}};
   for (const auto& [stem, words, verdict] : expected)
     EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
 }
 
-TEST(Jl14Paper, ReadingsAreCounted) {
+TEST(Jl14Paper, ReadingsOfTheTextDecideAndTheOthersAreCountedApart) {
   results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig08", "fig09"});
-  const auto agreeing = [](const std::string& stem, const std::string& words) {
-    return report::agreeing(results().statement(stem, words).readings);
+  struct Counts {
+    const char *stem, *words;
+    int text, instead;
+    std::size_t all;
   };
-  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "well represented"), 7);
-  EXPECT_EQ(agreeing("fig06_tip_displacement_case1", "localized error"), 13);
-  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "velocity function envelope"), 1);
-  EXPECT_EQ(agreeing("fig08_tip_velocity_case1", "best job"), 1);
-  EXPECT_EQ(agreeing("fig09_contact_force_case1", "relatively well"), 2);
-  EXPECT_EQ(agreeing("fig09_contact_force_case1", "Gibbs phenomenon can be seen"), 17);
+  for (const Counts& one : {Counts{"fig06_tip_displacement_case1", "well represented", 0, 7, 18},
+                            Counts{"fig06_tip_displacement_case1", "localized error", 1, 14, 18},
+                            Counts{"fig08_tip_velocity_case1", "velocity function envelope", 0, 1, 18},
+                            Counts{"fig08_tip_velocity_case1", "best job", 0, 14, 36},
+                            Counts{"fig09_contact_force_case1", "relatively well", 0, 2, 18},
+                            Counts{"fig09_contact_force_case1", "Gibbs phenomenon can be seen", 2, 16, 18}}) {
+    const auto readings = results().statement(one.stem, one.words).readings;
+    EXPECT_EQ(report::agreeing(readings), one.text) << one.words;
+    EXPECT_EQ(report::agreeing(readings, false), one.instead) << one.words;
+    EXPECT_EQ(report::of_text(readings).size(), 2u) << one.words;
+    EXPECT_EQ(readings.size(), one.all) << one.words;
+  }
 }
 
 TEST(Jl14Paper, StatementsOnConvergenceAndResonanceHaveTheirVerdicts) {
@@ -72,22 +77,22 @@ TEST(Jl14Paper, StatementsOnConvergenceAndResonanceHaveTheirVerdicts) {
       {"fig10_energy_norm", "over-predict the system energy", Verdict::agrees},
       {"fig10_energy_norm", "better approximated", Verdict::depends},
       {"fig10_energy_norm", "less obvious", Verdict::differs},
-      {"fig10_energy_norm", "more slowly", Verdict::depends},
-      {"fig10_energy_norm", "larger difference", Verdict::depends},
+      {"fig10_energy_norm", "more slowly", Verdict::agrees},
+      {"fig10_energy_norm", "larger difference", Verdict::agrees},
       {"fig11_tip_error", "only 8 basis functions", Verdict::agrees},
       {"fig11_tip_error", "does not perform as well", Verdict::agrees},
-      {"fig11_tip_error", "performs poorly using 16", Verdict::depends},
-      {"fig11_tip_error", "reasonably constant", Verdict::depends},
-      {"fig11_tip_error", "is highest out of", Verdict::agrees},
+      {"fig11_tip_error", "performs poorly using 16", Verdict::agrees},
+      {"fig11_tip_error", "reasonably constant", Verdict::differs},
+      {"fig11_tip_error", "smooth portions", Verdict::agrees},
       {"fig11_tip_error", "mid-points of the Haar", Verdict::partly},
-      {"fig11_tip_error", "low resolution", Verdict::depends},
+      {"fig11_tip_error", "low resolution", Verdict::differs},
       {"fig11_tip_error", "similar trends", Verdict::partly},
       {"fig11_tip_error", "consistent or better", Verdict::partly},
       {"fig11_tip_error", "rapidly converge", Verdict::agrees},
       {"fig12_frequency_response", "increase in frequency", Verdict::agrees},
-      {"fig12_frequency_response", "captured by both", Verdict::depends},
-      {"fig12_frequency_response", "other combinations", Verdict::depends},
-      {"fig12_frequency_response", "all the basis combinations", Verdict::depends},
+      {"fig12_frequency_response", "captured by both", Verdict::agrees},
+      {"fig12_frequency_response", "other combinations", Verdict::agrees},
+      {"fig12_frequency_response", "all the basis combinations", Verdict::agrees},
       {"fig12_frequency_response", "second fundamental frequency", Verdict::misprint}};
   for (const auto& [stem, words, verdict] : expected)
     EXPECT_EQ(report::to_string(results().verdict(stem, words)), report::to_string(verdict)) << stem << words;
@@ -111,12 +116,32 @@ TEST(Jl14Paper, CurvesWithoutTheNyquistCoefficientPassWithEveryStep) {
   }
 }
 
+// What cannot fail but by a fault of the code, and what no criterion could decide.
+TEST(Jl14Paper, SomeSentencesAreChecksAndSomeAreNotJudged) {
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig04", "fig06", "fig08", "fig11",
+                  "tab01", "rigid_plateau"});
+  EXPECT_TRUE(results().passes("fig04_daubechies6_levels", "no longer scale-invariant"));
+  EXPECT_TRUE(results().passes("fig06_tip_displacement_case1", "blocky nature"));
+  EXPECT_TRUE(results().passes("fig08_tip_velocity_case1", "sharp jump in velocity"));
+  EXPECT_TRUE(results().passes("fig08_tip_velocity_case1", "ringing due to Gibbs"));
+  EXPECT_TRUE(results().passes("fig11_tip_error", "is highest out of"));
+  EXPECT_EQ(results().record("tab01_cases").unjudged.size(), 2u);
+  EXPECT_EQ(results().record("tab01_cases").slips.size(), 2u);
+  const auto flat = results().record("rigid_plateau").unjudged;
+  ASSERT_EQ(flat.size(), 1u);
+  EXPECT_NE(flat[0].found.find("512 points: flat none"), std::string::npos) << flat[0].found;
+}
+
 // The energies and errors of [JL14, Figs. 10 and 11] under the sums that are read from the paper's words.
 TEST(Jl14Paper, ConvergenceIsJudgedUnderReadingsOfAllSums) {
   std::vector<std::string> names;
   for (const Sums& one : all_sums()) names.push_back(one.name());
-  for (const Sums& one : convergence_sums())
+  int of_text = 0;
+  for (const Sums& one : convergence_sums()) {
     EXPECT_EQ(std::count(names.begin(), names.end(), one.name()), 1) << one.name();
+    of_text += one.of_text() ? 1 : 0;
+  }
+  EXPECT_EQ(of_text, 2);
   EXPECT_EQ(convergence_sums().front().name(), all_sums().front().name());
 }
 

@@ -61,6 +61,9 @@ TEST(Ll10Blade, VerdictsOnTheBladeFollowTheFigures) {
   const auto verdict = [](const char* words) { return results().verdict("fig07_blade_backbone", words); };
   EXPECT_EQ(verdict("increase of the natural frequency"), agrees);
   EXPECT_EQ(verdict("leading and trailing"), partly);
+  for (const char* stem : {"fig07_blade_backbone", "fig08_blade_shapes"})
+    for (const auto& statement : results().record(stem).statements)
+      EXPECT_EQ(statement.apart, "on our blade") << statement.quote;
   EXPECT_TRUE(results().passes("fig07_blade_backbone", "Fig. 7 depicts"));
   EXPECT_TRUE(results().passes("fig07_blade_backbone", "for the blade as for the rod"));
   EXPECT_EQ(results().verdict("fig08_blade_shapes", "torsion effects"), agrees);

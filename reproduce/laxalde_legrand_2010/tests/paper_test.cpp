@@ -10,6 +10,7 @@
 #include "ll10_results.hpp"
 #include "multiplier_strategies.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::ll10 {
 namespace {
@@ -94,15 +95,24 @@ TEST(Ll10Paper, VerdictsOnTheRodFollowTheFigures) {
   using enum report::Verdict;
   const auto verdict = [](const char* words) { return results().verdict("fig03_backbone", words); };
   EXPECT_EQ(verdict("1297.5 Hz"), agrees);
-  EXPECT_EQ(verdict("initial gap amplitude"), agrees);
+  EXPECT_TRUE(results().passes("fig03_backbone", "initial gap amplitude"));
   EXPECT_EQ(verdict("reaches unity"), agrees);
   EXPECT_EQ(verdict("hardening"), agrees);
   EXPECT_EQ(verdict("omega^2 = r"), differs);
   EXPECT_EQ(verdict("identically zero; hence"), differs);
-  EXPECT_EQ(verdict("becomes $\\min r"), misprint);
+  EXPECT_EQ(verdict("becomes $\\min r"), differs);
   EXPECT_EQ(verdict("Eq. (24c)"), misprint);
   EXPECT_TRUE(results().passes("fig03_backbone", "their work is identically zero"));
   EXPECT_TRUE(results().passes("fig03_backbone", "Two solvers give one mode"));
+}
+
+TEST(Ll10Paper, ContactOfTheRodItselfBeginsEarlierThanTheTextSays) {
+  results().need({"fig03"});
+  const auto statement = results().statement("fig03_backbone", "reaches unity");
+  const auto beside = report::of_text(statement.readings, false);
+  ASSERT_EQ(beside.size(), 2u);
+  for (const auto& reading : beside) EXPECT_EQ(reading.verdict, report::Verdict::differs) << reading.name;
+  EXPECT_EQ(beside[0].measured, "from 0.8106 on");  // 8/pi^2
 }
 
 TEST(Ll10Paper, WithMoreSamplesFiveHarmonicsMoveAsBeforeAndTheirForceGrows) {
@@ -129,7 +139,9 @@ TEST(Ll10Paper, BothAlgorithmsAgreeAndTakeAsManySteps) {
   results().need({"algorithms"});
   using enum report::Verdict;
   EXPECT_EQ(results().verdict("algorithms", "similar results"), agrees);
-  EXPECT_EQ(results().verdict("algorithms", "computationally more expensive"), partly);
+  EXPECT_EQ(results().verdict("algorithms", "computationally more expensive"), ties);
+  EXPECT_EQ(results().verdict("algorithms", "sufficiently small"), agrees);
+  EXPECT_EQ(results().record("algorithms").slips.size(), 7u);
   EXPECT_EQ(results().verdict("algorithms", "improves convergence"), agrees);
   const Table table = results().read("algorithms.csv");
   const auto harmonics = table.numbers("harmonics"), energy = table.numbers("last_energy_ratio");
@@ -181,13 +193,14 @@ TEST(Ll10Paper, MedianErrorShrinksWithTheHarmonics) {
 TEST(Ll10Paper, MotionsLookAsDescribed) {
   results().need({"fig02", "fig04", "fig05"});
   using enum report::Verdict;
-  EXPECT_EQ(results().verdict("fig04_phase_space", "elliptic trajectories"), agrees);
+  EXPECT_EQ(results().verdict("fig04_phase_space", "velocity singularities"), agrees);
+  EXPECT_TRUE(results().passes("fig04_phase_space", "elliptic trajectories"));
   EXPECT_TRUE(results().passes("fig05_space_time", "standing wave"));
   EXPECT_EQ(results().verdict("fig05_space_time", "over a fraction of the period"), depends);
   EXPECT_EQ(results().verdict("fig05_space_time", "traveling wave"), agrees);
-  EXPECT_EQ(results().verdict("fig05_space_time", "no more algebraically related"), agrees);
+  EXPECT_TRUE(results().passes("fig05_space_time", "no more algebraically related"));
   EXPECT_EQ(results().verdict("fig05_space_time", "simultaneous maximum"), agrees);
-  EXPECT_EQ(results().verdict("fig05_space_time", "symmetry in time and space"), agrees);
+  EXPECT_TRUE(results().passes("fig05_space_time", "symmetry in time and space"));
   for (const char* stem : {"fig02_rod_sketch", "fig04_phase_space", "fig05_space_time"})
     for (const char* suffix : {".csv", ".svg", ".png"})
       EXPECT_TRUE(results().has(stem + std::string(suffix))) << stem;

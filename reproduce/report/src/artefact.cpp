@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
+#include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::report {
 
@@ -29,8 +31,9 @@ app::Scene Artefact::scene(const std::string& name, const std::vector<std::strin
 void Artefact::statement(Statement statement) {
   if (statement.verdict != Verdict::agrees && statement.because.empty())
     throw std::logic_error("\"" + statement.quote + "\" does not agree and gives no reason");
-  if (statement.verdict == Verdict::depends && statement.readings.empty())
-    throw std::logic_error("\"" + statement.quote + "\" depends on readings and lists none");
+  if (statement.verdict == Verdict::depends &&
+      (statement.readings.empty() || over(statement.readings) != Verdict::depends))
+    throw std::logic_error("\"" + statement.quote + "\" depends on readings that do not part");
   record_.statements.push_back(std::move(statement));
 }
 
@@ -107,7 +110,26 @@ std::string markdown_text(const TextTable& table) {
   return text;
 }
 
-std::string number(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+namespace {
+
+std::string superscript(int exponent) {
+  static constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(exponent))
+    text += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
+  return text;
+}
+
+}  // namespace
+
+std::string number(double value, int digits) {
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  const std::size_t e = text.find('e');
+  if (e == text.npos) return text;
+  const std::string mantissa = text.substr(0, e), power = "10" + superscript(std::stoi(text.substr(e + 1)));
+  if (mantissa == "1" || mantissa == "-1") return (mantissa == "1" ? "" : "-") + power;
+  return mantissa + "·" + power;
+}
 
 std::string percent(double fraction, int digits) { return number(100.0 * fraction, digits) + " %"; }
 

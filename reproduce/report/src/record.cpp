@@ -9,18 +9,21 @@ namespace wavebalance::report {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::differs, "differs"},
                                        {Verdict::agrees, "agrees"},
-                                       {Verdict::partly, "tie or partly"},
+                                       {Verdict::partly, "holds in part"},
+                                       {Verdict::ties, "ties"},
                                        {Verdict::misprint, "misprint"},
                                        {Verdict::depends, "depends"}})
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reading, name, verdict, measured)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reading, name, verdict, measured, of_text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Statement, place, quote, criterion, measured, verdict, because, readings,
-                                   panel, earlier)
+                                   panel, earlier, apart, headline)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Unjudged, place, quote, reason, found)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Slip, place, printed, meant, shown)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, place, sentence, criterion, measured, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Identity, paper, number, title, stem)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DataFile, name, units, notes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneUse, name, overrides)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, data, scenes, notes, statements, checks,
-                                   table, program, wall_seconds, version)
+                                   unjudged, slips, table, program, wall_seconds, version)
 
 std::string_view to_string(Verdict verdict) {
   switch (verdict) {
@@ -29,7 +32,9 @@ std::string_view to_string(Verdict verdict) {
     case Verdict::differs:
       return "differs";
     case Verdict::partly:
-      return "tie or partly";
+      return "holds in part";
+    case Verdict::ties:
+      return "ties";
     case Verdict::misprint:
       return "misprint";
     case Verdict::depends:

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "wavebalance/report/artefact.hpp"
+
 namespace wavebalance::report {
 namespace {
 
@@ -33,27 +35,29 @@ Verdict lower(const std::vector<double>& first, const std::vector<double>& secon
   require_comparable(first, second, "lower");
   const std::size_t wins = below(first, second), losses = below(second, first);
   if (2 * wins > first.size()) return Verdict::agrees;
-  return 2 * losses >= first.size() ? Verdict::differs : Verdict::partly;
+  return 2 * losses >= first.size() ? Verdict::differs : Verdict::ties;
 }
 
 Verdict together(const std::vector<Verdict>& parts) {
+  using enum Verdict;
   if (parts.empty()) throw std::invalid_argument("together: no parts; it takes one or more");
   const auto number = [&](Verdict verdict) { return std::count(parts.begin(), parts.end(), verdict); };
-  const auto agree = number(Verdict::agrees), differ = number(Verdict::differs);
+  const auto agree = number(agrees), differ = number(differs), tie = number(ties);
   const auto count = static_cast<std::ptrdiff_t>(parts.size());
-  if (agree + differ + number(Verdict::partly) != count)
+  if (agree + differ + tie + number(partly) != count)
     throw std::invalid_argument(
-        "together: a part is a misprint or depends; it takes agrees, differs, partly");
-  if (agree == count) return Verdict::agrees;
-  return agree == 0 && differ > 0 ? Verdict::differs : Verdict::partly;
+        "together: a part is a misprint or depends; it takes agrees, differs, partly, ties");
+  if (tie == count) return ties;
+  if (agree + tie == count) return agrees;
+  return agree + number(partly) == 0 ? differs : partly;
 }
 
-Verdict invisible(double largest_difference, double axis_range) {
-  if (!(largest_difference >= 0.0) || !(axis_range > 0.0) || !std::isfinite(largest_difference + axis_range))
+Verdict invisible(double largest_difference, double range) {
+  if (!(largest_difference >= 0.0) || !(range > 0.0) || !std::isfinite(largest_difference + range))
     throw std::invalid_argument(fmt::format(
-        "invisible: a difference of {} on an axis of {}; it takes a finite one on a positive range",
-        largest_difference, axis_range));
-  return plain(largest_difference <= visible_share * axis_range);
+        "invisible: a difference of {} in a range of {}; it takes a finite one in a positive range",
+        largest_difference, range));
+  return plain(largest_difference <= visible_share * range);
 }
 
 Verdict similar(const std::vector<double>& first, const std::vector<double>& second) {
@@ -64,35 +68,92 @@ Verdict similar(const std::vector<double>& first, const std::vector<double>& sec
   return plain(2 * count > first.size());
 }
 
-Verdict over(const std::vector<Reading>& readings) {
-  if (readings.empty()) throw std::invalid_argument("over: no readings; it takes one or more");
-  const Verdict first = readings.front().verdict;
-  const bool same = std::all_of(readings.begin(), readings.end(),
-                                [&](const Reading& reading) { return reading.verdict == first; });
-  return same ? first : Verdict::depends;
+Verdict misprint(Verdict as_printed, Verdict as_corrected) {
+  const bool slip = as_printed != Verdict::agrees && as_corrected == Verdict::agrees;
+  return slip ? Verdict::misprint : as_printed;
 }
 
-int agreeing(const std::vector<Reading>& readings) {
-  return static_cast<int>(std::count_if(readings.begin(), readings.end(), [](const Reading& reading) {
-    return reading.verdict == Verdict::agrees;
+std::vector<Reading> of_text(const std::vector<Reading>& readings, bool allowed) {
+  std::vector<Reading> chosen;
+  for (const Reading& reading : readings)
+    if (reading.of_text == allowed) chosen.push_back(reading);
+  return chosen;
+}
+
+Verdict over(const std::vector<Reading>& readings) {
+  using enum Verdict;
+  const auto deciding = of_text(readings);
+  if (deciding.empty())
+    throw std::invalid_argument("over: the text allows none of the readings; it takes one or more");
+  const auto has = [&](Verdict verdict) {
+    return std::any_of(deciding.begin(), deciding.end(),
+                       [&](const Reading& reading) { return reading.verdict == verdict; });
+  };
+  const Verdict first = deciding.front().verdict;
+  if (std::all_of(deciding.begin(), deciding.end(),
+                  [&](const Reading& reading) { return reading.verdict == first; }))
+    return first;
+  if (has(agrees)) return depends;
+  return has(differs) ? differs : partly;
+}
+
+int agreeing(const std::vector<Reading>& readings, bool allowed) {
+  return static_cast<int>(std::count_if(readings.begin(), readings.end(), [&](const Reading& reading) {
+    return reading.of_text == allowed && reading.verdict == Verdict::agrees;
   }));
 }
 
-std::vector<std::string> rule_text() {
+namespace {
+
+std::vector<std::string> comparisons_text() {
   return {
       fmt::format(
-          "A comparison (“lower”, “larger”, “best”) holds if it holds for most of the sizes that the paper "
-          "draws and by both the rms and the mean of the error. Values within {:g} % of each other tie.",
+          "A comparison (“lower”, “larger”, “best”) holds if it holds for more than half of the sizes or cases "
+          "that the paper draws. It differs if the opposite holds for at least half. Values within {:g} % of each "
+          "other tie. Errors are compared by their rms and by their mean.",
           100.0 * tie_share),
+      "A sentence of several parts, or a comparison by several measures, agrees if all agree, or if some agree and "
+      "the others tie. It ties if all tie. It holds in part if some agree and some do not.",
       fmt::format(
-          "“Well”, “close” and “approximately” hold if the difference cannot be seen on the axis of the "
-          "paper's figure: at most {:g} % of its range.",
-          100.0 * visible_share),
-      fmt::format("“Similar”, “comparable” and “constant” hold within a factor of {:g}.", similar_factor),
-      "A sentence of several parts agrees if all of them do, and is partly right if some do.",
-      "A statement that depends on what the paper leaves open is computed under each reading. It agrees or "
-      "differs if it does so under all of them; otherwise the page says under how many it holds.",
-  };
+          "“Well”, “close” and “approximately” hold if the difference is at most {:g} % of the range that the "
+          "quantity takes in the figure, or of the value that it is compared with. A ratio is close to unity within "
+          "{:g} % of 1. The figures of the papers are not at hand, so that no axis and no curve of theirs is used.",
+          100.0 * visible_share, 100.0 * visible_share),
+      fmt::format(
+          "“Similar”, “comparable”, “constant” and “reasonably” hold within a factor of {:g}. What is the same, or "
+          "zero, is so to {} of the quantities compared.",
+          similar_factor, number(rounding))};
+}
+
+std::vector<std::string> figures_text() {
+  return {
+      fmt::format(
+          "“Sharp” and “quick” is what happens within 1/{} of the period. Errors on a plateau leave out {} of these "
+          "parts at either end. The beginning and the end of an interval are its first and its last 1/{}.",
+          parts_of_period, parts_at_an_end, parts_of_interval),
+      fmt::format(
+          "What converges changes less than half as much after {} doublings. What is due to a parameter "
+          "shrinks with the parameter {:g} and {:g} times as large, or as small.",
+          doublings, parameter_factor, parameter_factor * parameter_factor)};
+}
+
+}  // namespace
+
+std::vector<std::string> rule_text() {
+  std::vector<std::string> text = comparisons_text();
+  for (auto& sentence : figures_text()) text.push_back(std::move(sentence));
+  text.emplace_back(
+      "Where the paper's text leaves something open, the statement is computed under each reading that the text "
+      "allows, and these alone decide. It depends only if it agrees under some of them and not under others. What "
+      "would be found if the paper had done otherwise stands beside, as “if instead”, and decides nothing.");
+  text.emplace_back(
+      "A misprint is a sentence or formula that does not agree as printed, and agrees as another place of the same "
+      "paper has it. Both are computed.");
+  text.emplace_back(
+      "What only a fault of the code could make fail is a check of the code. It is shown and not counted. Statements "
+      "on the blade of Laxalde and Legrand are judged on another blade, since theirs is not published. They stand "
+      "apart and are not counted either.");
+  return text;
 }
 
 }  // namespace wavebalance::report

@@ -54,7 +54,8 @@ std::set<std::string> broken_links(const Path& page) {
                            : std::filesystem::exists(page.parent_path() / target.substr(0, target.find('#')));
     if (!there) broken.insert(target);
   };
-  for (const char* name : {"href", "src", "data-curves", "data-motion", "data-library"}) each(name, check);
+  for (const char* name : {"href", "src", "data-curves", "data-motion", "data-readings", "data-library"})
+    each(name, check);
   each("data-bodies", [&](const std::string& list) {
     std::istringstream targets(list);
     for (std::string target; targets >> target;) check(target);
@@ -104,6 +105,27 @@ nlohmann::json moving_bar() {
   return data;
 }
 
+/// Two ways to form sums, under the second of which one curve is missing.
+std::string readings_script(const std::string& stem) {
+  nlohmann::json data{{"label", "u (mm)"}, {"from", 0.0}, {"to", 1.0}, {"unit", 0.1}, {"level", nullptr}};
+  data["reference"] = {0, 5, 10};
+  data["pairs"] = {{{"label", "sine"}, {"steps", false}}, {{"label", "half"}, {"steps", true}}};
+  const auto verdict = [](const char* word) {
+    return nlohmann::json::array({{{"statement", 2}, {"verdict", word}}});
+  };
+  data["readings"] = {{{"name", "left"},
+                       {"ofText", true},
+                       {"curves", {{0, 4, 10}, {1, 5, 9}}},
+                       {"errors", {0.125, 0.5}},
+                       {"verdicts", verdict("agrees")}},
+                      {{"name", "middle"},
+                       {"ofText", false},
+                       {"curves", {{0, 6, 10}, nullptr}},
+                       {"errors", {0.25, nullptr}},
+                       {"verdicts", verdict("differs")}}};
+  return "((window.wavebalance ?\?= {}).readings ?\?= {})[\"" + stem + "\"] = " + data.dump() + ";\n";
+}
+
 /// Results with a figure that has all that a page shows, and a table on a page of its own.
 void write_results(const Path& results) {
   const Path folder = results / "jones_legrand_2014";
@@ -122,6 +144,8 @@ void write_results(const Path& results) {
     panel.y.label = "u_{tip} (mm)";
     panel.add({"sine", x, y}).add({"half", x, std::vector<double>(x.size(), 0.5)}).mark_y(0.8, "gap");
   }
+  const std::vector<double> three{0.0, 0.5, 1.0}, rising{-0.9, 0.0, 0.9};
+  figure.panels.back().add({"dots", three, rising, app::SeriesStyle::line_points});
   artefact.picture(figure);
   artefact.caption("The gap is $g_0 = 1$ mm.");
   artefact.note("A note with a long formula: $\\omega^2 = r + \\langle\\lambda\\rangle g_0 / m$.");
@@ -138,6 +162,7 @@ void write_results(const Path& results) {
        ""});
   artefact.check({"", "The code is right.", "error < 1", "0.1", true});
   artefact.attach("motion_case1.json", moving_bar().dump(), false);
+  artefact.attach("fig06_tip_case1.readings.js", readings_script("fig06_tip_case1"), false);
   artefact.made_by("jl14 fig06");
   artefact.write(0.1);
   const Path other = results / "extremes";
@@ -182,6 +207,15 @@ TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   }
 
   if (!app::available(app::Library::d3)) GTEST_SKIP() << "d3 is not installed (setup installs it)";
+  const auto& sums = whole["sums"];
+  ASSERT_EQ(sums.size(), 2u) << sums;
+  EXPECT_EQ(sums[0]["name"], "1 of 2: left. The text allows it; the figure shows it.");
+  EXPECT_EQ(sums[1]["name"], "2 of 2: middle. This is not what the paper does.");
+  EXPECT_EQ(sums[0]["titles"], (nlohmann::json{"(a) sine, error 12.5 %", "(b) half, error 50 %"}));
+  EXPECT_EQ(sums[1]["titles"], (nlohmann::json{"(a) sine, error 25 %", "(b) half, no solution found"}));
+  EXPECT_EQ(sums[0]["verdicts"], nlohmann::json::array({"#fig06_tip_case1-2 statement 2: ✓ agrees"}));
+  EXPECT_NE(sums[0]["curves"][0], sums[1]["curves"][0]);
+  EXPECT_TRUE(sums[1]["curves"][1].is_null());
   const auto& curves = whole["curves"];
   ASSERT_TRUE(curves.is_object()) << curves;
   std::string values = curves["values"];
@@ -190,8 +224,11 @@ TEST_F(Browser, PagesFitThreeWidthsWithoutErrorsAndMoveAsTheirDataSay) {
   ASSERT_EQ(std::sscanf(values.c_str(), "sineTime (periods): %lfutip (mm): %lf", &x, &y), 2) << values;
   EXPECT_NEAR(x, curves["x"].get<double>(), 1e-9);
   EXPECT_NEAR(y, std::sin(2.0 * std::numbers::pi * x), 1e-4);
-  EXPECT_EQ(curves["before"], 4);
-  EXPECT_EQ(curves["hidden"], 2);
+  EXPECT_EQ(curves["before"], 5);
+  EXPECT_EQ(curves["hidden"], 3);
+  EXPECT_FALSE(curves["wheel"].get<bool>());
+  EXPECT_TRUE(curves["wheelWithCtrl"].get<bool>());
+  EXPECT_EQ(curves["snapped"], "dotsTime (periods): 0utip (mm): \u22120.9");
   EXPECT_TRUE(curves["zoomed"].get<bool>());
   EXPECT_TRUE(curves["reset"].get<bool>());
 }
@@ -249,7 +286,7 @@ TEST_F(Browser, TheReportsOfAComparisonAndOfAnOverlayAreSound) {
 TEST_F(BrowserOfResults, FindsTheResultsOfTheRunSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
-  for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "blade.js"})
+  for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "sums.js", "blade.js"})
     if (!std::filesystem::exists(results / "assets" / name) ||
         app::read_file(results / "assets" / name) != app::asset(name))
       GTEST_SKIP() << "the results are those of another build: make reproduce";

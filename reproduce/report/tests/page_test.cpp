@@ -66,18 +66,72 @@ TEST(Page, EscapesWhatItShows) {
   EXPECT_TRUE(holds(page(), "<span class=\"math\">x &lt; 1</span>"));
 }
 
-TEST(Page, OpensWithCountsAndReasonsInTenLinesAtMost) {
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Page, OpensWithCountsAndSixFindingsThatHoldAndThreeThatDoNot) {
   EXPECT_TRUE(holds(section(page(), "brief"),
-                    "Of 3 statements 1 agrees, 1 differs, 1 depends on what is left open."));
-  EXPECT_TRUE(holds(section(page(), "brief"), "<q>fails</q> x is large"));
-  EXPECT_TRUE(holds(section(page(), "brief"), "<q>depends</q> x is open."));
+                    "Of 3 statements 1 agrees, 1 differs, 1 depends on what the paper leaves open."));
   Record many = judged();
-  for (int i = 0; i < 20; ++i) many.statements.push_back(many.statements[1 + i % 2]);
+  many.statements[0].headline = "It is 0.5.";
+  many.statements[2].headline = "It is 3.";
+  for (int i = 0; i < 20; ++i) many.statements.push_back(many.statements[i % 2 == 0 ? 0 : 2]);
   const std::string brief = section(page(many), "brief");
   const std::string list = brief.substr(0, brief.find("</ul>"));
-  std::size_t lines = 0;
-  for (std::size_t at = list.find("<li>"); at != list.npos; at = list.find("<li>", at + 1)) ++lines;
-  EXPECT_LE(lines, 10u);
+  EXPECT_EQ(count_of(list, "<li>"), 9u);
+  EXPECT_EQ(count_of(list, "It is 0.5."), 6u);
+  EXPECT_EQ(count_of(list, "It is 3."), 3u);
+  EXPECT_LT(list.rfind("It is 0.5."), list.find("It is 3."));
+}
+
+TEST(Page, StatementsJudgedApartAreShownAndNotCounted) {
+  Record record = judged();
+  record.statements[0].apart = "on another body";
+  record.statements[0].headline = "It is 0.5.";
+  EXPECT_TRUE(holds(section(page(record), "brief"), "Of 2 statements 1 differs, 1 depends"));
+  EXPECT_FALSE(holds(section(page(record), "brief"), "It is 0.5."));
+  EXPECT_TRUE(holds(section(page(record), "matrix"), "class=\"cell agrees apart\""));
+  EXPECT_TRUE(holds(section(page(record), "matrix"), "dashed: on another body, not counted"));
+  EXPECT_TRUE(holds(page(record), "agrees · on another body, not counted"));
+}
+
+TEST(Page, ReadingsThatTheTextDoesNotAllowStandBesideTheOthers) {
+  Record record = judged();
+  record.statements[1].readings.push_back({"x = 7", Verdict::agrees, "7", false});
+  EXPECT_TRUE(holds(page(record), "depends: 1 of 2 readings of the text · if instead: 1 of 1"));
+  EXPECT_TRUE(holds(page(record), "<summary>If instead: 1 of 1 agree</summary>"));
+  EXPECT_TRUE(holds(section(page(record), "matrix"), "statement 2: depends\">1/2</a>"));
+}
+
+TEST(Page, ListsWhatIsNotJudgedAndAllMisprintsInOnePlace) {
+  EXPECT_FALSE(holds(section(page(), "rule"), "misprint of the papers"));
+  Record record = judged();
+  record.unjudged = {{"section 4", "somehow", "It names nothing.", "2 N"}};
+  record.slips = {{"eq. (20)", "1/T", "1/m", "eq. (23)"}};
+  record.statements[2].verdict = Verdict::misprint;
+  const std::string rule = section(page(record), "rule");
+  EXPECT_TRUE(holds(rule, "One sentence that cannot be judged"));
+  EXPECT_TRUE(
+      holds(rule, "<td>Some 2000, section 4</td><td>somehow</td><td>It names nothing.</td><td>2 N</td>"));
+  EXPECT_TRUE(holds(rule, "All 2 misprints of the papers"));
+  EXPECT_TRUE(holds(rule, "<td>Some 2000, eq. (20)</td><td>1/T</td><td>1/m</td><td>eq. (23)</td>"));
+  EXPECT_TRUE(holds(rule, "<td>Some 2000, section 3</td><td>fails</td>"));
+}
+
+TEST(Page, TableOfVerdictsHasARowForEachStatement) {
+  Record record = judged();
+  record.statements[1].readings.push_back({"x = 7", Verdict::agrees, "7", false});
+  const app::Table table = verdicts_table({{some_paper(), {record}, {}}});
+  ASSERT_EQ(table.rows(), 3u);
+  EXPECT_EQ(std::get<std::string>(table.at(1, "id")), "fig01_example-2");
+  EXPECT_EQ(std::get<std::string>(table.at(1, "verdict")), "depends");
+  EXPECT_EQ(table.numbers("readings_of_text"), (std::vector<double>{0, 2, 0}));
+  EXPECT_EQ(table.numbers("agreeing_of_text"), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(table.numbers("readings_if_instead"), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(verdicts_table({{some_paper(true), {record}, {}}}).rows(), 0u);
 }
 
 TEST(Page, MatrixHasOneLinkedCellForEachStatement) {
@@ -100,7 +154,7 @@ TEST(Page, EveryAnchorExistsOnce) {
 TEST(Page, ACardSaysWhatDecidesWhatIsFoundAndWhy) {
   for (const char* part : {"panel (b), section 2", "<dt>Decided by</dt><dd>x &lt; 1</dd>",
                            "<dt>Found</dt><dd>1.5</dd>", "<dt>Because</dt><dd>x is open. More.</dd>",
-                           "depends: 1 of 2 readings", "2 readings: 1 agrees, 1 differs", "<td>x = 2</td>"})
+                           "depends: 1 of 2 readings", "2 readings that the text allows", "<td>x = 2</td>"})
     EXPECT_TRUE(holds(page(), part)) << part;
 }
 
@@ -109,6 +163,11 @@ TEST(Page, StatesTheRuleAndWhatWasJudgedOtherwiseEarlier) {
   EXPECT_TRUE(holds(rule, "Values within 10 % of each other tie."));
   EXPECT_TRUE(holds(rule, "<q>depends</q></td><td>x &lt; 2</td>"));
   EXPECT_FALSE(holds(rule, "<q>holds</q>"));
+  EXPECT_TRUE(
+      holds(rule, "1 were judged by another criterion or had another verdict before, and 0 were not judged"));
+  Record record = judged();
+  record.statements[0].earlier = not_judged;
+  EXPECT_TRUE(holds(section(page(record), "rule"), "verdict before, and 1 were not judged"));
 }
 
 TEST(Page, ChecksAreFoldedAndNotCounted) {

@@ -36,7 +36,8 @@ async function unfold(page) {
   page.querySelectorAll("details").forEach((one) => { one.open = true; });
   const figures = [...page.querySelectorAll("figure[data-curves]")];
   for (const figure of figures) {
-    figure.querySelector(".tools button")?.click();
+    const button = figure.querySelector(".tools button");
+    if (button?.getAttribute("aria-pressed") === "false") button.click();
     await until(() => figure.querySelector(".plot .curve, .plot path"));
   }
   return figures.length;
@@ -80,6 +81,38 @@ async function tips(page) {
   return { source: box.dataset.motion, found, moved };
 }
 
+// The slider over ways to form sums at its ends: names, titles and curves of the panels, and the verdicts.
+async function sums(page) {
+  const box = page.querySelector(".sums");
+  if (!box || !page.defaultView.d3) return null;
+  box.scrollIntoView();
+  page.defaultView.dispatchEvent(new page.defaultView.Event("scroll"));
+  if (!(await until(() => box.querySelector(".curve")))) return "no curves were drawn";
+  const slider = box.querySelector("input"), found = [];
+  for (const value of [0, slider.max]) {
+    slider.value = value;
+    slider.dispatchEvent(new page.defaultView.Event("input"));
+    found.push({ name: box.querySelector("output").textContent,
+      titles: [...box.querySelectorAll(".panel > p")].map((one) => one.textContent),
+      verdicts: [...box.querySelectorAll(".key a")].map((one) => `${one.getAttribute("href")} ${one.textContent}`),
+      curves: [...box.querySelectorAll(".panel")].map((one) => [...one.querySelectorAll(".curve")].pop().getAttribute("d")) });
+  }
+  return found;
+}
+
+// What is read ten pixels beside the first point of the last curve of the second panel, whose points have symbols.
+function snapped(view, figure) {
+  const panel = figure.querySelectorAll(".plot")[1], path = [...(panel?.querySelectorAll(".curve") ?? [])].pop();
+  if (!path) return null;
+  const svg = panel.querySelector("svg"), box = svg.getBoundingClientRect();
+  const place = svg.querySelector("g").getAttribute("transform").match(/[\d.]+/g).map(Number);
+  const [a, b] = path.getAttribute("d").slice(1).split("L").map((point) => point.split(",").map(Number));
+  const share = 10 / Math.hypot(b[0] - a[0], b[1] - a[1]);
+  svg.dispatchEvent(new view.PointerEvent("pointermove", { clientX: box.left + place[0] + a[0] + share * (b[0] - a[0]),
+    clientY: box.top + place[1] + a[1] + share * (b[1] - a[1]) }));
+  return panel.querySelector(".values").textContent;
+}
+
 // The first curve of a figure: values at its points, hidden by its name, zoomed by keys and put back.
 async function curves(page) {
   const figure = page.querySelector("figure[data-curves]");
@@ -103,7 +136,14 @@ async function curves(page) {
   press("+");
   const zoomed = now() !== path;
   press("0");
-  return { values, x: series.x[middle], y: series.y[middle], label: series.label, before, hidden, zoomed, reset: now() === path };
+  const wheel = (ctrlKey) => {
+    svg.dispatchEvent(new view.WheelEvent("wheel", { deltaY: -200, ctrlKey, bubbles: true, cancelable: true,
+      clientX: box.left + 100, clientY: box.top + 60 }));
+    const changed = now() !== path;
+    press("0");
+    return changed;
+  };
+  return { wheel: wheel(false), wheelWithCtrl: wheel(true), snapped: snapped(view, figure), values, x: series.x[middle], y: series.y[middle], label: series.label, before, hidden, zoomed, reset: now() === path };
 }
 
 (async () => {
@@ -114,6 +154,7 @@ async function curves(page) {
         const opened = await open(page, width);
         const one = { page, width, ...outline(opened), folded: overflow(opened) };
         if (width === 1400) one.tips = await tips(opened);
+        if (width === 1400) one.sums = await sums(opened);
         one.figures = await unfold(opened);
         one.unfolded = overflow(opened);
         one.tooWide = tooWide(opened);

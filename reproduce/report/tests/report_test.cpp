@@ -22,9 +22,12 @@ Record example() {
                         "1.5",
                         Verdict::depends,
                         "x is open",
-                        {{"x = 2", Verdict::differs, "2"}},
+                        {{"x = 2", Verdict::differs, "2", false}},
                         "(b)",
                         "x < 2"}};
+  record.statements[1].apart = "elsewhere";
+  record.unjudged = {{"section 3", "perhaps", "It names nothing.", ""}};
+  record.slips = {{"eq. (1)", "+", "-", "eq. (2)"}};
   record.checks = {{"", "checked", "y < 1", "0.5", true}};
   record.table = {{"a", "b"}, {"1 | <2>", "3"}};
   record.wall_seconds = 0.25;
@@ -42,6 +45,10 @@ TEST(Record, ReadsBackAsWritten) {
   EXPECT_EQ(back.statements[1].verdict, Verdict::depends);
   ASSERT_EQ(back.statements[1].readings.size(), 1u);
   EXPECT_EQ(back.statements[1].readings[0].name, "x = 2");
+  EXPECT_FALSE(back.statements[1].readings[0].of_text);
+  EXPECT_EQ(back.statements[1].apart, "elsewhere");
+  EXPECT_EQ(back.unjudged.at(0).quote, "perhaps");
+  EXPECT_EQ(back.slips.at(0).meant, "-");
   EXPECT_TRUE(back.checks.at(0).passes);
   EXPECT_EQ(back.scenes.at(0).overrides, record.scenes[0].overrides);
 }
@@ -98,7 +105,7 @@ TEST(Artefact, TheDataOfItsCurvesAreWrittenBesideThePicture) {
   EXPECT_NE(script.find("[\"fig02\"]"), std::string::npos);
 }
 
-TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsItsReadings) {
+TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsReadingsThatPart) {
   Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, "nowhere", "nowhere");
   Statement statement{"section 1", "quote", "x < 1", "2", Verdict::differs, "", {}, "", ""};
   EXPECT_THROW(artefact.statement(statement), std::logic_error);
@@ -107,6 +114,8 @@ TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsItsReading
   statement.verdict = Verdict::depends;
   EXPECT_THROW(artefact.statement(statement), std::logic_error);
   statement.readings = {{"x = 2", Verdict::differs, "2"}};
+  EXPECT_THROW(artefact.statement(statement), std::logic_error);
+  statement.readings.push_back({"x = 1", Verdict::agrees, "1"});
   artefact.statement(statement);
 }
 
@@ -118,6 +127,9 @@ TEST(Markdown, HoldsOneRowPerLine) {
 
 TEST(Numbers, AreShort) {
   EXPECT_EQ(number(0.000123456), "0.000123");
+  EXPECT_EQ(number(1.23456e-5), "1.23·10⁻⁵");
+  EXPECT_EQ(number(-1e8), "-10⁸");
+  EXPECT_EQ(number(2.5e120), "2.5·10¹²⁰");
   EXPECT_EQ(percent(0.0123456), "1.23 %");
 }
 

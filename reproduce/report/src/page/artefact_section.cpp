@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "page/page_parts.hpp"
 #include "wavebalance/app/page/html.hpp"
@@ -30,9 +31,11 @@ std::string picture(const Record& record, const Place& place) {
   const auto& files = record.files;
   if (std::find(files.begin(), files.end(), stem + ".svg") == files.end()) return "";
   const bool small = bytes(place.section, stem + ".svg") <= largest_svg;
-  return app::figure_html(
-      {place.folder + stem, small ? ".svg" : ".png", record.identity.number + ": " + record.identity.title,
-       app::with_formulas(record.caption), place.section.files.count(stem + ".figure.js") > 0});
+  std::string alternative = record.identity.number + ": " + record.identity.title + ". " + record.caption;
+  std::erase(alternative, '$');
+  return app::figure_html({place.folder + stem, small ? ".svg" : ".png", alternative,
+                           app::with_formulas(record.caption),
+                           place.section.files.count(stem + ".figure.js") > 0});
 }
 
 std::string notes(const Record& record) {
@@ -42,20 +45,38 @@ std::string notes(const Record& record) {
   return text + "</ul>\n";
 }
 
+/// Links from a figure to what can be moved below it.
+std::string ways_on(const std::string& readings, const std::string& moving, const std::string& stem) {
+  std::string text;
+  if (!readings.empty()) text += fmt::format("<a href=\"#sums-{}\">Form the sums otherwise ↓</a> ", stem);
+  if (!moving.empty()) text += fmt::format("<a href=\"#move-{}\">See it move ↓</a>", stem);
+  return text.empty() ? "" : "<p class=\"quiet ways-on\">" + text + "</p>\n";
+}
+
+/// A slider over the ways to form the sums, where an artefact has left their curves.
+std::string sums_html(const Record& record, const Place& place) {
+  const std::string script = record.identity.stem + ".readings.js";
+  if (place.section.files.count(script) == 0) return "";
+  return fmt::format("<div class=\"sums\" id=\"sums-{}\" data-readings=\"{}{}\"></div>\n",
+                     record.identity.stem, place.folder, app::escaped(script));
+}
+
 }  // namespace
 
 std::string artefact_html(const Record& record, const Place& place) {
-  const std::string image = picture(record, place);
+  const std::string image = picture(record, place), said = statements_html(record),
+                    sums = sums_html(record, place), moving = moving_html(record, place);
   std::string shown = image.empty() ? "<p>" + app::with_formulas(record.caption) + "</p>\n" : image;
-  shown += app::table_html(record.table) + theirs(record, place.section.paper) + notes(record) +
-           origin_html(record, place);
-  const std::string said = statements_html(record);
-  const std::string checks = checks_html(record);
+  shown += app::table_html(record.table) + ways_on(sums, moving, record.identity.stem);
+  const std::string more =
+      checks_html(record) + notes(record) + theirs(record, place.section.paper) + origin_html(record, place);
   return fmt::format(
-      "<section class=\"artefact\" id=\"{}\">\n<h3>{}: {}</h3>\n<div class=\"{}\">\n<div class=\"shown\">\n{}</div>\n"
-      "<div class=\"said\">\n{}{}</div>\n</div>\n{}</section>\n",
+      "<section class=\"artefact\" id=\"{0}\">\n<h3>{1}: {2}</h3>\n<div class=\"{3}\">\n<div class=\"shown\">\n{4}</div>\n"
+      "<div class=\"said\">\n{5}</div>\n</div>\n{6}{7}{8}</section>\n",
       record.identity.stem, app::escaped(record.identity.number), app::escaped(record.identity.title),
-      said.empty() ? "alone" : "beside", shown, said, checks, moving_html(record, place));
+      said.empty() ? "alone" : "beside", shown, said, sums,
+      moving.empty() ? "" : fmt::format("<div id=\"move-{}\">\n{}</div>\n", record.identity.stem, moving),
+      more);
 }
 
 }  // namespace wavebalance::report

@@ -47,7 +47,7 @@ std::string contents_box(const std::string& entries) {
 std::string contents(const std::vector<Section>& sections, bool judged, bool measured) {
   std::string text;
   if (judged)
-    text += entry("#brief", "What holds, and why") + entry("#matrix", "Every statement at a glance") +
+    text += entry("#brief", "What holds, what does not") + entry("#matrix", "Every statement at a glance") +
             entry("#rule", "The rule that decides");
   for (const Section& section : sections) {
     const std::string name = app::escaped(section.paper.name);
@@ -99,6 +99,7 @@ app::PageParts parts(const std::string& title, const std::string& assets, const 
   page.assets = assets;
   page.libraries = {app::Library::katex, app::Library::d3};
   if (body.find("class=\"motion\"") != body.npos) page.scripts.push_back("motion.js");
+  if (body.find("class=\"sums\"") != body.npos) page.scripts.push_back("sums.js");
   if (body.find("class=\"body-motion\"") != body.npos) page.scripts.push_back("blade.js");
   return page;
 }

@@ -1,19 +1,21 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "wavebalance/app/files/table.hpp"
 #include "wavebalance/report/page.hpp"
 
 /// The parts of the report's pages, each a piece of HTML.
 namespace wavebalance::report {
 
-inline constexpr std::array all_verdicts{Verdict::agrees, Verdict::differs, Verdict::partly,
-                                         Verdict::misprint, Verdict::depends};
+inline constexpr std::array all_verdicts{Verdict::agrees, Verdict::differs,  Verdict::partly,
+                                         Verdict::ties,   Verdict::misprint, Verdict::depends};
 
-/// How many statements have each verdict, in the order of all_verdicts.
+/// How many of the statements that are counted have each verdict, in the order of all_verdicts.
 struct Tally {
   std::array<int, all_verdicts.size()> counts{};
 
@@ -22,10 +24,10 @@ struct Tally {
   int all() const;
 };
 
-/// Class in the style sheet: "agrees", "differs", "partly", "misprint", "depends".
+/// Class in the style sheet: "agrees", "differs", "partly" (a tie too), "misprint", "depends".
 std::string_view kind(Verdict verdict);
-/// What stands for a verdict where there is no room for a word. `readings`: "2/8" in place of "?" for
-/// depends.
+/// What stands for a verdict where there is no room for a word. `readings`: "1/2" in place of "?" for
+/// depends, of those that the text allows.
 std::string sign(Verdict verdict, const std::vector<Reading>& readings = {});
 /// The id of the index-th statement of a record, from 0.
 std::string anchor(const Record& record, std::size_t index);
@@ -62,13 +64,37 @@ void write_moving(const std::filesystem::path& folder, const std::vector<Record>
 /// A figure or table with its statements.
 std::string artefact_html(const Record& record, const Place& place);
 
-/// What holds, what does not and why, in ten lines at most.
+/// What this run found in single sentences: most_agreeing of statements that agree and most_others of others.
+inline constexpr std::size_t most_agreeing = 6, most_others = 3;
 std::string brief_html(const std::vector<Section>& sections);
 /// Figure by statement, in colours and signs.
 std::string matrix_html(const std::vector<Section>& sections);
 /// All statements that do not agree, folded.
 std::string not_agreeing_html(const std::vector<Section>& sections);
-/// The rule, and the statements whose criterion or verdict was another one earlier.
+/// The rule, how it came about, and the statements whose criterion or verdict was another one earlier.
 std::string rule_html(const std::vector<Section>& sections);
+/// Sentences on results that are not judged, with the reasons, and the misprints of all papers. Both folded.
+std::string unjudged_html(const std::vector<Section>& sections);
+std::string misprints_html(const std::vector<Section>& sections);
+
+/// verdicts.csv: a row for each statement of the sections without a page of their own.
+app::Table verdicts_table(const std::vector<Section>& sections);
+
+/// A statement and where it stands.
+struct Found {
+  const Section& section;
+  const Record& record;
+  std::size_t index;
+
+  const Statement& statement() const { return record.statements[index]; }
+};
+/// Those of the sections without a page of their own.
+std::vector<Found> all_statements(const std::vector<Section>& sections,
+                                  const std::function<bool(const Statement&)>& wanted);
+/// A link to a statement that shows the number of its figure, and cells with that link and the quotation.
+std::string link(const Found& found);
+std::string statement_cell(const Found& found);
+/// Sign and word of a verdict in its colour.
+std::string badge(const Statement& one);
 
 }  // namespace wavebalance::report

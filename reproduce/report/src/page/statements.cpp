@@ -16,27 +16,44 @@ std::string item(const char* name, const std::string& text) {
 }
 
 std::string word(const Statement& one) {
-  if (one.readings.empty()) return std::string(to_string(one.verdict));
-  return fmt::format("{}: {} of {} readings", to_string(one.verdict), agreeing(one.readings),
-                     one.readings.size());
+  const auto text = of_text(one.readings), beside = of_text(one.readings, false);
+  std::string words(to_string(one.verdict));
+  if (text.size() > 1)
+    words += fmt::format(": {} of {} {}", agreeing(one.readings), text.size(),
+                         beside.empty() ? "readings" : "readings of the text");
+  if (!beside.empty())
+    words += fmt::format(" · if instead: {} of {}", agreeing(one.readings, false), beside.size());
+  return words + (one.apart.empty() ? "" : " · " + one.apart + ", not counted");
 }
 
-/// Open for a few readings, folded for many.
-std::string readings_html(const Statement& one) {
-  if (one.readings.empty()) return "";
+std::string reading_rows(const std::vector<Reading>& readings) {
   std::string rows;
-  Tally tally;
-  for (const Reading& reading : one.readings) {
-    ++tally.counts[static_cast<std::size_t>(reading.verdict)];
+  for (const Reading& reading : readings)
     rows +=
         fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{} {}</td></tr>\n",
                     kind(reading.verdict), app::with_formulas(reading.name),
                     app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
-  }
+  return rows;
+}
+
+std::string reading_table(const std::string& summary, const std::vector<Reading>& readings, bool open) {
+  if (readings.empty()) return "";
   return fmt::format(
-      "<details class=\"readings\"{}><summary>{} readings: {}</summary>\n<div class=\"wide\"><table>"
+      "<details class=\"readings\"{}><summary>{}</summary>\n<div class=\"wide\"><table>"
       "<thead><tr><th>Reading</th><th>Found</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
-      one.readings.size() <= most_open_readings ? " open" : "", one.readings.size(), tally_text(tally), rows);
+      open ? " open" : "", summary, reading_rows(readings));
+}
+
+/// Those of the text open where they are few, the others folded.
+std::string readings_html(const Statement& one) {
+  const auto text = of_text(one.readings), beside = of_text(one.readings, false);
+  return reading_table(fmt::format("{} that the text allows", text.size() == 1
+                                                                  ? std::string("The reading")
+                                                                  : fmt::format("{} readings", text.size())),
+                       text, text.size() <= most_open_readings) +
+         reading_table(
+             fmt::format("If instead: {} of {} agree", agreeing(one.readings, false), beside.size()), beside,
+             false);
 }
 
 std::string where(const Statement& one) {

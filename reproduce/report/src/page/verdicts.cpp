@@ -8,13 +8,15 @@
 namespace wavebalance::report {
 
 void Tally::add(const Record& record) {
-  for (const Statement& one : record.statements) ++counts[static_cast<std::size_t>(one.verdict)];
+  for (const Statement& one : record.statements)
+    if (one.apart.empty()) ++counts[static_cast<std::size_t>(one.verdict)];
 }
 
 int Tally::all() const { return std::accumulate(counts.begin(), counts.end(), 0); }
 
 std::string_view kind(Verdict verdict) {
-  return verdict == Verdict::partly ? std::string_view("partly") : to_string(verdict);
+  const bool between = verdict == Verdict::partly || verdict == Verdict::ties;
+  return between ? std::string_view("partly") : to_string(verdict);
 }
 
 std::string sign(Verdict verdict, const std::vector<Reading>& readings) {
@@ -24,13 +26,15 @@ std::string sign(Verdict verdict, const std::vector<Reading>& readings) {
     case Verdict::differs:
       return "✗";
     case Verdict::partly:
+      return "½";
+    case Verdict::ties:
       return "≈";
     case Verdict::misprint:
       return "m";
     case Verdict::depends:
       break;
   }
-  return readings.empty() ? "?" : fmt::format("{}/{}", agreeing(readings), readings.size());
+  return readings.empty() ? "?" : fmt::format("{}/{}", agreeing(readings), of_text(readings).size());
 }
 
 std::string anchor(const Record& record, std::size_t index) {
@@ -47,9 +51,10 @@ std::string tally_text(const Tally& tally) {
   constexpr std::array<std::array<const char*, 2>, all_verdicts.size()> words{
       {{"agrees", "agree"},
        {"differs", "differ"},
-       {"ties or holds in part", "tie or hold in part"},
+       {"holds in part", "hold in part"},
+       {"ties", "tie"},
        {"is a misprint", "are misprints"},
-       {"depends on what is left open", "depend on what is left open"}}};
+       {"depends on what the paper leaves open", "depend on what the paper leaves open"}}};
   std::string text;
   for (const Verdict verdict : all_verdicts) {
     const int count = tally.of(verdict);

@@ -32,6 +32,10 @@ void write_pages(const std::filesystem::path& results, const Origin& origin) {
   for (const Section& section : sections)
     if (section.paper.own_page)
       app::write_file(results / section.paper.folder / "index.html", own_page_html(section, origin));
+  std::vector<Section> in_order = sections;
+  for (Section& section : in_order)
+    section.records = ordered(std::move(section.records), section.paper.order);
+  app::write_file(results / "verdicts.csv", app::csv_text(verdicts_table(in_order)));
   app::write_file(results / "index.html",
                   page_html(sections, origin, std::filesystem::exists(results / "bench" / "index.html")));
 }

@@ -49,10 +49,14 @@ class Artefact {
   void caption(std::string text) { record_.caption = std::move(text); }
   void note(std::string text) { record_.notes.push_back(std::move(text)); }
   /// A statement of the paper. Throws std::logic_error for one that does not agree and gives no reason, and
-  /// for one that depends on readings and lists none.
+  /// for one that depends on readings of which none agrees or all do.
   void statement(Statement statement);
+  const std::vector<Statement>& statements() const { return record_.statements; }
   /// A check of the code, or a sentence of this project's own.
   void check(Check check) { record_.checks.push_back(std::move(check)); }
+  /// A sentence of the paper that is not judged, and a misprint that no figure depends on.
+  void unjudged(Unjudged one) { record_.unjudged.push_back(std::move(one)); }
+  void slip(Slip one) { record_.slips.push_back(std::move(one)); }
 
   /// Throws app::IoError and app::PlotError.
   void write(double wall_seconds);
@@ -75,7 +79,7 @@ TextTable text_table(const app::Table& table);
 /// `table` in Markdown.
 std::string markdown_text(const TextTable& table);
 
-/// `value` with `digits` significant digits, "1.23e-05" where that is shorter.
+/// `value` with `digits` significant digits, "1.23·10⁻⁵" where that is shorter.
 std::string number(double value, int digits = 3);
 /// `fraction` as "1.23 %".
 std::string percent(double fraction, int digits = 3);

@@ -10,11 +10,12 @@ namespace wavebalance::report {
 enum class Verdict {
   agrees,
   differs,
-  partly,    ///< a tie, or a part of the sentence holds
+  partly,    ///< a part of the sentence holds
+  ties,      ///< the values compared are equal to within report::tie_share
   misprint,  ///< a slip of the pen that the paper's own text or figures correct
-  depends,   ///< holds under some readings of what the paper leaves open
+  depends,   ///< holds under some of the readings that the paper's text allows, but not under all
 };
-/// "agrees", "differs", "tie or partly", "misprint", "depends".
+/// "agrees", "differs", "holds in part", "ties", "misprint", "depends".
 std::string_view to_string(Verdict verdict);
 
 /// The verdict under one reading of a detail that the paper leaves open.
@@ -22,7 +23,13 @@ struct Reading {
   std::string name;  ///< "512 samples at the left ends"
   Verdict verdict = Verdict::differs;
   std::string measured;  ///< what was found under it
+  /// Whether the paper's text allows it. Only such readings decide; the others show what would be found if
+  /// something were done otherwise than the paper says.
+  bool of_text = true;
 };
+
+/// What stands as Statement::earlier where earlier versions did not judge the sentence.
+inline constexpr const char* not_judged = "Not judged.";
 
 /// A statement of a paper and what this run finds. See rule.hpp for what decides.
 struct Statement {
@@ -35,6 +42,24 @@ struct Statement {
   std::vector<Reading> readings = {};  ///< empty where the paper leaves nothing open
   std::string panel = {};              ///< which part of the picture shows it, "(e)"; empty: the whole
   std::string earlier = {};            ///< the criterion or verdict of earlier versions, where it has changed
+  std::string apart = {};     ///< why it is judged but not counted, "on another blade"; empty: counted
+  std::string headline = {};  ///< what was found in one sentence, for the opening of the page
+};
+
+/// A sentence on results that no verdict is given on, and why.
+struct Unjudged {
+  std::string place;
+  std::string quote;
+  std::string reason;
+  std::string found = {};  ///< what this run computed of it, if anything
+};
+
+/// A misprint of a paper that no figure depends on.
+struct Slip {
+  std::string place;    ///< "eq. (20)"
+  std::string printed;  ///< what stands there
+  std::string meant;    ///< what it should be
+  std::string shown;    ///< what in the paper shows it
 };
 
 /// A check of the code, or a sentence of this project's own. Not counted among the statements.
@@ -80,6 +105,8 @@ struct Record {
   std::vector<std::string> notes;  ///< choices made, and what is missing
   std::vector<Statement> statements;
   std::vector<Check> checks;
+  std::vector<Unjudged> unjudged;
+  std::vector<Slip> slips;
   TextTable table;      ///< shown on the page; empty for figures
   std::string program;  ///< what makes it, "jl14 fig06"
   double wall_seconds = 0.0;

@@ -4,32 +4,44 @@
 
 #include "wavebalance/report/record.hpp"
 
-/// The one rule by which the statements of the papers are judged. It is written here before the verdicts are
-/// computed, and the page shows it as rule_text().
+/// The one rule by which the statements of the papers are judged. All its figures stand here, and the page
+/// shows it as rule_text().
 namespace wavebalance::report {
 
 /// Two values tie when the larger exceeds the smaller by at most this share of the smaller.
 inline constexpr double tie_share = 0.10;
-/// What cannot be seen on an axis: this share of its range.
+/// What cannot be seen: this share of the range that a quantity takes.
 inline constexpr double visible_share = 0.02;
 /// "Similar" values differ by at most this factor.
 inline constexpr double similar_factor = 2.0;
+/// What is the same, or zero, is so to this share.
+inline constexpr double rounding = 1e-9;
+/// "Sharp" and "quick" is what happens within one of so many parts of the period.
+inline constexpr int parts_of_period = 64;
+/// "On" or "within" a plateau leaves out so many of these parts at either end.
+inline constexpr int parts_at_an_end = 2;
+/// The beginning and the end of an interval are the first and the last of so many parts.
+inline constexpr int parts_of_interval = 4;
+/// What converges changes by less than half as much after so many doublings.
+inline constexpr int doublings = 4;
+/// An effect of a parameter shrinks when the parameter is this many times larger or smaller, and again.
+inline constexpr double parameter_factor = 10.0;
 
 /// Whether `first` is lower than `second`, compared entry by entry (one entry for each size or case, all by
 /// the same measure). Agrees if `first` is lower in more than half of the entries, differs if it is higher in
-/// at least half; partly otherwise. Entries that tie are neither. Throws std::invalid_argument unless both
+/// at least half, ties otherwise. Entries that tie are neither. Throws std::invalid_argument unless both
 /// have the same number of entries, at least one, and all are finite and none is negative.
 Verdict lower(const std::vector<double>& first, const std::vector<double>& second);
 
-/// The same by several measures, or of several parts of a sentence: agrees if all agree; differs if none
-/// agrees and one differs; partly otherwise. Only agrees, differs and partly can be combined; throws
-/// std::invalid_argument otherwise and for no parts.
+/// The same by several measures, or of several parts of a sentence: agrees if some agree and the others tie;
+/// ties if all tie; differs if none agrees and one differs; partly otherwise. Misprints and readings cannot
+/// be combined; throws std::invalid_argument for them and for no parts.
 Verdict together(const std::vector<Verdict>& parts);
 
-/// "Well", "close", "approximately": agrees if `largest_difference` is at most visible_share of the range of
-/// the axis on which the paper draws it, else differs. Throws std::invalid_argument unless both are finite,
-/// the difference is not negative and the range is positive.
-Verdict invisible(double largest_difference, double axis_range);
+/// "Well", "close", "approximately": agrees if `largest_difference` is at most visible_share of `range`, the
+/// range that the quantity takes, else differs. Throws std::invalid_argument unless both are finite, the
+/// difference is not negative and the range is positive.
+Verdict invisible(double largest_difference, double range);
 
 /// "Similar", "comparable", "constant": agrees if the larger is at most similar_factor times the smaller in
 /// more than half of the entries, else differs. Throws as lower().
@@ -38,11 +50,18 @@ Verdict similar(const std::vector<double>& first, const std::vector<double>& sec
 /// A statement that is true or false without a threshold.
 constexpr Verdict plain(bool holds) { return holds ? Verdict::agrees : Verdict::differs; }
 
-/// The verdict that all readings have in common; depends where they differ. Throws std::invalid_argument for
-/// no readings.
+/// A misprint where the sentence as printed does not agree, and as another place of the same paper has it
+/// does; else the verdict of what is printed.
+Verdict misprint(Verdict as_printed, Verdict as_corrected);
+
+/// The verdict of the readings that the paper's text allows: the one that they have in common; depends where
+/// some agree and some do not; where none agrees, differs if one differs, else partly. Throws
+/// std::invalid_argument if the text allows none of them.
 Verdict over(const std::vector<Reading>& readings);
-/// In how many readings the statement agrees.
-int agreeing(const std::vector<Reading>& readings);
+/// Those that the text allows, or those that it does not.
+std::vector<Reading> of_text(const std::vector<Reading>& readings, bool allowed = true);
+/// In how many of the readings that the text allows, or does not allow, the statement agrees.
+int agreeing(const std::vector<Reading>& readings, bool allowed = true);
 
 /// The rule in sentences, with the figures above.
 std::vector<std::string> rule_text();
