@@ -40,6 +40,7 @@ const std::vector<report::Step>& figures() {
       {"rigid_plateau",
        identity("Rigid contact", "The contact plateau against a rigid obstacle", "rigid_plateau"),
        rigid_plateau},
+      {"speed", identity("Speed against accuracy", "What an error costs in each basis", "speed"), speed},
   };
   return all;
 }

@@ -23,6 +23,7 @@ void tab01(report::Artefact& artefact);
 void tab02(report::Artefact& artefact);
 void haar_readings(report::Artefact& artefact);
 void rigid_plateau(report::Artefact& artefact);
+void speed(report::Artefact& artefact);
 
 /// What the program jl14 makes. Figs. 6-11 read the references, and Figs. 6-9 what
 /// haar_readings leaves; both must be made before.
