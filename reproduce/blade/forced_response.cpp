@@ -24,10 +24,11 @@ struct Pair {
   const char* weight;
   Colour colour;
 };
+/// In the colours of JL14.
 constexpr Pair pairs[] = {
     {"Fourier", "fourier_fourier", "fourier", "fourier", Colour::blue},
-    {"DB6", "daubechies6_daubechies6", "daubechies6", "daubechies6", Colour::vermillion},
-    {"Haar:Fourier", "haar_fourier", "haar", "fourier", Colour::green}};
+    {"DB6", "daubechies6_daubechies6", "daubechies6", "daubechies6", Colour::green},
+    {"Haar:Fourier", "haar_fourier", "haar", "fourier", Colour::purple}};
 
 using Responses = std::vector<BladeResponse>;
 

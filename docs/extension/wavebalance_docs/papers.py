@@ -31,7 +31,7 @@ class PaperResults(Directive):
         return [self.verdicts(found), *(part for record in found for part in self.artefact(env, folder, record))]
 
     def verdicts(self, found):
-        counts = Counter(statement["verdict"] for record in found for statement in record["statements"])
+        counts = Counter(statement["verdict"] for record in found for statement in record["statements"] if not statement["apart"])
         return table(["verdict", "statements"], [[name, number] for name, number in counts.most_common()])
 
     def artefact(self, env, folder, record):

@@ -54,7 +54,8 @@ wavebalance.whenNear = (selector, start) => {
 // On narrow screens a picture is shown at three quarters of its size at least, so that its letters have 10 px; it scrolls.
 function keepReadable(image) {
   const narrow = window.matchMedia("(max-width: 700px)");
-  const fit = () => { image.style.minWidth = narrow.matches && image.naturalWidth ? `${0.75 * image.naturalWidth}px` : ""; };
+  const share = image.src.endsWith(".png") ? 0.375 : 0.75;  // pictures of pixels have twice as many
+  const fit = () => { image.style.minWidth = narrow.matches && image.naturalWidth ? `${share * image.naturalWidth}px` : ""; };
   narrow.addEventListener("change", fit);
   image.addEventListener("load", fit);
   fit();
