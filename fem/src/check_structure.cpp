@@ -77,7 +77,10 @@ void check_structure(const Matrices& matrices, const StructureChecks& checks) {
   require_symmetric(stiffness, matrices.stiffness, finite);
   require_symmetric(mass, matrices.mass, checks);
   if (damped) require_symmetric(damping, matrices.damping, finite);
-  require_positive_definite(mass, matrices.mass, checks.first_index, "");
+  if (!checks.semidefinite_mass)
+    require_positive_definite(mass, matrices.mass, checks.first_index, "");
+  else if (!positive_semidefinite(matrices.mass))
+    throw StructureFault(mass, "is not positive semidefinite: some motion has a negative kinetic energy");
   if (!checks.allow_free)
     require_positive_definite(stiffness,
                               checks.unsymmetric ? symmetric_part(matrices.stiffness) : matrices.stiffness,

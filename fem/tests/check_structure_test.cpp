@@ -53,6 +53,22 @@ TEST(StructureCheck, NamesTheMatrixThatIsWrong) {
   EXPECT_NO_THROW(check_structure(floating, {.allow_free = true}));
 }
 
+// The mass of a bar with one integration point per element: an alternating motion has none.
+TEST(StructureCheck, AcceptsMotionsWithoutMassWhereTheyAreAllowed) {
+  Matrices matrices = bar({.elements = 4});
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int element = 0; element < 4; ++element)
+    for (int i = element - 1; i <= element; ++i)
+      for (int j = element - 1; j <= element; ++j)
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 1.0);
+  matrices.mass.setFromTriplets(entries.begin(), entries.end());
+  EXPECT_NO_THROW(check_structure(matrices, {.semidefinite_mass = true}));
+  matrices.mass.coeffRef(0, 0) = 0.0;  // the alternating motion of the rest has none, and this one less
+  matrices.mass.coeffRef(1, 1) = 1.9;
+  expect_error([&] { check_structure(matrices, {.semidefinite_mass = true}); },
+               "mass is not positive semidefinite");
+}
+
 TEST(StructureCheck, ThrowsTheMatrixAtFaultAndTheReason) {
   for (auto [name, member] : {std::pair{StructureMatrix::mass, &Matrices::mass},
                               std::pair{StructureMatrix::damping, &Matrices::damping},

@@ -126,16 +126,11 @@ class DofMapReader {
   }
 
   DofMap map() {
-    const auto by = [&](auto key, auto what) {
-      std::sort(found_.begin(), found_.end(),
-                [&](const Found& a, const Found& b) { return key(a) < key(b); });
-      for (std::size_t i = 1; i < found_.size(); ++i)
-        if (key(found_[i - 1]) == key(found_[i]))
-          fail_twice(what(found_[i]), found_[i - 1].line, found_[i].line);
-    };
-    by([](const Found& one) { return one.dof; }, [](const Found& one) { return name_of_dof(one.dof); });
-    by([](const Found& one) { return one.row; },
-       [](const Found& one) { return "row " + std::to_string(one.row + 1); });
+    std::stable_sort(found_.begin(), found_.end(),
+                     [&](const Found& a, const Found& b) { return a.row < b.row; });
+    for (std::size_t i = 1; i < found_.size(); ++i)
+      if (found_[i - 1].row == found_[i].row)
+        fail_twice("row " + std::to_string(found_[i].row + 1), found_[i - 1].line, found_[i].line);
     if (found_.back().row + 1 != static_cast<int>(found_.size()))
       throw MatrixFileError(lines_.name() + ": there are " + std::to_string(found_.size()) +
                             " rows, the last is " + std::to_string(found_.back().row + 1) +
@@ -170,18 +165,20 @@ int direction_of(std::string_view name) {
 
 DofMap::DofMap(std::vector<NodeDof> dofs) : dofs_(std::move(dofs)) {
   sorted_.reserve(dofs_.size());
-  for (const NodeDof& dof : dofs_) {
+  for (NodeDof& dof : dofs_) {
     if (dof.direction < 1 || dof.direction > 6)
       throw std::invalid_argument("DofMap: a direction is " + std::to_string(dof.direction) +
                                   "; it must be in 1..6");
+    dof.copy = 1;
     sorted_.emplace_back(dof, static_cast<int>(sorted_.size()));
   }
   std::sort(sorted_.begin(), sorted_.end());
-  const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end(),
-                                        [](const auto& a, const auto& b) { return a.first == b.first; });
-  if (twice != sorted_.end())
-    throw std::invalid_argument("DofMap: " + name_of_dof(twice->first) +
-                                " is there twice; each must be there once");
+  for (std::size_t i = 1; i < sorted_.size(); ++i) {
+    NodeDof &before = sorted_[i - 1].first, &dof = sorted_[i].first;
+    if (before.node != dof.node || before.direction != dof.direction) continue;
+    dof.copy = before.copy + 1;
+    dofs_[static_cast<std::size_t>(sorted_[i].second)].copy = dof.copy;
+  }
 }
 
 int DofMap::row(const NodeDof& dof) const {
@@ -189,15 +186,26 @@ int DofMap::row(const NodeDof& dof) const {
   return found != sorted_.end() && found->first == dof ? found->second : -1;
 }
 
+int DofMap::copies(const NodeDof& dof) const {
+  const auto first =
+      std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{NodeDof{dof.node, dof.direction, 0}, 0});
+  const auto next =
+      std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{NodeDof{dof.node, dof.direction + 1, 0}, 0});
+  return static_cast<int>(next - first);
+}
+
 std::vector<int> DofMap::directions(int node) const {
   std::vector<int> found;
-  for (auto one = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{NodeDof{node, 0}, 0});
+  for (auto one = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{NodeDof{node, 0, 0}, 0});
        one != sorted_.end() && one->first.node == node; ++one)
-    found.push_back(one->first.direction);
+    if (one->first.copy == 1) found.push_back(one->first.direction);
   return found;
 }
 
-std::string DofMap::name(int row) const { return name_of_dof(dofs_.at(static_cast<std::size_t>(row))); }
+std::string DofMap::name(int row) const {
+  const NodeDof& one = dof(row);
+  return name_of_dof(one) + (copies(one) > 1 ? " #" + std::to_string(one.copy) : "");
+}
 
 DofMap read_dof_map(std::istream& input, const std::string& name) { return DofMapReader(input, name).read(); }
 

@@ -33,16 +33,18 @@ class StructureFault : public std::invalid_argument {
 struct StructureChecks {
   bool allow_free = false;            ///< accept a singular stiffness: a structure that can move freely
   bool unsymmetric = false;           ///< accept a damping and a stiffness without symmetry
+  bool semidefinite_mass = false;     ///< accept motions without mass, which a reduction to modes leaves out
   double symmetry_tolerance = 1e-10;  ///< of the largest entry, >= 0
   int first_index = 0;                ///< number of the first row in errors; 1 for Matrix Market files
 };
 
 /// Throws StructureFault if a matrix is empty, not square or of another size than the stiffness (damping may
 /// be 0 x 0), has an entry that is not finite, is not symmetric (but for damping and stiffness if
-/// unsymmetric), or if the mass is not positive definite; unless allow_free, also if the stiffness is
-/// singular or indefinite. Definite means that each pivot of the matrix with its diagonal scaled to ones
-/// exceeds 1e-13, of an unsymmetric stiffness of its symmetric part, which excludes static divergence. The
-/// definiteness of the damping is not checked; see positive_semidefinite(). One or two sparse factorizations.
+/// unsymmetric), or if the mass is not positive definite, or semidefinite if that is accepted; unless
+/// allow_free, also if the stiffness is singular or indefinite. Definite means that each pivot of the matrix
+/// with its diagonal scaled to ones exceeds 1e-13, of an unsymmetric stiffness of its symmetric part, which
+/// excludes static divergence. The definiteness of the damping is not checked; see positive_semidefinite().
+/// One or two sparse factorizations.
 void check_structure(const Matrices& matrices, const StructureChecks& checks = {});
 
 /// Whether a symmetric n x n matrix A is positive semidefinite to a tolerance: whether the smallest

@@ -11,9 +11,12 @@
 namespace wavebalance::fem {
 
 /// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6).
+/// Where several rows have the same node and direction, as those of shells and beams that a code has expanded
+/// to solids, each is a copy, counted from 1 in the order of the rows.
 struct NodeDof {
   int node = 0;
   int direction = 0;
+  int copy = 1;
 
   auto operator<=>(const NodeDof&) const = default;
 };
@@ -25,15 +28,20 @@ int direction_of(std::string_view name);
 /// Which row of the matrices is which motion of which node. Immutable.
 class DofMap {
  public:
-  /// Row i is dofs[i]. Throws std::invalid_argument if one is there twice. O(rows log rows).
+  /// Row i is dofs[i]; the copies of those that are there several times are counted here. Throws
+  /// std::invalid_argument for a direction out of 1..6. O(rows log rows).
   explicit DofMap(std::vector<NodeDof> dofs);
 
   int rows() const { return static_cast<int>(dofs_.size()); }
   /// The row, from 0, or -1 if the map has no such motion. O(log rows).
   int row(const NodeDof& dof) const;
+  /// How many rows have this node and direction. O(log rows).
+  int copies(const NodeDof& dof) const;
+  /// The motion of a row from 0.
+  const NodeDof& dof(int row) const { return dofs_.at(static_cast<std::size_t>(row)); }
   /// The directions that a node has in the map, ascending; none if it is no node of the map. O(log rows).
   std::vector<int> directions(int node) const;
-  /// "node 1042 z" for a row from 0.
+  /// "node 1042 z" for a row from 0, or "node 1042 z #2" of the second row of this name.
   std::string name(int row) const;
 
  private:
