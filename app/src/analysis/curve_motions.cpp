@@ -22,7 +22,7 @@ class MotionsOfCurve {
       : scene_(scene), model_(model), sweep_(sweep), problem_(compose_problem(scene, model)) {}
 
   CurveMotion peak() {
-    const solvers::SweepPoint& highest = sweep_.curve.points[peak_of(sweep_.curve)];
+    const solvers::SweepPoint& highest = sweep_.curve.points[sweep_.peak()];
     return measured("peak", parameter_of(highest, sweep_.curve.parameter), highest.unknown);
   }
 

@@ -15,7 +15,8 @@ namespace {
 
 bool keeps_unknowns(const Scene& scene) {
   return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty() ||
-         scene.analysis.isolas || has_friction(scene);
+         scene.analysis.isolas || !scene.analysis.outputs.empty() || scene.analysis.contact_outputs ||
+         has_friction(scene);
 }
 
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.
@@ -67,11 +68,13 @@ SweepAxis sweep_axis(const Sweep& sweep) {
 
 bool Sweep::stopped() const {
   return interrupted() || stability.cancelled || phases_cancelled || isola_search.cancelled ||
-         !motions_left_out.empty() ||
+         outputs_cancelled || !motions_left_out.empty() ||
          std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.stopped(); }) ||
          std::any_of(branches.begin(), branches.end(),
                      [](const auto& branch) { return branch.end == solvers::BranchEnd::cancelled; });
 }
+
+std::size_t Sweep::peak() const { return peak_of_output ? *peak_of_output : peak_of(curve); }
 
 bool Sweep::misses_part() const {
   return std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.origin.meets_known; });

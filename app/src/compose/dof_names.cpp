@@ -21,6 +21,7 @@ namespace {
 struct NamedDof {
   int sign = 1;
   fem::NodeDof dof;
+  bool numbered = false;  // "node 2 z #2", one of several rows of the name
 };
 
 bool is_list_of_dofs(const DocumentEntry& entry) {
@@ -37,7 +38,7 @@ std::optional<Integer> integer_of(const std::string& word) {
   return value;
 }
 
-/// "node 1042 z", with a minus sign before it or not; none if the text is another.
+/// "node 1042 z" or "node 2 z #2", with a minus sign before it or not; none if the text is another.
 std::optional<NamedDof> named_dof(std::string text) {
   NamedDof found;
   if (text.starts_with('-')) {
@@ -45,11 +46,17 @@ std::optional<NamedDof> named_dof(std::string text) {
     text.erase(0, 1);
   }
   std::istringstream words(text);
-  std::string node, number, direction, more;
+  std::string node, number, direction, copy, more;
   words >> node >> number >> direction;
   const auto value = integer_of<int>(number);
-  if (node != "node" || !value || words >> more) return std::nullopt;
+  if (node != "node" || !value) return std::nullopt;
   found.dof = {*value, fem::direction_of(direction)};
+  if (words >> copy) {
+    const auto place = copy.starts_with('#') ? integer_of<int>(copy.substr(1)) : std::nullopt;
+    if (!place || *place < 1 || words >> more) return std::nullopt;
+    found.dof.copy = *place;
+    found.numbered = true;
+  }
   return found.dof.direction == 0 ? std::nullopt : std::optional(found);
 }
 
@@ -72,15 +79,18 @@ class RowsOfNames {
     if (!named)
       fail_at(
           document_, entry,
-          fmt::format("\"{}\" is no degree of freedom; expected an integer, \"node 1042 z\" or \"-node 1042 "
-                      "z\", with a direction of x, y, z, rx, ry, rz",
-                      text));
+          fmt::format(
+              "\"{}\" is no degree of freedom; expected an integer, \"node 1042 z\" or \"-node 1042 "
+              "z\", with a direction of x, y, z, rx, ry, rz and, where several rows have one name, #1, #2 ...",
+              text));
     if (named->sign < 0 && is_pair_section(entry.section))
       fail_at(document_, entry,
               fmt::format("\"{}\": expected no sign here; coefficients has the signs", text));
     const fem::DofMap& map = read_once(entry);
     const int found = map.row(named->dof);
     if (found < 0) fail_at(document_, entry, absent_text(map, named->dof));
+    if (!named->numbered && map.copies(named->dof) > 1)
+      fail_at(document_, entry, several_text(map, named->dof));
     return named->sign * (found + std::int64_t{1});
   }
 
@@ -102,7 +112,22 @@ class RowsOfNames {
     return *map_;
   }
 
+  /// Which rows a name could mean.
+  std::string several_text(const fem::DofMap& map, fem::NodeDof dof) const {
+    constexpr int shown = 6;
+    const int copies = map.copies(dof);
+    std::vector<std::string> rows;
+    for (dof.copy = 1; dof.copy <= std::min(copies, shown); ++dof.copy)
+      rows.push_back(fmt::format("\"{}\" (row {})", map.name(map.row(dof)), map.row(dof) + 1));
+    return fmt::format(
+        "{} rows of {} have that name, as those of shells and beams that are expanded to solids; expected one of {}{}",
+        copies, path_, fmt::join(rows, ", "), copies > shown ? ", ..." : "");
+  }
+
   std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof) const {
+    if (const int copies = map.copies(dof); copies > 0)
+      return fmt::format("there {} {} row{} of that name in {}; expected no #{}", copies == 1 ? "is" : "are",
+                         copies, copies == 1 ? "" : "s", path_, dof.copy);
     std::vector<std::string> present;
     for (const int direction : map.directions(dof.node)) {
       const std::string name = map.name(map.row({dof.node, direction}));

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "compose/load_places.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/spectral/fft.hpp"
@@ -87,7 +88,7 @@ void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm
 
 Eigen::VectorXd inertia_along(const ForcingTerm& term, const LoadPlaces& places) {
   if (places.files == nullptr) return places.inertia;
-  return places.files->matrices.mass * signed_dofs(term.dofs, *places.files);
+  return inertia_of(term, *places.files);
 }
 
 }  // namespace
@@ -103,11 +104,15 @@ Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
 
 std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places) {
   std::vector<PeriodicForce> forces;
-  for (const ForcingTerm& term : forcing.terms) {
+  if (places.files != nullptr && !forcing.weight.empty())
+    add_force(forces, {weight_of(forcing, *places.files), Eigen::VectorXcd::Ones(1), 0});
+  for (std::size_t i = 0; i < forcing.terms.size(); ++i) {
+    const ForcingTerm& term = forcing.terms[i];
     switch (term.kind) {
       case LoadKind::force:
-        add_force(forces, {term.dofs.empty() ? places.force : forces_at_dofs(term.dofs, *places.files),
-                           harmonics_of(term), 0});
+        add_force(forces,
+                  {places.files == nullptr ? places.force : force_of(forcing, i, *places.files, places.force),
+                   harmonics_of(term), 0});
         break;
       case LoadKind::base_acceleration:
         add_force(forces, {-inertia_along(term, places), harmonics_of(term), 0});

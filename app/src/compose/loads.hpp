@@ -28,7 +28,7 @@ struct LoadPlaces {
 /// SamplesFault for a file that is not there, without numbers, or with fewer than two.
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term);
 
-/// The forces of all terms, those of the same shape together. Throws as harmonics_of().
+/// The forces of the weight and of all terms, those of the same shape together. Throws as harmonics_of().
 std::vector<solvers::PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places);
 
 }  // namespace wavebalance::app

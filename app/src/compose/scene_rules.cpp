@@ -365,6 +365,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
     check_motions(document, scene);
   if (!mode) check_series(document, scene);
   if (balanced) check_subharmonic(document, scene);
+  check_outputs(document, scene);
   check_branches(document, scene);
   check_exact(document, scene);
   check_isolas(document, scene);

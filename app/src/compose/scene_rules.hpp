@@ -32,4 +32,7 @@ void check_mode(const Document& document, const Scene& scene);
 /// the key at fault.
 void check_scene_rules(const Document& document, Scene& scene);
 
+/// What analysis.outputs, contact_outputs and peak_of may be.
+void check_outputs(const Document& document, const Scene& scene);
+
 }  // namespace wavebalance::app

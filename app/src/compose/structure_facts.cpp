@@ -63,18 +63,19 @@ Eigen::VectorXd circulatory_compliances(const fem::Matrices& matrices,
   return condensation.dynamic_compliance({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).compliance.diagonal().real();
 }
 
-std::vector<std::string> names_of_contacts(const Scene& scene, const StructureFiles& files) {
+}  // namespace
+
+std::vector<std::string> contact_names(const Scene& scene) {
+  const auto files = structure_files(scene);
   std::vector<std::string> names;
   for (const SceneContact& contact : contact_places(scene)) {
     std::vector<std::string> rows;
-    for (const int dof : contact.dofs) rows.push_back(files.row_name(dof - 1));
-    const bool negative = !contact.pair && contact.coefficients.front() < 0.0;
+    for (const int dof : contact.dofs) rows.push_back(files->row_name(dof - 1));
+    const bool negative = contact.coefficients.front() < 0.0 && (!contact.pair || contact.dofs.size() == 1);
     names.push_back(fmt::format("{}{}", negative ? "-" : "", fmt::join(rows, ", ")));
   }
   return names;
 }
-
-}  // namespace
 
 StructureFacts structure_facts(const Scene& scene, int modes) {
   const auto files = structure_files(scene);
@@ -92,7 +93,7 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   const Scene one_sided = with_one_side(scene);
   const solvers::ContactDirections directions = contact_directions(one_sided, *files);
   const Eigen::MatrixXd loads = directions.transpose();
-  facts.contacts = names_of_contacts(one_sided, *files);
+  facts.contacts = contact_names(one_sided);
   if (free) return facts;
   if (solvers::is_symmetric(matrices.stiffness)) {
     const Eigen::MatrixXd displacements = fem::static_displacements(matrices.stiffness, loads);

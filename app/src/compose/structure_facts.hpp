@@ -18,6 +18,9 @@ struct StructureFacts {
   std::vector<std::string> contacts;  ///< one per compliance: "node 7 z", "row 20", "node 7 z, node 9 z"
 };
 
+/// The directions of contact of a scene of matrices, or of those of `scene` with each pair once: "node 7 z".
+std::vector<std::string> contact_names(const Scene& scene);
+
 /// Facts of a scene of matrices with at most `modes` modes: a pair with obstacles on both sides is one
 /// contact. Two sparse factorisations and one per repeated count of modes. Throws std::domain_error, and
 /// StructureFault as structure_files() does.

@@ -7,12 +7,14 @@
 #include <cstdlib>
 #include <span>
 
+#include "compose/load_places.hpp"
 #include "compose/massless_rows.hpp"
 #include "compose/symmetric_part.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
+#include "wavebalance/fem/internal_nodes.hpp"
 #include "wavebalance/fem/matrix_file.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
@@ -64,28 +66,38 @@ std::string_view key_of(fem::StructureMatrix matrix) {
   return matrix == fem::StructureMatrix::damping ? damping_key : stiffness_key;
 }
 
+/// Advice on a mass that is not definite.
+std::string advice_on_mass(const fem::Matrices& matrices, bool reduced) {
+  if (reduced || !fem::positive_semidefinite(matrices.mass)) return advice_on_massless_rows(matrices.mass);
+  return ". It is semidefinite: some motions have no mass, as reduced integration leaves them (CalculiX: C3D20R, S8R, "
+         "S4, B31). Expected structure.kept_modes beside it, whose modes have mass" +
+         advice_on_massless_rows(matrices.mass);
+}
+
 /// Advice for a fault that a key of the scene would accept.
 std::string advice_on(const fem::StructureFault& fault, const fem::Matrices& matrices,
-                      const MatricesStructure& structure) {
-  const bool mass = fault.matrix() == fem::StructureMatrix::mass;
-  if (mass) return advice_on_massless_rows(matrices.mass);
-  if (!structure.unsymmetric && fault.reason().find("is not symmetric") == 0)
+                      const StructureFiles& files) {
+  if (fault.matrix() == fem::StructureMatrix::mass) return advice_on_mass(matrices, files.reduced);
+  if (!files.unsymmetric && fault.reason().find("is not symmetric") == 0)
     return ", or say structure.unsymmetric = true if it is meant";
   const bool stiffness = fault.matrix() == fem::StructureMatrix::stiffness;
-  if (stiffness && !structure.free && fault.reason().find("free to move") != std::string::npos)
+  if (stiffness && !files.free && fault.reason().find("free to move") != std::string::npos)
     return " Say structure.free = true if it is meant";
   return "";
 }
 
-void check_matrices(const fem::Matrices& matrices, const MatricesStructure& structure) {
+void check_matrices(const StructureFiles& files) {
+  const fem::Matrices& matrices = files.matrices;
   try {
-    fem::check_structure(
-        matrices, {.allow_free = structure.free, .unsymmetric = structure.unsymmetric, .first_index = 1});
+    fem::check_structure(matrices, {.allow_free = files.free,
+                                    .unsymmetric = files.unsymmetric,
+                                    .semidefinite_mass = files.reduced,
+                                    .first_index = 1});
   } catch (const fem::StructureFault& fault) {
     throw StructureFault(std::string(key_of(fault.matrix())),
-                         "the matrix " + fault.reason() + advice_on(fault, matrices, structure));
+                         "the matrix " + fault.reason() + advice_on(fault, matrices, files));
   }
-  if (!structure.free) return;
+  if (!files.free) return;
   if (!solvers::is_symmetric(matrices.stiffness))
     throw StructureFault(std::string(stiffness_key),
                          "the matrix is not symmetric; expected a symmetric one with structure.free = true");
@@ -102,6 +114,12 @@ std::vector<int> moving_rows(const Scene& scene) {
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
+}
+
+std::vector<std::string> term_paths(const Scene& scene) {
+  std::vector<std::string> paths;
+  for (const ForcingTerm& term : scene.forcing.terms) paths.push_back(term.load);
+  return paths;
 }
 
 /// Takes the moving rows out of the unknowns.
@@ -125,13 +143,52 @@ void hold_moving_rows(StructureFiles& files) {
   }
 }
 
-StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<int> moving,
-                          const MatricesStructure& structure) {
+/// A vector with an entry per row of the stiffness.
+Eigen::VectorXd read_load(const std::string& path, std::string_view key, Eigen::Index size,
+                          const std::string& stiffness_path) {
+  Eigen::VectorXd load =
+      read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
+  if (load.size() == size) return load;
+  throw StructureFault(
+      std::string(key),
+      fmt::format(
+          "the vector in {} has {} entries; expected {}, one for each row of structure.stiffness in {}", path,
+          load.size(), size, stiffness_path));
+}
+
+/// The files of the load, of the forcing and of each of its terms.
+void read_loads(StructureFiles& files, Eigen::Index size) {
+  if (!files.paths[3].empty())
+    files.load = files.forces_at_unknowns(read_load(files.paths[3], load_key, size, files.paths[1]));
+  for (std::size_t i = 0; i < files.term_paths.size(); ++i)
+    files.term_loads.push_back(
+        files.term_paths[i].empty()
+            ? Eigen::VectorXd()
+            : files.forces_at_unknowns(
+                  read_load(files.term_paths[i], term_section(i) + ".load", size, files.paths[1])));
+}
+
+/// What a scene says of its files, none of which has been read.
+StructureFiles named_files(const Scene& scene) {
+  const MatricesStructure& structure = scene.structure.matrices;
   StructureFiles files;
-  files.paths = paths;
+  files.paths = {structure.mass, structure.stiffness, structure.damping, scene.forcing.load,
+                 structure.dof_map};
+  files.term_paths = term_paths(scene);
+  files.moving = moving_rows(scene);
   files.unsymmetric = structure.unsymmetric;
   files.free = structure.free;
-  files.moving = std::move(moving);
+  files.reduced = scene.structure.kept_modes >= 0;
+  return files;
+}
+
+bool same_names(const StructureFiles& a, const StructureFiles& b) {
+  return a.paths == b.paths && a.term_paths == b.term_paths && a.moving == b.moving &&
+         a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
+}
+
+StructureFiles read_files(StructureFiles files) {
+  const std::array<std::string, 5>& paths = files.paths;
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
   const Eigen::Index size = matrices.stiffness.rows();
@@ -142,46 +199,16 @@ StructureFiles read_files(const std::array<std::string, 5>& paths, std::vector<i
     matrices.damping = read_matrix(paths[2], damping_key);
     require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
-  if (!paths[4].empty()) files.dof_map = read_map(paths[4], size, paths[1]);
+  if (!paths[4].empty()) {
+    files.dof_map = read_map(paths[4], size, paths[1]);
+    files.internal_from = fem::first_internal_node(matrices.stiffness, *files.dof_map);
+  }
   hold_moving_rows(files);
   condense_massless_rows(files);
-  check_matrices(matrices, structure);
+  check_matrices(files);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
-  if (paths[3].empty()) return files;
-  files.load = read(paths[3], load_key,
-                    [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
-  if (files.load.size() != size)
-    throw StructureFault(
-        std::string(load_key),
-        fmt::format(
-            "the vector in {} has {} entries; expected {}, one for each row of structure.stiffness in {}",
-            paths[3], files.load.size(), size, paths[1]));
-  files.load = files.forces_at_unknowns(files.load);
+  read_loads(files, size);
   return files;
-}
-
-/// Rows counted from 1 with a sign: in 1..n, none twice.
-void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key) {
-  std::vector<int> rows;
-  for (const int dof : dofs) {
-    const int row = std::abs(dof);
-    if (row < 1 || row > size)
-      throw StructureFault(
-          std::string(key),
-          fmt::format("there is no degree of freedom {}; expected 1..{}, or one of them with a minus sign",
-                      dof, size));
-    if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
-      const bool both = std::find(dofs.begin(), dofs.end(), -dof) != dofs.end();
-      throw StructureFault(
-          std::string(key),
-          fmt::format("degree of freedom {} is there twice; expected each once{}", row,
-                      both ? fmt::format("; [[contact.pairs]] with dofs = [{}] and side = \"both\" has an "
-                                         "obstacle on either side",
-                                         row)
-                           : ""));
-    }
-    rows.push_back(row);
-  }
 }
 
 /// None of the rows in contact may have been condensed.
@@ -191,28 +218,6 @@ void check_mass(const std::vector<int>& dofs, const StructureFiles& files, std::
       throw StructureFault(
           std::string(key),
           fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
-}
-
-/// None of the rows may move with the base.
-void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
-  for (const int dof : dofs)
-    if (std::binary_search(files.moving.begin(), files.moving.end(), std::abs(dof) - 1))
-      throw StructureFault(
-          std::string(key),
-          fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
-                      dof));
-}
-
-void check_terms(const Scene& scene, const StructureFiles& files) {
-  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
-    const ForcingTerm& term = scene.forcing.terms[i];
-    const std::string key = term_section(i) + ".dofs";
-    check_dofs(term.dofs, files.file_rows(), key);
-    if (term.kind != LoadKind::base_displacement) check_unknown(term.dofs, files, key);
-    const bool placed = files.load.size() > 0 || !scene.forcing.load_dofs.empty();
-    if (term.dofs.empty() && !placed)
-      throw StructureFault(key, "missing; expected a list of integers, or load or load_dofs in [forcing]");
-  }
 }
 
 /// Rows of the pairs in 1..n, each with a coefficient.
@@ -229,21 +234,6 @@ void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
   }
 }
 
-/// Terms with places of their own stand in place of a load of amplitude 0.
-bool needs_place(const Scene& scene) {
-  if (scene.analysis.type == AnalysisType::nonlinear_mode) return false;
-  return scene.forcing.amplitude != 0.0 || scene.forcing.terms.empty();
-}
-
-void check_load(const Scene& scene) {
-  const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
-  if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
-  if (!file && !list && needs_place(scene))
-    throw StructureFault(std::string(load_key),
-                         "missing; expected load (a Matrix Market file) or load_dofs (a list), which "
-                         "say where the force acts");
-}
-
 }  // namespace
 
 StructureFault::StructureFault(std::string key, const std::string& reason)
@@ -251,6 +241,21 @@ StructureFault::StructureFault(std::string key, const std::string& reason)
 
 std::string StructureFiles::row_name(int row) const {
   return dof_map ? dof_map->name(row) : "row " + std::to_string(row + 1);
+}
+
+Eigen::VectorXd StructureFiles::rows_along(int axis) const {
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(file_rows());
+  for (int row = 0; dof_map && row < dof_map->rows(); ++row)
+    if (dof_map->dof(row).direction == axis + 1 &&
+        !(internal_from && dof_map->dof(row).node >= *internal_from))
+      along[row] = 1.0;
+  return along;
+}
+
+Eigen::VectorXd StructureFiles::inertia(const Eigen::VectorXd& displacements) const {
+  Eigen::VectorXd result = matrices.mass * at_unknowns(displacements);
+  if (!moving.empty()) result += coupling.mass * displacements(moving);
+  return result;
 }
 
 Eigen::VectorXd StructureFiles::forces_at_unknowns(const Eigen::VectorXd& forces) const {
@@ -266,15 +271,10 @@ std::vector<std::string> warnings_of(const StructureFiles& files) {
 }
 
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
-  const MatricesStructure& structure = scene.structure.matrices;
-  const std::array<std::string, 5> paths{structure.mass, structure.stiffness, structure.damping,
-                                         scene.forcing.load, structure.dof_map};
-  const auto& known = structure.files.contents;
-  const std::vector<int> moving = moving_rows(scene);
-  if (known && known->paths == paths && known->unsymmetric == structure.unsymmetric &&
-      known->free == structure.free && known->moving == moving)
-    return known;
-  return std::make_shared<const StructureFiles>(read_files(paths, moving, structure));
+  const auto& known = scene.structure.matrices.files.contents;
+  StructureFiles wanted = named_files(scene);
+  if (known && same_names(*known, wanted)) return known;
+  return std::make_shared<const StructureFiles>(read_files(std::move(wanted)));
 }
 
 void check_against_files(const Scene& scene, const StructureFiles& files) {
@@ -287,10 +287,7 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
     check_unknown(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
     check_mass(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
   }
-  check_dofs(scene.forcing.load_dofs, all, "forcing.load_dofs");
-  check_unknown(scene.forcing.load_dofs, files, "forcing.load_dofs");
-  check_terms(scene, files);
-  check_load(scene);
+  check_loads(scene, files);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
   if (scene.structure.kept_modes < 0) return;
   if (boundary >= size)
@@ -302,41 +299,6 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
                          fmt::format("expected at most {}, of {} degrees of freedom those neither in contact "
                                      "nor loaded",
                                      size - boundary, size));
-}
-
-Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
-  if (files.load.size() > 0) return files.load;
-  return forces_at_dofs(scene.forcing.load_dofs, files);
-}
-
-namespace {
-
-/// 1 or -1 at each of `dofs`, an entry per row of the files.
-Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const StructureFiles& files) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());
-  for (const int dof : dofs) values[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
-  return values;
-}
-
-}  // namespace
-
-Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
-  return files.at_unknowns(signs_in_files(dofs, files));
-}
-
-Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
-  return files.forces_at_unknowns(signs_in_files(dofs, files));
-}
-
-std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
-  Eigen::VectorXd load = unit_load(scene, files).cwiseAbs();
-  for (const ForcingTerm& term : scene.forcing.terms)
-    if (term.kind == LoadKind::force) load += forces_at_dofs(term.dofs, files).cwiseAbs();
-  std::vector<int> rows;
-  for (Eigen::Index row = 0; row < load.size(); ++row)
-    if (load[row] != 0.0) rows.push_back(static_cast<int>(row));
-  if (rows.size() > most_loaded_dofs) rows.clear();
-  return rows;
 }
 
 solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files) {

@@ -24,14 +24,23 @@ struct StructureFiles {
   fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
   fem::Matrices coupling;            ///< n x moving, the parts of M, C and K between unknowns and moving rows
   Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
+  std::vector<std::string> term_paths;      ///< of each term of the forcing, its file of a load; empty: none
+  std::vector<Eigen::VectorXd> term_loads;  ///< likewise, n each, or 0
   std::optional<fem::DofMap> dof_map;
+  std::optional<int> internal_from;  ///< fem::first_internal_node()
   bool damping_adds_energy = false;  ///< it is not positive semidefinite
   bool unsymmetric = false;          ///< damping and stiffness were allowed to be
   bool free = false;                 ///< the stiffness was allowed to be singular
+  bool reduced = false;              ///< the mass was allowed to be semidefinite, for kept modes
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;
   Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving) + std::ssize(massless); }
+  /// 1 at each row of the files that the dof map has along x, y or z (0, 1, 2), but of internal nodes; zero
+  /// without a map.
+  Eigen::VectorXd rows_along(int axis) const;
+  /// M r, n values, kg, of displacements with an entry per row of the files.
+  Eigen::VectorXd inertia(const Eigen::VectorXd& displacements) const;
   /// The displacements of the unknowns among those with an entry per row of the files.
   Eigen::VectorXd at_unknowns(const Eigen::VectorXd& values) const { return values(rows); }
   /// The forces on the unknowns among those with an entry per row of the files; massless rows pass theirs on.
@@ -58,19 +67,6 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene);
 /// Holds the lists and numbers of a scene to the size n of its matrices: contact_dofs, pairs, load_dofs,
 /// kept_modes, and whether a force that is needed has a place. Throws StructureFault.
 void check_against_files(const Scene& scene, const StructureFiles& files);
-
-/// Rows (from 0) of the loaded degrees of freedom, ascending. Empty if the load has more than
-/// most_loaded_dofs of them: it then acts through the modes of a reduction.
-std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);
-inline constexpr int most_loaded_dofs = 30;
-
-/// The force of amplitude 1 on all n degrees of freedom; zero where the scene gives it no place.
-Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
-
-/// 1 or -1 at each of `dofs`, from 1 with a sign, among n degrees of freedom.
-Eigen::VectorXd signed_dofs(const std::vector<int>& dofs, const StructureFiles& files);
-/// The same as forces, which rows without mass pass on.
-Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files);
 
 /// The directions of contact among n degrees of freedom, contacts x n: of contact_dofs or of the pairs.
 solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files);

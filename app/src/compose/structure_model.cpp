@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "compose/load_places.hpp"
 #include "compose/loads.hpp"
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
@@ -14,6 +15,7 @@
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
+#include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/solvers/structure/rigid_modes.hpp"
@@ -114,6 +116,32 @@ std::optional<fem::Matrices> symmetric_parts(const fem::Matrices& matrices) {
                        .stiffness = symmetric_part(matrices.stiffness)};
 }
 
+[[noreturn]] void fail_too_many_modes(int kept_modes) {
+  throw std::invalid_argument("structure.kept_modes = " + std::to_string(kept_modes) +
+                              ": the mass is semidefinite, and not all of these modes have mass beside the "
+                              "degrees of freedom in contact and under load; expected fewer");
+}
+
+/// A semidefinite mass has as many modes as its rank, of which those of the boundary are some.
+fem::CraigBampton craig_bampton_of(const fem::Matrices& matrices, const std::vector<int>& boundary,
+                                   const fem::CraigBamptonOptions& options) {
+  fem::CraigBampton reduced;
+  try {
+    reduced = fem::craig_bampton(matrices, boundary, options);
+  } catch (const std::domain_error& error) {
+    if (std::string_view(error.what()).find("rank of mass") == std::string_view::npos) throw;
+    fail_too_many_modes(options.modes);
+  }
+  if (reduced.status != fem::EigenmodesStatus::converged) return reduced;
+  try {
+    fem::check_structure({reduced.mass.sparseView(), {}, reduced.stiffness.sparseView()},
+                         {.allow_free = true});
+  } catch (const fem::StructureFault& fault) {
+    if (fault.matrix() == fem::StructureMatrix::mass) fail_too_many_modes(options.modes);
+  }
+  return reduced;
+}
+
 /// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
 /// gyroscopic and circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
@@ -121,8 +149,8 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& l
             const solvers::Observer& observer) {
   const std::optional<fem::Matrices> parts = symmetric_parts(matrices);
   fem::CraigBampton reduced =
-      fem::craig_bampton(parts ? *parts : matrices, boundary,
-                         {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
+      craig_bampton_of(parts ? *parts : matrices, boundary,
+                       {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
                              ": the eigenvalue solver did not find them all");

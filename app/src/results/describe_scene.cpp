@@ -5,14 +5,18 @@
 #include <iterator>
 #include <vector>
 
+#include "compose/load_places.hpp"
 #include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
+#include "results/rest_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
@@ -132,16 +136,21 @@ std::string force_place(const Scene& scene) {
   return "at the tip";
 }
 
+/// Where a term acts; empty where its structure has one place alone.
+std::string term_place(const Scene& scene, const ForcingTerm& term) {
+  if (!term.direction.empty()) return "along " + term.direction;
+  if (!term.load.empty()) return "along its load vector";
+  if (!term.dofs.empty()) return "on " + count_text(std::ssize(term.dofs), "degree") + " of freedom";
+  return scene.structure.type == StructureType::matrices ? force_place(scene) : "";
+}
+
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string size = number_text(term.amplitude);
   const std::string series = !term.samples.empty() ? size + " times samples"
                              : term.harmonic == 0  ? "static, " + size
                                                    : fmt::format("harmonic {}, {}", term.harmonic, size);
-  const std::string place =
-      term.dofs.empty() && scene.structure.type == StructureType::matrices ? force_place(scene)
-      : term.dofs.empty()                                                  ? ""
-                          : "on " + count_text(std::ssize(term.dofs), "degree") + " of freedom";
+  const std::string place = term_place(scene, term);
   const char* unit = !term.samples.empty()                      ? ""
                      : term.kind == LoadKind::force             ? " N"
                      : term.kind == LoadKind::base_displacement ? " m"
@@ -153,6 +162,34 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
                                                                       : "base acceleration";
   return fmt::format("           {}: {}{}{}{}\n", kind, series, unit, phase,
                      place.empty() ? "" : " " + place);
+}
+
+/// The weight, and what it amounts to.
+std::string weight_line(const Scene& scene) {
+  const std::vector<double>& weight = scene.forcing.weight;
+  if (weight.empty()) return "";
+  const auto files = structure_files(scene);
+  const Eigen::VectorXd force = weight_of(scene.forcing, *files);
+  Eigen::Vector3d sum;
+  for (int axis = 0; axis < 3; ++axis) sum[axis] = files->at_unknowns(files->rows_along(axis)).dot(force);
+  const std::string internal =
+      files->internal_from ? fmt::format("; nodes from {} on are internal to elements and weigh nothing",
+                                         *files->internal_from)
+                           : "";
+  return fmt::format("           weight: static, {} m/s^2, {:.5g} N in all{}\n", toml_text(weight),
+                     sum.norm(), internal);
+}
+
+/// Outputs by their names, a few of many.
+std::string outputs_line(const Scene& scene) {
+  if (scene.analysis.outputs.empty()) return "";
+  constexpr std::size_t shown = 8;
+  std::vector<std::string> names;
+  for (const Output& output : outputs_of(scene)) names.push_back(output.name);
+  const std::size_t count = names.size();
+  names.resize(std::min(shown, count));
+  return fmt::format("outputs    {}{}\n", fmt::join(names, ", "),
+                     count > shown ? fmt::format(" and {} more", count - shown) : "");
 }
 
 /// Where motions beside a sweep are sought, and what that takes.
@@ -171,7 +208,7 @@ std::string forcing_line(const Scene& scene) {
   std::string frequency = number_text(scene.forcing.frequency);
   if (analysis.type == AnalysisType::frequency_sweep)
     frequency = number_text(analysis.frequency_from) + " to " + number_text(analysis.frequency_to);
-  std::string terms;
+  std::string terms = weight_line(scene);
   for (const ForcingTerm& term : scene.forcing.terms) terms += term_line(scene, term);
   if (analysis.type == AnalysisType::amplitude_sweep)
     terms += fmt::format("           the amplitude varies from {} to {} {}\n",
@@ -335,7 +372,7 @@ std::string matrices_lines(const Scene& scene) {
     return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);
   const StructureFacts facts = structure_facts(scene);
   return "modes      " + five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios) +
-         "\ncompliance " + compliance_text(facts) + "\n";
+         "\ncompliance " + compliance_text(facts) + "\n" + rest_lines(scene);
 }
 
 std::string warning_lines(const Scene& scene) {
@@ -353,8 +390,8 @@ std::string describe_scene(const Scene& scene) {
                                   structure_line(scene) + matrices_lines(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return first_lines + mode_lines(scene) + cost_line(scene);
-  return first_lines + forcing_line(scene) + method_lines(scene) + size_line(scene) + cost_line(scene) +
-         warning_lines(scene);
+  return first_lines + forcing_line(scene) + outputs_line(scene) + method_lines(scene) + size_line(scene) +
+         cost_line(scene) + warning_lines(scene);
 }
 
 }  // namespace wavebalance::app

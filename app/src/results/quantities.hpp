@@ -43,7 +43,8 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     structure_special_points{"structure_special_points"}, other_motions{"other_motions"}, isola{"isola"},
     isolas{"isolas"}, special_points_of_isolas{"special_points_of_isolas"},
     isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
-    isola_seconds{"isola_seconds", diagnostic, "s"};
+    isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"}, rest_status{"rest_status"},
+    outputs{"outputs"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

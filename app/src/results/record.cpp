@@ -17,7 +17,9 @@
 #include "results/mode_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/motions_record.hpp"
+#include "results/output_record.hpp"
 #include "results/quantities.hpp"
+#include "results/rest_record.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_phases.hpp"
@@ -67,8 +69,17 @@ Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, c
 /// of a bar's report.
 int structure_points(const Scene& scene) {
   const int written = std::max(0, scene.analysis.motion_points);
+  if (!scene.analysis.outputs.empty()) return scene.analysis.output_points;
   if (written > 0 || scene.structure.type != StructureType::bar) return written;
   return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
+}
+
+/// The response's motion of the structure at the instants that the scene writes.
+Eigen::MatrixXd written_motion(const Scene& scene, const Response& response) {
+  const Eigen::MatrixXd& all = response.structure.displacement;
+  const Eigen::Index points = scene.analysis.motion_points;
+  if (all.cols() <= points) return all;
+  return all(Eigen::all, Eigen::seqN(0, points, all.cols() / points));
 }
 
 /// Why a structure that is free to move has no periodic motion, and along what it moves.
@@ -142,13 +153,15 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response) && !response.impacts)
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, model);
+  append_rest(record, scene, model);
+  append_outputs(record, scene, model, response);
   if (!response.moves || response.contacts.empty()) return record;
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
   add_contacts(record, response.contacts, response.contact);
   record.bar_motion = bar_motion_of(scene, model, response);
   if (scene.analysis.motion_points > 0)
-    for (RecordFile& file : motion_files(model, response.structure.displacement))
+    for (RecordFile& file : motion_files(model, written_motion(scene, response)))
       record.files.push_back(std::move(file));
   return record;
 }
@@ -217,7 +230,7 @@ double place_of_peak(const solvers::FrequencySweep& curve) {
 }
 
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
-                    const std::vector<CurveMotion>& motions) {
+                    const SweepOutputs& outputs, const std::vector<CurveMotion>& motions) {
   Record record;
   record.interrupted = sweep.stopped();
   record.converged = sweep.converged() && !record.interrupted;
@@ -262,7 +275,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   }
   append_structure(record.summary, model);
+  append_rest(record, scene, model);
   record.sweep = sweep_table(sweep, scene.analysis.branches);
+  append_outputs(record, scene, sweep, outputs);
   if (points > 0) record.figure = sweep_figure(scene, sweep);
   return record;
 }
@@ -299,8 +314,9 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
 Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
                            const Observer& observer) {
   Sweep sweep = stable_sweep(scene, model, observer, start);
+  const SweepOutputs outputs = measure_outputs(scene, model, sweep, observer);
   const auto motions = curve_motions(scene, model, sweep, observer);
-  Record record = sweep_record(scene, model, sweep, motions);
+  Record record = sweep_record(scene, model, sweep, outputs, motions);
   append_start(record, start, !sweep.curve.points.empty(), sweep.start_distance);
   return record;
 }

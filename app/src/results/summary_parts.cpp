@@ -71,7 +71,7 @@ void add_contacts(Record& record, const solvers::Motion& contacts, int leading) 
 }
 
 void warn_of_scene(Record& record, const Scene& scene) {
-  if (scene.forcing.amplitude == 0.0 && scene.forcing.terms.empty() &&
+  if (scene.forcing.amplitude == 0.0 && scene.forcing.terms.empty() && scene.forcing.weight.empty() &&
       scene.analysis.type != AnalysisType::amplitude_sweep)
     record.warnings.emplace_back("No load acts: forcing.amplitude is 0, and there are no [[forcing.terms]].");
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {

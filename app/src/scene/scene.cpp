@@ -89,7 +89,7 @@ std::vector<std::string> input_files(const Scene& scene) {
   std::vector<std::string> files{matrices.mass, matrices.stiffness, matrices.damping, matrices.dof_map,
                                  scene.forcing.load};
   add_files(files, scene.contact.values);
-  for (const ForcingTerm& term : scene.forcing.terms) files.push_back(term.samples);
+  for (const ForcingTerm& term : scene.forcing.terms) files.insert(files.end(), {term.samples, term.load});
   for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);
   std::erase(files, "");
   return files;

@@ -172,7 +172,7 @@ std::string Condition::text() const {
 }
 
 std::string SceneKey::expected() const {
-  if (type == Type::text) return alternatives(choices);
+  if (type == Type::text) return choices.empty() ? "a text" : alternatives(choices);
   if (type == Type::boolean) return "true or false";
   if (type == Type::path) return "the name of a file, relative to the scene's folder";
   std::string text = number_words(*this);

@@ -112,7 +112,9 @@ void reject_unknown(const Document& document) {
 
 SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   const auto* text = std::get_if<std::string>(&entry.value);
-  if (text != nullptr && std::find(key.choices.begin(), key.choices.end(), *text) != key.choices.end())
+  const bool any = key.choices.empty();
+  if (text != nullptr &&
+      (any || std::find(key.choices.begin(), key.choices.end(), *text) != key.choices.end()))
     return *text;
   std::string allowed = "expected " + key.expected();
   if (text != nullptr) {

@@ -62,7 +62,9 @@ void for_each_term_key(const Scene& scene, Use use) {
     for (const SceneKey& key : term_keys(i)) {
       const ForcingTerm& term = scene.forcing.terms[i];
       const bool sampled = !term.samples.empty();
-      if ((key.name == "samples" && !sampled) || (key.name == "dofs" && term.dofs.empty())) continue;
+      const bool optional =
+          key.name == "samples" || key.name == "dofs" || key.name == "load" || key.name == "direction";
+      if (optional && is_empty(key.get(scene))) continue;
       if (key.name == "harmonic" && sampled) continue;
       if (key.name == "phase" && (sampled || term.harmonic == 0)) continue;
       use(term_section(i), key);

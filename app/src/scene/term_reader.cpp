@@ -49,19 +49,34 @@ class TermReader {
 
   void check_place() const {
     const StructureType type = scene_.structure.type;
-    const bool base = term_.kind != LoadKind::force;
     if (type != StructureType::matrices) {
-      if (const DocumentEntry* given = entry("dofs"))
-        fail_at(document_, *given, "only with structure.type = \"matrices\"");
+      for (const std::string_view name : {"dofs", "load", "direction"})
+        if (const DocumentEntry* given = entry(name))
+          fail_at(document_, *given, "only with structure.type = \"matrices\"");
       if (term_.kind == LoadKind::base_displacement)
         fail_at(document_, *entry("kind"),
                 "only with structure.type = \"matrices\"; expected \"force\" or \"base_acceleration\"");
-    } else if (base && term_.dofs.empty()) {
-      fail_missing("dofs", "a list of integers, the rows that " +
-                               std::string(term_.kind == LoadKind::base_displacement
-                                               ? "move"
-                                               : "point along the motion of the base"));
+      return;
     }
+    refuse_beside("load", LoadKind::force);
+    refuse_beside("direction", LoadKind::base_acceleration);
+    if (entry("direction") != nullptr && scene_.structure.matrices.dof_map.empty())
+      fail_at(
+          document_, *entry("direction"),
+          "expected structure.dof_map beside it, which says which rows move that way, or dofs in its place");
+    if (term_.kind == LoadKind::base_displacement && term_.dofs.empty())
+      fail_missing("dofs", "a list of integers, the rows that move");
+    if (term_.kind == LoadKind::base_acceleration && term_.dofs.empty() && term_.direction.empty())
+      fail_missing("dofs",
+                   "a list of integers, the rows that point along the motion of the base, or direction");
+  }
+
+  /// The key belongs to terms of one kind, and stands in place of dofs.
+  void refuse_beside(std::string_view name, LoadKind kind) const {
+    const DocumentEntry* given = entry(name);
+    if (given == nullptr) return;
+    if (term_.kind != kind) fail_at(document_, *given, "only with kind = \"" + name_of(kind) + "\"");
+    if (!term_.dofs.empty()) fail_at(document_, *given, "there are dofs, too; expected one or the other");
   }
 
   const Document& document_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "scene/keys/key_tables.hpp"
@@ -17,6 +18,10 @@ auto interval_over(int parts) {
   };
 }
 
+SceneValue first_step_by_default(const Scene& scene) {
+  return std::min(std::get<double>(SceneValue(interval_over(1000)(scene))), scene.analysis.largest_step);
+}
+
 void add_sweep(std::vector<SceneKey>& keys) {
   const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
   const Section over_amplitude(keys, "analysis", analysis_part, analysis_is({"amplitude_sweep"}));
@@ -32,12 +37,12 @@ void add_sweep(std::vector<SceneKey>& keys) {
       positive);
   over_amplitude(&Analysis::amplitude_to, "amplitude_to", "N",
                  "where the branch ends, above or below its start", positive);
-  sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
-        derived("a 1000th of the interval", interval_over(1000)));
   sweep(
       &Analysis::largest_step, "largest_step", "Hz or N",
       "no step along the branch is larger; a change by the whole vibration, or by the gap where that is less, counts as a 20th of the interval",
       positive, derived("an 80th of the interval", interval_over(80)));
+  sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
+        derived("a 1000th of the interval, or largest_step where that is less", first_step_by_default));
   sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
         within(2, 10'000'000), optional);
   sweep(
@@ -64,6 +69,39 @@ void add_sweep(std::vector<SceneKey>& keys) {
       "with isolas, random states, beside that of rest, from which the structure settles at each of these "
       "frequencies",
       within(0, 1'000'000), optional, only_with(by_balance()));
+}
+
+/// Contacts move each for itself; many would make a wide table.
+SceneValue contact_outputs_by_default(const Scene& scene) {
+  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
+                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  constexpr int most = 6;
+  const int contacts = contact_count(scene);
+  return sweep && scene.contact.law != no_law && !scene.analysis.exact && !has_impacts(scene.contact) &&
+         contacts > 1 && contacts <= most;
+}
+
+void add_outputs(std::vector<SceneKey>& keys) {
+  const Condition moves =
+      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping"});
+  const Section outputs(keys, "analysis", analysis_part, moves);
+  outputs(
+      &Analysis::outputs, "outputs", "",
+      "degrees of freedom whose motion is written: rows of matrices, with dof_map also \"node 1052 z\", or "
+      "nodes of a bar from its clamp on; largest and least value, half the peak-to-peak value, rms, mean and "
+      "harmonics of each",
+      optional, named_dofs, only_with(structure_is({"matrices", "bar"})));
+  outputs(&Analysis::contact_outputs, "contact_outputs", "",
+          "true makes an output of each contact, with its force",
+          derived("true of a sweep with 2 to 6 directions of contact", contact_outputs_by_default));
+  outputs(&Analysis::output_harmonics, "output_harmonics", "",
+          "harmonics of the load whose amplitude and phase are written of each output", within(0, 1000),
+          optional);
+  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep", "amplitude_sweep"}));
+  sweep(&Analysis::peak_of, "peak_of", "",
+        "an output, as \"node 1052 z\", \"row 17\" or \"contact 2\": the peak is then where its vibration is "
+        "largest, by half the peak-to-peak value, and not where the displacement towards an obstacle is",
+        optional);
 }
 
 void add_time_stepping(std::vector<SceneKey>& keys) {
@@ -194,6 +232,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            within(1, 1024), optional,
            only_with(analysis_is({"forced_response", "frequency_sweep"}) && by_balance()));
   add_sweep(keys);
+  add_outputs(keys);
   add_time_stepping(keys);
   add_motions(keys);
   add_mode(keys);

@@ -19,6 +19,11 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
           "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "
           "negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; in place of load",
           optional, named_dofs, only_with(structure_is({"matrices"})));
+  forcing(
+      &Forcing::weight, "weight", "m/s^2",
+      "acceleration of gravity along x, y and z, as [0, 0, -9.81]: a static load on all masses of matrices "
+      "with a dof_map",
+      optional, exactly(3), only_with(structure_is({"matrices"})));
   forcing(&Forcing::place, "place", "", "corner nodes of the blade's tip that share the force", optional,
           only_with(structure_is({"blade"})));
   forcing(&Forcing::direction, "direction", "",
@@ -51,6 +56,13 @@ std::vector<SceneKey> term_keys(std::size_t index) {
        "base, of which they are the rows that move (displacement) or point along its motion (acceleration)",
        named_dofs,
        derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
+  term(&ForcingTerm::load, "load", "",
+       "matrices: forces of all degrees of freedom for amplitude 1, as forcing.load; in place of dofs", path,
+       derived("none", [](const Scene&) { return std::string(); }));
+  term(
+      &ForcingTerm::direction, "direction", "",
+      "matrices with a dof_map: of a base_acceleration, along which all nodes move with it; in place of dofs",
+      one_of({"x", "y", "z", "-x", "-y", "-z"}), derived("none", [](const Scene&) { return std::string(); }));
   return keys;
 }
 

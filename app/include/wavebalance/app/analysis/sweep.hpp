@@ -72,6 +72,8 @@ struct Sweep {
   double wall_seconds = 0.0;
   std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
+  std::optional<std::size_t> peak_of_output = {};  ///< of analysis.peak_of, set by measure_outputs()
+  bool outputs_cancelled = false;                  ///< the observer stopped measure_outputs()
   /// Set by add_isolas() with analysis.isolas: the curves found beside this one and its branches, in the
   /// order in which they were found, and how it was sought for them.
   std::vector<Sweep> isolas;
@@ -91,6 +93,9 @@ struct Sweep {
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
   /// The observer stopped it, its stability, a branch, its phases or its motions.
   bool stopped() const;
+  /// The point of the largest vibration of analysis.peak_of, or of the largest displacement. There must be
+  /// one.
+  std::size_t peak() const;
   /// "reached_end" or "closed", or the reason why not, such as "interrupted" or "missed_part".
   std::string status() const;
   /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability

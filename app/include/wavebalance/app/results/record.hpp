@@ -39,6 +39,7 @@ struct Record {
   Table sweep;      ///< see sweep_table(); empty otherwise
   SweepAxis axis;   ///< of sweep and of the special points
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
+  Table outputs;    ///< motion of each output over one period; empty after a curve and without any
   Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
   /// of its points, see curve_motions.hpp.
@@ -48,6 +49,7 @@ struct Record {
   Eigen::MatrixXd bar_motion;
   Figure figure;                              ///< without panels when there is nothing to draw
   std::vector<RecordFigure> motion_pictures;  ///< of the motions of points of a curve
+  std::vector<RecordFigure> output_pictures;  ///< of analysis.outputs and of contacts, each for itself
 };
 
 /// Where a solution starts, what watches it, and on how many threads it runs.

@@ -188,6 +188,9 @@ struct ForcingTerm {
   double phase = 0.0;          ///< degrees ahead of a cosine
   std::string samples = {};    ///< CSV file, its last column one period at uniform times; or empty
   std::vector<int> dofs = {};  ///< matrices: as Forcing::load_dofs; empty: where Forcing::amplitude acts
+  std::string load = {};       ///< matrices: of a force, as Forcing::load; or empty
+  /// Matrices with a dof map: along which a base_acceleration moves all nodes, "x" or "-z"; empty: dofs.
+  std::string direction = {};
 
   bool operator==(const ForcingTerm&) const = default;
 };
@@ -201,7 +204,9 @@ struct Forcing {
   std::vector<int> load_dofs = {};          ///< matrices: from 1, each with value 1; -i: dof i with -1
   TipPlace place = TipPlace::leading_edge;  ///< blade
   Direction direction = Direction::y;       ///< blade
-  std::vector<ForcingTerm> terms = {};      ///< beside it
+  /// Matrices with a dof map: m/s^2 along x, y and z, the static acceleration that all masses feel; or empty.
+  std::vector<double> weight = {};
+  std::vector<ForcingTerm> terms = {};  ///< beside it
 
   bool operator==(const Forcing&) const = default;
 };
@@ -267,6 +272,11 @@ struct Analysis {
   double largest_step = 0.0;  ///< the same: no step along the branch is larger
   int max_points = 20000;     ///< frequency_sweep: the branch is given up after so many points
   MotionAt motion_at = {};    ///< frequency_sweep, amplitude_sweep
+
+  std::vector<int> outputs = {};  ///< rows of matrices or nodes of a bar, from 1; -i: row i, downwards
+  bool contact_outputs = false;   ///< whether each contact is an output, too
+  int output_harmonics = 3;       ///< of the load, whose amplitudes and phases are written of each output
+  std::string peak_of = {};       ///< sweeps: the output whose vibration is largest at the peak; or empty
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods

@@ -1,0 +1,60 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
+
+namespace wavebalance::app {
+
+/// What is measured of an output over a period, in its unit; not numbers where it is not known.
+struct OutputMeasures {
+  double max = std::numeric_limits<double>::quiet_NaN();
+  double min = std::numeric_limits<double>::quiet_NaN();
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double rms = std::numeric_limits<double>::quiet_NaN();        ///< of the vibration, without its mean
+  Eigen::VectorXcd harmonics = {};                              ///< of the load, from 1: moduli and phases
+  double max_force = std::numeric_limits<double>::quiet_NaN();  ///< N, of a contact
+  double contact_fraction = std::numeric_limits<double>::quiet_NaN();  ///< of a contact
+
+  double half_peak_to_peak() const { return 0.5 * (max - min); }
+};
+
+/// All outputs at one point of a curve; empty where the point was not measured.
+using MeasuredPoint = std::vector<OutputMeasures>;
+
+/// The displacements of outputs, outputs x points, from the motion of the contacts and of the structure that
+/// is solved; the latter may be empty where all are contacts.
+Eigen::MatrixXd motion_of_outputs(const std::vector<Output>& outputs, const Scene& scene,
+                                  const StructureModel& model, const solvers::Motion& contacts,
+                                  const Eigen::MatrixXd& structure);
+
+/// What is measured of `displacement`, outputs x points at uniform times of `periods` periods of the load,
+/// with `harmonics` harmonics of the load. Forces are those of the contacts. O(outputs harmonics points).
+MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd& displacement,
+                      const Eigen::MatrixXd& forces, int harmonics, int periods);
+
+/// The outputs along a sweep.
+struct SweepOutputs {
+  std::vector<Output> outputs;
+  std::vector<std::vector<MeasuredPoint>> curves;  ///< of the curve, then of each branch
+  std::vector<std::vector<MeasuredPoint>> isolas;  ///< of each isola
+
+  bool empty() const { return outputs.empty(); }
+};
+
+/// Measures the outputs of a scene at each point of a sweep of it, of its branches and of its isolas, and
+/// sets the sweep's peak where analysis.peak_of names one. Nothing without outputs. A condensation for each
+/// point. An observer that stops it leaves the other points unmeasured.
+SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sweep& sweep,
+                             const Observer& observer = {});
+
+/// Names of the columns of one output, and its cells; not numbers without measures.
+std::vector<std::string> columns_of(const Output& output, int harmonics);
+std::vector<double> cells_of(const Output& output, const OutputMeasures& measures, int harmonics);
+
+}  // namespace wavebalance::app

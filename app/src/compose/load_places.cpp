@@ -1,0 +1,164 @@
+#include "compose/load_places.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// Whether rows of the map move along the direction of a term or of the weight.
+void check_direction(const StructureFiles& files, int axis, const std::string& key) {
+  if (!files.rows_along(axis).isZero(0.0)) return;
+  throw StructureFault(key, fmt::format("no row of {} moves along {}; expected another direction, or rows",
+                                        files.paths[4], "xyz"[axis]));
+}
+
+void check_weight(const Scene& scene, const StructureFiles& files) {
+  const std::vector<double>& weight = scene.forcing.weight;
+  if (weight.empty()) return;
+  if (scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact))
+    throw StructureFault(
+        "forcing.weight",
+        "does not belong to a nonlinear mode, a motion without any load, unless friction makes it "
+        "begin at rest under static ones");
+  if (!files.dof_map)
+    throw StructureFault(
+        "forcing.weight",
+        "expected structure.dof_map beside it, which says which rows move along x, y and z, or "
+        "a static term of [[forcing.terms]] with a load in its place");
+  for (int axis = 0; axis < 3; ++axis)
+    if (weight[std::size_t(axis)] != 0.0) check_direction(files, axis, "forcing.weight");
+}
+
+void check_terms(const Scene& scene, const StructureFiles& files) {
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
+    const ForcingTerm& term = scene.forcing.terms[i];
+    const std::string key = term_section(i) + ".dofs";
+    check_dofs(term.dofs, files.file_rows(), key);
+    if (term.kind != LoadKind::base_displacement) check_unknown(term.dofs, files, key);
+    if (!term.direction.empty())
+      check_direction(files, term.direction.back() - 'x', term_section(i) + ".direction");
+    const bool placed = files.load.size() > 0 || !scene.forcing.load_dofs.empty();
+    if (term.kind == LoadKind::force && term.dofs.empty() && term.load.empty() && !placed)
+      throw StructureFault(
+          key,
+          "missing; expected a list of integers, or a load of the term, or load or load_dofs in [forcing]");
+  }
+}
+
+/// Terms and a weight with places of their own stand in place of a load of amplitude 0.
+bool needs_place(const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::nonlinear_mode) return false;
+  return scene.forcing.amplitude != 0.0 || (scene.forcing.terms.empty() && scene.forcing.weight.empty());
+}
+
+void check_place(const Scene& scene) {
+  const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
+  if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
+  if (!file && !list && needs_place(scene))
+    throw StructureFault("forcing.load",
+                         "missing; expected load (a Matrix Market file) or load_dofs (a list), which "
+                         "say where the force acts");
+}
+
+/// 1 or -1 at each of `dofs`, an entry per row of the files.
+Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const StructureFiles& files) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());
+  for (const int dof : dofs) values[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
+  return values;
+}
+
+}  // namespace
+
+void check_loads(const Scene& scene, const StructureFiles& files) {
+  check_dofs(scene.forcing.load_dofs, files.file_rows(), "forcing.load_dofs");
+  check_unknown(scene.forcing.load_dofs, files, "forcing.load_dofs");
+  check_terms(scene, files);
+  check_weight(scene, files);
+  check_place(scene);
+}
+
+void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key) {
+  std::vector<int> rows;
+  for (const int dof : dofs) {
+    const int row = std::abs(dof);
+    if (row < 1 || row > size)
+      throw StructureFault(
+          std::string(key),
+          fmt::format("there is no degree of freedom {}; expected 1..{}, or one of them with a minus sign",
+                      dof, size));
+    if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
+      const bool both = std::find(dofs.begin(), dofs.end(), -dof) != dofs.end();
+      throw StructureFault(
+          std::string(key),
+          fmt::format("degree of freedom {} is there twice; expected each once{}", row,
+                      both ? fmt::format("; [[contact.pairs]] with dofs = [{}] and side = \"both\" has an "
+                                         "obstacle on either side",
+                                         row)
+                           : ""));
+    }
+    rows.push_back(row);
+  }
+}
+
+void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+  for (const int dof : dofs)
+    if (std::binary_search(files.moving.begin(), files.moving.end(), std::abs(dof) - 1))
+      throw StructureFault(
+          std::string(key),
+          fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
+                      dof));
+}
+
+Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
+  if (files.load.size() > 0) return files.load;
+  return forces_at_dofs(scene.forcing.load_dofs, files);
+}
+
+Eigen::VectorXd inertia_of(const ForcingTerm& term, const StructureFiles& files) {
+  if (term.direction.empty()) return files.inertia(signs_in_files(term.dofs, files));
+  const double sign = term.direction.front() == '-' ? -1.0 : 1.0;
+  return files.inertia(sign * files.rows_along(term.direction.back() - 'x'));
+}
+
+Eigen::VectorXd weight_of(const Forcing& forcing, const StructureFiles& files) {
+  if (forcing.weight.empty()) return {};
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(files.file_rows());
+  for (int axis = 0; axis < 3; ++axis)
+    acceleration += forcing.weight[std::size_t(axis)] * files.rows_along(axis);
+  return files.inertia(acceleration);
+}
+
+Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const StructureFiles& files,
+                         const Eigen::VectorXd& elsewhere) {
+  const ForcingTerm& one = forcing.terms[term];
+  if (!one.load.empty()) return files.term_loads[term];
+  return one.dofs.empty() ? elsewhere : forces_at_dofs(one.dofs, files);
+}
+
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
+  return files.forces_at_unknowns(signs_in_files(dofs, files));
+}
+
+std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
+  const Eigen::VectorXd unit = unit_load(scene, files);
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(unit.size());
+  const auto add = [&](const Eigen::VectorXd& load) {
+    if ((load.array() != 0.0).count() <= most_loaded_dofs) loads += load.cwiseAbs();
+  };
+  add(unit);
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
+    if (scene.forcing.terms[i].kind == LoadKind::force) add(force_of(scene.forcing, i, files, unit));
+  std::vector<int> rows;
+  for (Eigen::Index row = 0; row < loads.size(); ++row)
+    if (loads[row] != 0.0) rows.push_back(static_cast<int>(row));
+  if (rows.size() > most_loaded_dofs) rows.clear();
+  return rows;
+}
+
+}  // namespace wavebalance::app

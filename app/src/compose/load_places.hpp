@@ -1,0 +1,40 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "compose/structure_files.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// Holds what a scene says of its loads to its files: rows, directions, and whether a force that is needed
+/// has a place. Throws StructureFault.
+void check_loads(const Scene& scene, const StructureFiles& files);
+
+/// Rows counted from 1 with a sign are in 1..size, none twice; none of them moves with a base displacement.
+/// Throw StructureFault of `key`.
+void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key);
+void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key);
+
+/// Rows (from 0) of the loaded degrees of freedom, ascending. Those of a load on more than most_loaded_dofs
+/// of them are left out, and all where they are more together: they act through the modes of a reduction.
+std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);
+inline constexpr int most_loaded_dofs = 30;
+
+/// The force of amplitude 1 on all n degrees of freedom; zero where the scene gives it no place.
+Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
+
+/// M r of a base acceleration, n values, kg: r is 1 along its direction, or 1 or -1 at its dofs.
+Eigen::VectorXd inertia_of(const ForcingTerm& term, const StructureFiles& files);
+/// M g of forcing.weight, n values, N; without one no values.
+Eigen::VectorXd weight_of(const Forcing& forcing, const StructureFiles& files);
+/// The force of a term of amplitude 1 on all n degrees of freedom; `elsewhere` where it has no place of its
+/// own.
+Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const StructureFiles& files,
+                         const Eigen::VectorXd& elsewhere);
+/// 1 or -1 as a force at each of `dofs`, from 1 with a sign, which rows without mass pass on.
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "wavebalance/app/outputs/output_measures.hpp"
+#include "wavebalance/app/plot/plot.hpp"
+
+namespace wavebalance::app {
+
+/// Outputs that one picture shows, a panel each.
+inline constexpr std::size_t most_drawn_outputs = 12;
+
+/// Half the peak-to-peak value of each output along a sweep, its branches and isolas: the vibration apart
+/// from what static loads deflect. Dashed where motions are unstable.
+Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs);
+
+/// Each output over one period, which a response has; `motion` is outputs x points.
+Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd& motion, int periods);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,72 @@
+#include "results/rest_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "compose/structure_facts.hpp"
+#include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
+#include "results/quantities.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+std::vector<std::string> names_of(const Scene& scene) {
+  if (scene.structure.type == StructureType::matrices) return contact_names(scene);
+  return std::vector<std::string>(std::size_t(contact_count(scene)));
+}
+
+/// "contact 2 (-node 18 z): 5.28 mm, 0.28 mm past its gap of 5 mm, 281 N".
+std::string contact_text(const SceneContact& contact, std::size_t number, const std::string& name,
+                         double displacement, double force) {
+  std::string text = fmt::format("contact {}{}: {}", number, name.empty() ? "" : " (" + name + ")",
+                                 quantity(displacement, "m"));
+  if (has_gap(contact.law)) {
+    const double past = displacement - contact.gap;
+    text += fmt::format(", {} {} its gap of {}", quantity(std::abs(past), "m"),
+                        past < 0.0 ? "short of" : "past", quantity(contact.gap, "m"));
+  }
+  return text + ", " + quantity(force, "N");
+}
+
+}  // namespace
+
+void append_rest(Record& record, const Scene& scene, const StructureModel& model) {
+  const std::optional<RestState> rest = rest_state(scene, model);
+  if (!rest || rest->trivial()) return;
+  if (!rest->converged) {
+    record.summary.emplace_back(quantities::rest_status, rest->status);
+    return;
+  }
+  Table table({"contact", "displacement_m", "gap_m", "contact_force_N"});
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    table.append_row({std::int64_t(i) + 1, rest->displacement[Eigen::Index(i)],
+                      has_gap(contacts[i].law) ? contacts[i].gap : missing, rest->force[Eigen::Index(i)]});
+  record.summary.emplace_back(quantities::at_rest, std::move(table));
+}
+
+std::string rest_lines(const Scene& scene) {
+  constexpr std::size_t shown = 8;
+  const std::optional<RestState> rest = rest_state(scene);
+  if (!rest || rest->trivial()) return "";
+  if (!rest->converged) return "at rest    not found: " + rest->status + "\n";
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const std::vector<std::string> names = names_of(scene);
+  const auto closed = (rest->force.array() > 0.0).count();
+  std::string text = fmt::format("at rest    {} of {} contacts {} under the static loads\n", closed,
+                                 contacts.size(), closed == 1 ? "is closed" : "are closed");
+  for (std::size_t i = 0; i < std::min(shown, contacts.size()); ++i)
+    text += "           " +
+            contact_text(contacts[i], i + 1, names[i], rest->displacement[Eigen::Index(i)],
+                         rest->force[Eigen::Index(i)]) +
+            "\n";
+  if (contacts.size() > shown)
+    text += fmt::format("           and {} more; the record lists all\n", contacts.size() - shown);
+  return text;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "wavebalance/app/compose/rest_state.hpp"
+#include "wavebalance/app/results/record.hpp"
+
+namespace wavebalance::app {
+
+/// Adds where the structure stands under its static loads to the record's summary; nothing where it stands
+/// at zero.
+void append_rest(Record& record, const Scene& scene, const StructureModel& model);
+
+/// The same in lines of text, for scenes of matrices; empty where it stands at zero.
+std::string rest_lines(const Scene& scene);
+
+}  // namespace wavebalance::app
