@@ -14,6 +14,7 @@
 #include "command/progress_bar.hpp"
 #include "command/run_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
+#include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -90,11 +91,34 @@ Record solve(const Scene& scene, StartMotion start, const InterruptGuard& guard,
 
 }  // namespace
 
-Scene given_scene(const RunArguments& arguments) {
+namespace {
+
+void require_file(const std::filesystem::path& scene) {
   std::error_code ignored;
-  if (std::filesystem::status(arguments.scene, ignored).type() == std::filesystem::file_type::not_found)
-    throw std::invalid_argument(arguments.scene.string() +
+  if (std::filesystem::status(scene, ignored).type() == std::filesystem::file_type::not_found)
+    throw std::invalid_argument(scene.string() +
                                 ": there is no such file; `wavebalance init` writes a scene to start from");
+}
+
+}  // namespace
+
+void take_analysis(RunArguments& arguments) {
+  if (arguments.analysis.empty()) return;
+  require_file(arguments.scene);
+  std::vector<std::string> names =
+      keys_beside_analysis(arguments.scene, arguments.analysis, arguments.overrides);
+  std::erase_if(names, [&](const std::string& name) {
+    return std::find(arguments.removed.begin(), arguments.removed.end(), name) != arguments.removed.end();
+  });
+  if (!names.empty() && !arguments.quiet)
+    std::fprintf(stderr, "wavebalance: left out for analysis.type = \"%s\": %s\n", arguments.analysis.c_str(),
+                 fmt::format("{}", fmt::join(names, ", ")).c_str());
+  arguments.removed.insert(arguments.removed.end(), names.begin(), names.end());
+  arguments.overrides.insert(arguments.overrides.begin(), "analysis.type=" + arguments.analysis);
+}
+
+Scene given_scene(const RunArguments& arguments) {
+  require_file(arguments.scene);
   return load_scene(arguments.scene, arguments.overrides, arguments.removed);
 }
 

@@ -15,12 +15,18 @@ struct RunArguments {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
+  std::string analysis;                ///< --analysis; empty: that of the scene
   std::filesystem::path start_from;    ///< a motion to start near, see read_start_motion(); empty: none
   double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
   int threads = 0;                     ///< AnalysisOptions::threads, ComparisonOptions::threads
   bool quiet = false;
-  bool report = true;  ///< whether report.html is written
+  bool report = true;        ///< whether report.html is written
+  bool copy_inputs = false;  ///< whether the record gets copies of the files that the scene names
 };
+
+/// Puts the analysis of the arguments into their changes, with the keys that it leaves out, which are named
+/// on the standard error. Nothing without one. Throws SceneError.
+void take_analysis(RunArguments& arguments);
 
 /// The scene that the arguments name, with its changes. Throws SceneError, and std::invalid_argument that
 /// says how to begin if there is no such file.

@@ -73,6 +73,11 @@ void add_scene(CLI::App& command, RunArguments& arguments) {
   add_list(command, "--set", arguments.overrides, "KEY=VALUE",
            "section.key=value in place of what the file says");
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
+  command
+      .add_option(
+          "--analysis", arguments.analysis,
+          "another analysis.type than the file says; keys of the file that do not belong to it are left out")
+      ->type_name("TYPE");
 }
 
 void add_threads(CLI::App& command, int& threads, const std::string& help) {
@@ -207,6 +212,9 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   add_threads(run, arguments.threads,
               "harmonics that are condensed side by side, with the same digits; one per core without it");
+  run.add_flag(
+      "--copy-inputs", arguments.copy_inputs,
+      "copy matrices and other files that the scene names into the results, which can then be moved");
   run.add_flag("!--no-report", arguments.report, "write no report.html");
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
@@ -235,6 +243,8 @@ int dispatch(int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help, version
     throw std::invalid_argument(usage_text(app, error, argc, argv));
   }
+  take_analysis(arguments);
+  take_analysis(comparison.run);
   if (keys.parsed()) return print(names ? key_names_text() : selected_keys_text(filters));
   if (init.parsed()) return init_scene(start);
   if (compare.parsed()) return compare_scene(comparison);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -27,21 +28,49 @@ void append_record_pictures(RunFiles& run, const Record& record, bool report) {
                            : !record.backbone.empty() ? "backbone"
                                                       : "response";
   std::vector<RecordPicture> pictures{{stem, record.figure, "the picture"}};
-  for (const RecordFigure& motion : record.motion_pictures)
-    pictures.push_back({motion.stem, motion.figure, motion.about});
+  for (const auto* more : {&record.output_pictures, &record.motion_pictures})
+    for (const RecordFigure& one : *more) pictures.push_back({one.stem, one.figure, one.about});
   run.no_picture = append_pictures(run.files, pictures, report);
 }
 
-/// All files but the summary; with `report` first the report, still without contents.
-RunFiles result_files(const Scene& scene, const Record& record, bool report) {
+constexpr std::string_view copied = "input_";  // how the names of copies begin
+
+/// The scene as the record holds it: its files are copies beside it, or have names relative to it where they
+/// lie beside or below the scene that was given.
+Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files) {
+  if (!arguments.copy_inputs)
+    return relative_to(scene, arguments.output, std::filesystem::absolute(arguments.scene).parent_path());
+  std::map<std::string, std::string> names;
+  return with_files(scene, [&](const std::string& file) {
+    std::string& name = names[file];
+    if (!name.empty()) return name;
+    const std::string base = std::filesystem::path(file).filename().string();
+    const auto taken = [&](const std::string& one) {
+      return std::any_of(files.begin(), files.end(),
+                         [&](const ResultFile& other) { return other.name == one; });
+    };
+    name = std::string(copied) + base;
+    for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
+    files.push_back({name, read_file(file), "copy of " + base + ", which the scene names"});
+    return name;
+  });
+}
+
+/// All files but the summary; with arguments.report first the report, still without contents. `scene` is that
+/// of the record, of which `inputs` are copies.
+RunFiles result_files(const RunArguments& arguments, const Scene& scene, const Record& record,
+                      std::vector<ResultFile> inputs) {
+  const bool report = arguments.report;
   RunFiles run;
   std::vector<ResultFile>& files = run.files;
   if (report) files.push_back({report_name, "", "what was asked and what came out, to read in a browser"});
   files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
+  for (ResultFile& input : inputs) files.push_back(std::move(input));
   append_table(files, "response.csv", record.response,
                "motion of the leading contact degree of freedom over one period");
   append_table(files, "contacts.csv", record.contacts,
                "every contact degree of freedom over one period; displacements towards the obstacles");
+  append_table(files, "outputs.csv", record.outputs, "every output over one period");
   for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
   append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
@@ -53,7 +82,9 @@ RunFiles result_files(const Scene& scene, const Record& record, bool report) {
 }
 
 /// Whether a run of the scene may write a file of this name.
-bool may_write(const Scene& scene, bool report, const std::string& name) {
+bool may_write(const RunArguments& arguments, const Scene& scene, const std::string& name) {
+  const bool report = arguments.report;
+  if (name.starts_with(copied)) return arguments.copy_inputs;
   if (name == "summary.json" || name == "scene.toml") return true;
   if (name == report_name) return report;
   const AnalysisType type = scene.analysis.type;
@@ -63,6 +94,8 @@ bool may_write(const Scene& scene, bool report, const std::string& name) {
   for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
     if (name == stem + end) return true;
   if (name == "contacts.csv") return !curve;
+  const bool outputs = !scene.analysis.outputs.empty() || scene.analysis.contact_outputs;
+  if (name.starts_with("outputs.")) return outputs;
   const bool motions =
       scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty() || type == AnalysisType::motions;
   return motions && (name.starts_with("motion.") || name.starts_with("motion_"));
@@ -85,10 +118,13 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
 }  // namespace
 
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record) {
-  RunFiles run = result_files(scene, record, arguments.report);
+  std::vector<ResultFile> inputs;
+  const Scene written = scene_of_record(arguments, scene, inputs);
+  RunFiles run = result_files(arguments, written, record, std::move(inputs));
   const Summary summary = whole_summary(arguments, record, run.files);
   if (arguments.report)
-    run.files.front().contents = report_text(arguments, scene, record, summary, run.files);
+    run.files.front().contents =
+        report_text(arguments, scene, write_scene(written), record, summary, run.files);
   run.summary = json_text(summary);
   return run;
 }
@@ -122,7 +158,7 @@ InputFiles inputs_of(const std::filesystem::path& file, const Scene& scene,
 
 void check_run_output(const RunArguments& arguments, const Scene& scene) {
   require_replaceable(
-      arguments.output, [&](const std::string& name) { return may_write(scene, arguments.report, name); },
+      arguments.output, [&](const std::string& name) { return may_write(arguments, scene, name); },
       inputs_of(arguments.scene, scene, arguments.start_from));
 }
 

@@ -64,6 +64,16 @@ std::string record_picture(const std::vector<ResultFile>& files, const std::stri
                               : picture(files, drawn->name, heading);
 }
 
+/// The pictures of the outputs, with what was measured of them; empty without any.
+std::string outputs_of_record(const Record& record, const std::vector<ResultFile>& files,
+                              const Summary& summary) {
+  std::string pictures;
+  for (const RecordFigure& one : record.output_pictures)
+    for (const ResultFile& file : files)
+      if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
+  return pictures + folded_table(summary, "outputs", "Outputs");
+}
+
 /// The pictures of single motions, and when each is in contact; empty without any.
 std::string motions_of_points(const Record& record, const std::vector<ResultFile>& files,
                               const Summary& summary) {
@@ -85,16 +95,15 @@ std::string motion(const std::vector<ResultFile>& files) {
              : fmt::format("<h3>Motion</h3>\n<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);
 }
 
-std::string asked(const RunArguments& arguments, const Scene& scene) {
+std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {
   return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>What it solves:</p>\n" +
-         code_html(describe_scene(scene)) +
-         folded("The scene as it was solved", code_html(write_scene(scene)));
+         code_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
 }
 
 }  // namespace
 
-std::string report_text(const RunArguments& arguments, const Scene& scene, const Record& record,
-                        const Summary& summary, const std::vector<ResultFile>& files) {
+std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
+                        const Record& record, const Summary& summary, const std::vector<ResultFile>& files) {
   const std::string heading = heading_of(scene);
   PageParts page;
   page.title = heading + ", Wavebalance";
@@ -107,6 +116,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
           "What came out",
           paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
               (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
+              folded_table(summary, "at_rest", "At rest under the static loads") +
               folded_table(summary, "motions",
                            scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
                                                                         : "Motions at points of the curve")) +
@@ -116,9 +126,10 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
                        folded_table(summary, "special_points", "Special points") +
                        folded_table(summary, "isolas", "Isolas") +
                        folded_table(summary, "special_points_of_isolas", "Special points of isolas")) +
+      section_html("Outputs", outputs_of_record(record, files, summary)) +
       section_html("Motions of points of the curve", motions_of_points(record, files, summary)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
-      section_html("What was asked", asked(arguments, scene)) +
+      section_html("What was asked", asked(arguments, scene, scene_text)) +
       section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
       fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
   return page_html(page);

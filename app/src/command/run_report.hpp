@@ -16,8 +16,8 @@ struct ResultFile {
 
 /// report.html: what was asked, what came out in sentences, warnings, stability, the picture with curves that
 /// zoom, the motion of a bar, all values and files. It holds all that it shows; without scripts the pictures
-/// stay.
-std::string report_text(const RunArguments& arguments, const Scene& scene, const Record& record,
-                        const Summary& summary, const std::vector<ResultFile>& files);
+/// stay. `scene_text` is the scene as the record has it.
+std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
+                        const Record& record, const Summary& summary, const std::vector<ResultFile>& files);
 
 }  // namespace wavebalance::app

@@ -171,10 +171,24 @@ Document parse_document(std::string_view text, const std::string& name) {
   return document;
 }
 
+namespace {
+
+/// Removes all entries of the tables [[name]], as of "forcing.terms"; false where there are none.
+bool remove_tables(Document& document, const std::string& name) {
+  const std::string begin = name + "[";
+  const bool any =
+      std::erase_if(document.sections, [&](const auto& one) { return one.name.starts_with(begin); }) > 0;
+  std::erase_if(document.entries, [&](const auto& one) { return one.section.starts_with(begin); });
+  return any;
+}
+
+}  // namespace
+
 void remove_entries(Document& document, std::span<const std::string> names) {
   for (const std::string& name : names) {
     const auto same = [&](const DocumentEntry& entry) { return entry.full_name() == name; };
     if (std::erase_if(document.entries, same) > 0) continue;
+    if (remove_tables(document, name)) continue;
     std::vector<std::string> known;
     for (const DocumentEntry& entry : document.entries) known.push_back(entry.full_name());
     const std::string close = closest(name, known);

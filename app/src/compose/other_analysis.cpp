@@ -1,0 +1,73 @@
+#include "wavebalance/app/compose/other_analysis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "scene/scene_document.hpp"
+#include "scene/term_reader.hpp"
+#include "scene/toml_text.hpp"
+#include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 20;
+
+/// Sets a key that decides which others belong to a scene, unless its value is none.
+void set_text(Scene& scene, const Document& document, const std::string& name) {
+  const auto [section, key_name] = split_name(name);
+  const DocumentEntry* entry = document.find(section, key_name);
+  const SceneKey* key = find_scene_key(name);
+  if (entry == nullptr || key == nullptr) return;
+  const auto* text = std::get_if<std::string>(&entry->value);
+  if (text != nullptr && std::find(key->choices.begin(), key->choices.end(), *text) != key->choices.end())
+    key->set(scene, *text);
+}
+
+/// Whether a law of the document has friction.
+bool has_friction_law(const Document& document) {
+  const std::vector<std::string_view>& laws = find_scene_key("contact.law")->choices;
+  return std::any_of(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
+    const auto* text = std::get_if<std::string>(&entry.value);
+    return entry.key == "law" && text != nullptr &&
+           std::find(laws.begin(), laws.end(), *text) != laws.end() && has_friction(*text);
+  });
+}
+
+/// Of a motion without damping and load.
+bool acts_on_free_motion(const DocumentEntry& entry) {
+  constexpr std::array<std::string_view, 5> names{"structure.damping", "structure.modal_damping",
+                                                  "structure.stiffness_damping", "structure.loss_factor",
+                                                  "forcing.weight"};
+  return std::find(names.begin(), names.end(), entry.full_name()) != names.end();
+}
+
+}  // namespace
+
+std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file, const std::string& type,
+                                              const std::vector<std::string>& overrides) {
+  const Document given = parse_document(read_toml(file, most_bytes), file.string());
+  Document document = given;
+  apply_overrides(document, overrides);
+  Scene scene;
+  for (const char* name : {"structure.type", "contact.law", "time.method"}) set_text(scene, document, name);
+  const SceneKey& analysis = *find_scene_key("analysis.type");
+  if (std::find(analysis.choices.begin(), analysis.choices.end(), type) == analysis.choices.end())
+    throw SceneError({"", 0, "--analysis " + type, "", "", "expected " + analysis.expected()});
+  analysis.set(scene, type);
+  const bool free_motion = type == "nonlinear_mode" && !has_friction_law(document);
+  std::vector<std::string> names;
+  for (const DocumentEntry& entry : given.entries) {
+    const SceneKey* key = find_scene_key(entry.full_name());
+    const bool stray = key != nullptr && key->belongs.broken_by(scene) == "analysis.type";
+    if (stray || (free_motion && acts_on_free_motion(entry))) names.push_back(entry.full_name());
+  }
+  const bool terms = std::any_of(given.sections.begin(), given.sections.end(),
+                                 [](const DocumentSection& one) { return is_term_section(one.name); });
+  if (free_motion && terms) names.emplace_back("forcing.terms");
+  return names;
+}
+
+}  // namespace wavebalance::app
