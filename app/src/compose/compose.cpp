@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "compose/equal_modes.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
@@ -176,6 +177,7 @@ StructureModes make_modes(const StructureModel& model) {
   }
   modes.model.contact_shapes = structure.contact_directions * modes.shapes;
   modes.model.gaps = model.gaps;
+  separate_equal_modes(modes);
   return modes;
 }
 

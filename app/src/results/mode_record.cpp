@@ -17,6 +17,7 @@
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
@@ -223,6 +224,25 @@ Record motion_record(const ModeStudy& study) {
   return record;
 }
 
+/// Modes of equal or nearly equal frequency, of which a mode follows one combination or runs into another.
+void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
+  constexpr double near = 1e-2;
+  const Eigen::VectorXd omega = study.linear_modes().omega_squared.cwiseSqrt();
+  const Eigen::Index mode = study.scene().analysis.mode - 1,
+                     last = omega.size() - study.linear_modes().springs;
+  for (const Eigen::Index other : {mode - 1, mode + 1}) {
+    if (other < 0 || other >= last) continue;
+    const double apart = std::abs(omega[other] - omega[mode]) / omega[mode];
+    if (apart > near) continue;
+    record.warnings.push_back(fmt::format(
+        "The linear frequencies of modes {} and {} differ by {:.1g} of themselves: {}",
+        std::min(mode, other) + 1, std::max(mode, other) + 1, apart,
+        apart <= 2.0 * equal_frequencies
+            ? "they were combined so that the first of them moves the contacts most."
+            : "beyond contact each may run into the other, and energies are those of the linear mode that was asked for."));
+  }
+}
+
 Record record_of(const ModeStudy& study, const Observer& observer) {
   return study.scene().analysis.energy_ratio > 0.0 ? motion_record(study) : curve_record(study, observer);
 }
@@ -234,6 +254,7 @@ Record mode_record(const Scene& scene, const StructureModel& model, const Observ
   const ModeStudy study(scene, model);
   goes_on(observer, {"backbone"});
   Record record = record_of(study, observer);
+  warn_of_equal_frequencies(record, study);
   record.summary.emplace_back(quantities::warnings, record.warnings);
   return record;
 }

@@ -58,6 +58,7 @@ class ModeStudy {
   int unknowns() const;
   /// n x r, mass-normalised, of the (reduced) structure's own coordinates.
   const Eigen::MatrixXd& linear_shapes() const { return modes_.shapes; }
+  const solvers::ModalModel& linear_modes() const { return modes_.model; }
   double linear_frequency() const;  ///< Hz
 
   /// The curve up to analysis.largest_energy or analysis.last_frequency_ratio.

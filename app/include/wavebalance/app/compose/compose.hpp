@@ -41,7 +41,12 @@ struct StructureModes {
   Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
 };
 
-/// Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3), n of the reduced structure.
+/// Frequencies that differ by less of themselves are equal but for the errors of a mesh: those of a round pipe.
+inline constexpr double equal_frequencies = 1e-5;
+
+/// Modes of equal frequency are those combinations of them of which the first moves the contacts most, and
+/// others less or not at all. Throws std::runtime_error if the eigenvalue solver does not converge. O(n^3), n
+/// of the reduced structure.
 StructureModes make_modes(const StructureModel& model);
 
 /// The scene's nonlinear mode on these modes.
