@@ -22,11 +22,13 @@
 namespace wavebalance::app {
 namespace {
 
-void say_outcome(const StudyArguments& arguments, const StudyRecord& record, const StudyOutcome& outcome) {
+void say_outcome(const StudyArguments& arguments, const StudyRecord& record, const StudyOutcome& outcome,
+                 const std::vector<ResultFile>& files) {
   if (!arguments.quiet) {
     std::fputs(study_outcome(record).c_str(), stdout);
-    std::printf("written to %s: study.csv, study.npz, summary.json%s\n", arguments.output.c_str(),
-                arguments.report ? ", report.html" : "");
+    std::string list = "summary.json";
+    for (const ResultFile& file : files) list += ", " + file.name;
+    std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
   }
   for (const std::string& warning : record.warnings)
     std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
@@ -86,7 +88,7 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
   if (!files.no_picture.empty())
     std::fprintf(stderr, "wavebalance: no picture: %s\n", files.no_picture.c_str());
   write_run_files(output, files, inputs);
-  say_outcome(arguments, record, outcome);
+  say_outcome(arguments, record, outcome, files.files);
   if (outcome.stopped) return interrupted + guard.signal();
   return record.converged ? solved : not_converged;
 }

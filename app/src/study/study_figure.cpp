@@ -48,6 +48,37 @@ std::vector<double> drawn_values(const Table& table, const std::string& quantity
   return values;
 }
 
+/// What a picture says of each run beside its value.
+enum class Outcome { solved, unstable, not_converged };
+
+std::vector<Outcome> outcomes_of(const Table& table) {
+  const std::string unstable = quantities::unstable_multipliers.column();
+  std::vector<Outcome> outcomes;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const bool moves = table.has_column(unstable) && number_of(table.at(i, unstable)) > 0.0;
+    outcomes.push_back(!std::get<bool>(table.at(i, "converged")) ? Outcome::not_converged
+                       : moves                                   ? Outcome::unstable
+                                                                 : Outcome::solved);
+  }
+  return outcomes;
+}
+
+/// Marks of the runs of one outcome; none where there are none.
+void add_marks(Panel& panel, const std::vector<double>& x, const std::vector<double>& y,
+               const std::vector<Outcome>& outcomes, Outcome outcome) {
+  Series series(outcome == Outcome::unstable ? "unstable" : "did not converge", std::vector<double>(),
+                std::vector<double>(), SeriesStyle::points);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i] != outcome || !std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
+    series.x.push_back(x[i]);
+    series.y.push_back(y[i]);
+  }
+  if (series.x.empty()) return;
+  series.colour = outcome == Outcome::unstable ? Colour::vermillion : Colour::grey;
+  series.marker = outcome == Outcome::unstable ? 2 : 4;
+  panel.add(std::move(series));
+}
+
 /// A parameter that varies: its numbers in all rows, and its distinct ones in order.
 struct Varying {
   std::string key;
@@ -144,7 +175,7 @@ std::size_t place_in(const std::vector<double>& ordered, double value) {
 }
 
 void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
-             const std::string& quantity) {
+             const std::vector<Outcome>& outcomes, const std::string& quantity) {
   const Varying &x = varying[0], &y = varying[1];
   HeatMap map;
   const MapAxis across = map_axis(x), up = map_axis(y);
@@ -166,6 +197,11 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   panel.x = axis_of_map(across);
   panel.y = axis_of_map(up);
   panel.heat_map = std::move(map);
+  const auto places = [](const Varying& one) {
+    return is_uniform(one.distinct) ? one.numbers : in_decades(one.numbers);
+  };
+  for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
+    add_marks(panel, places(x), places(y), outcomes, outcome);
 }
 
 /// Over one parameter, what the other ones make of each of its values.
@@ -196,7 +232,8 @@ std::string others_text(const Study& study, const Table& table, std::size_t row,
 }
 
 void add_curves(Figure& figure, const Study& study, const Table& table, const std::vector<Varying>& varying,
-                const std::vector<double>& values, const std::string& quantity) {
+                const std::vector<double>& values, const std::vector<Outcome>& outcomes,
+                const std::string& quantity) {
   const auto most = [](const Varying& a, const Varying& b) {
     return (a.numeric ? a.distinct.size() : 0) < (b.numeric ? b.distinct.size() : 0);
   };
@@ -221,6 +258,8 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
     }
     panel.add(std::move(series));
   }
+  add_marks(panel, x.numbers, values, outcomes, Outcome::unstable);
+  if (std::find(outcomes.begin(), outcomes.end(), Outcome::unstable) != outcomes.end()) panel.legend = true;
 }
 
 void add_distribution(Figure& figure, std::vector<double> values, const std::string& quantity) {
@@ -250,25 +289,45 @@ void set_limits(Axis& axis, double lowest, double highest) {
   axis.ticks = few_ticks(*axis.lower, *axis.upper);
 }
 
+/// The values of the runs of one outcome, NaN in others; of those that did not converge their place below
+/// all.
+std::vector<double> values_of(const std::vector<double>& values, const std::vector<Outcome>& outcomes,
+                              Outcome outcome) {
+  double lowest = missing, highest = missing;
+  for (const double value : values) lowest = std::fmin(lowest, value), highest = std::fmax(highest, value);
+  constexpr double below = 0.06;
+  std::vector<double> shown = values;
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (outcomes[i] != outcome)
+      shown[i] = missing;
+    else if (outcome == Outcome::not_converged)
+      shown[i] = lowest - below * (highest - lowest);
+  return shown;
+}
+
 void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
-                  const std::string& quantity) {
+                  const std::vector<Outcome>& outcomes, const std::string& quantity) {
   constexpr std::size_t most_points = 4000;
   const std::size_t step = values.size() / most_points + 1;
   std::size_t drawn = 0;
+  const std::vector<double> solved = values_of(values, outcomes, Outcome::solved);
   for (const Varying& one : varying) {
     if (!one.numeric || drawn++ == most_scatters) continue;
     Series series("", std::vector<double>(), std::vector<double>(), SeriesStyle::points);
     for (std::size_t i = 0; i < values.size(); i += step) {
       series.x.push_back(one.numbers[i]);
-      series.y.push_back(values[i]);
+      series.y.push_back(solved[i]);
     }
     series.marker = 1;
+    series.colour = Colour::blue;
     Panel& panel = figure.add_panel("Over " + plain(one.key));
     panel.x.label = labelled(one.key);
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
     set_limits(panel.x, one.distinct.front(), one.distinct.back());
     panel.y.label = shown_as(quantity).label;
     panel.add(std::move(series));
+    for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
+      add_marks(panel, one.numbers, values_of(values, outcomes, outcome), outcomes, outcome);
   }
 }
 
@@ -282,17 +341,18 @@ Figure study_figure(const Study& study, const StudyRuns& runs, const Table& tabl
   if (quantity.empty()) return figure;
   const std::vector<double> values = drawn_values(table, quantity);
   const std::vector<Varying> varying = varying_parameters(study, table);
+  const std::vector<Outcome> outcomes = outcomes_of(table);
   if (varying.empty() ||
       std::none_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     return figure;
   figure.title = fmt::format("{} runs", runs.size());
   if (draws_map(study, varying)) {
-    add_map(figure, varying, values, quantity);
+    add_map(figure, varying, values, outcomes, quantity);
   } else if (study.sampling == Sampling::grid) {
-    add_curves(figure, study, table, varying, values, quantity);
+    add_curves(figure, study, table, varying, values, outcomes, quantity);
   } else {
     add_distribution(figure, values, quantity);
-    add_scatters(figure, varying, values, quantity);
+    add_scatters(figure, varying, values, outcomes, quantity);
     figure.columns = 2;
   }
   return figure;
