@@ -23,6 +23,8 @@ void add_response(pybind11::module_& module);
 void add_sweeps(pybind11::module_& module);
 /// Floquet multipliers of a response.
 void add_stability(pybind11::module_& module);
+/// What responses and curves hold as plain values, and back.
+void add_pickles(pybind11::module_& module);
 /// Nonlinear modes.
 void add_modes(pybind11::module_& module);
 /// Bases in time and their connection coefficients.

@@ -59,6 +59,45 @@ class FunctionLaw {
   std::vector<double> kinks_;
 };
 
+/// A law of four functions of Python, of which the first three are called with displacement and velocity.
+class VelocityFunctionLaw {
+ public:
+  VelocityFunctionLaw(const py::function& force, const py::function& tangent, const py::function& damping,
+                      const py::function& potential, double gap, bool unilateral, std::vector<double> kinks)
+      : functions_(new Functions{force, tangent, damping, potential}, &release),
+        gap_(gap),
+        unilateral_(unilateral),
+        kinks_(std::move(kinks)) {}
+
+  double force(double u, double v) const { return call(functions_->force, u, v); }
+  double tangent(double u, double v) const { return call(functions_->tangent, u, v); }
+  double damping(double u, double v) const { return call(functions_->damping, u, v); }
+  double potential(double u) const { return call(functions_->potential, u); }
+  double gap() const { return gap_; }
+  bool unilateral() const { return unilateral_; }
+  std::vector<double> kinks() const { return kinks_; }
+
+ private:
+  struct Functions {
+    py::function force, tangent, damping, potential;
+  };
+
+  static void release(Functions* functions) {
+    const py::gil_scoped_acquire locked;
+    delete functions;
+  }
+  template <class... Numbers>
+  static double call(const py::function& function, Numbers... numbers) {
+    const py::gil_scoped_acquire locked;
+    return function(numbers...).template cast<double>();
+  }
+
+  std::shared_ptr<Functions> functions_;
+  double gap_;
+  bool unilateral_;
+  std::vector<double> kinks_;
+};
+
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// function(u) at each displacement, of their shape.
@@ -95,6 +134,11 @@ void add_factories(py::module_& module) {
                                 const py::function& potential, double gap, bool unilateral, bool monotone,
                                 std::vector<double> kinks) {
     return Law(FunctionLaw(force, tangent, potential, gap, unilateral, monotone, std::move(kinks)));
+  });
+  module.def("velocity_law", [](const py::function& force, const py::function& tangent,
+                                const py::function& damping, const py::function& potential, double gap,
+                                bool unilateral, std::vector<double> kinks) {
+    return Law(VelocityFunctionLaw(force, tangent, damping, potential, gap, unilateral, std::move(kinks)));
   });
 }
 

@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_response(module);
   python::add_stability(module);
   python::add_sweeps(module);
+  python::add_pickles(module);
   python::add_modes(module);
   python::add_wavelets(module);
 }

@@ -39,13 +39,14 @@ app::InputFiles inputs_of(const app::RunArguments& arguments, const app::Scene& 
 
 /// The folder is tried before the solution, so that nothing is computed that cannot be written.
 Run run_scene(const SceneSource& source, const std::string& output, const std::string& start_from,
-              int threads, const solvers::Observer& observer) {
+              int threads, bool copy_inputs, const solvers::Observer& observer) {
   Run run;
   run.arguments.scene = source.name;
   run.arguments.output = output;
   run.arguments.overrides = source.overrides;
   run.arguments.removed = source.removed;
   run.arguments.start_from = start_from;
+  run.arguments.copy_inputs = copy_inputs;
   run.scene = scene_of(source);
   app::check_memory(run.scene, 0.0);
   const app::StartMotion start = start_from.empty() ? app::StartMotion{} : app::read_start_motion(start_from);
@@ -91,6 +92,7 @@ void add_scenes(py::module_& module) {
       .def_property_readonly("summary", [](const Run& run) { return dictionary_of(run.record.summary); })
       .def_property_readonly("response", [](const Run& run) { return columns_of(run.record.response); })
       .def_property_readonly("contacts", [](const Run& run) { return columns_of(run.record.contacts); })
+      .def_property_readonly("outputs", [](const Run& run) { return columns_of(run.record.outputs); })
       .def_property_readonly("sweep", [](const Run& run) { return columns_of(run.record.sweep); })
       .def_property_readonly("backbone", [](const Run& run) { return columns_of(run.record.backbone); })
       .def_property_readonly("scene", [](const Run& run) { return app::write_scene(run.scene); })
@@ -102,9 +104,9 @@ void add_scenes(py::module_& module) {
         unlocked([&](const solvers::Observer&) { return write(run, output), true; });
       });
   module.def("run_scene", [](const SceneSource& source, const std::string& output,
-                             const std::string& start_from, int threads) {
+                             const std::string& start_from, int threads, bool copy_inputs) {
     return unlocked([&](const solvers::Observer& observer) {
-      return run_scene(source, output, start_from, threads, observer);
+      return run_scene(source, output, start_from, threads, copy_inputs, observer);
     });
   });
   module.def("write_matrix_market", [](const std::string& file, const Eigen::SparseMatrix<double>& matrix) {

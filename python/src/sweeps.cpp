@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "laws.hpp"
 #include "response.hpp"
+#include "sweeps.hpp"
 #include "unlocked.hpp"
 
 namespace wavebalance::python {
@@ -18,15 +19,6 @@ namespace py = pybind11;
 using solvers::FrequencySweep, solvers::SweepPoint, solvers::PointStability;
 
 namespace {
-
-/// A curve with its stability; without points where that was not wanted or no modes were found.
-struct Curve {
-  std::shared_ptr<Problem> problem;
-  solvers::ContactLaws laws;
-  FrequencySweep curve;
-  solvers::CurveStability stability;
-  double wall_seconds = 0.0;
-};
 
 /// The keyword arguments of a sweep.
 struct Steps {

@@ -37,7 +37,7 @@ def test_stability_that_is_not_known_is_masked_and_not_unstable(oscillator):
         def __len__(self):
             return len(curve)
 
-    stable = type(curve)(WithAGap()).stable
+    stable = type(curve)(WithAGap(), curve._problem, curve._laws).stable
     assert stable[0] is np.ma.masked and np.count_nonzero(stable.mask) == 1
     np.testing.assert_array_equal(stable[1:], curve.unstable[1:] == 0)
     assert not np.ma.is_masked(curve.stable)

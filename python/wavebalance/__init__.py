@@ -40,11 +40,11 @@ from .laws import (
 )
 from .modes import Backbone, DampedMode, backbone, damped_mode
 from .record import Record
-from .responses import Motion, Problem, Response, Stability, forced_response, stability
+from .responses import Motion, Problem, Response, Stability, forced_response, harmonics_of, stability
 from .scenes import check, complete, run
 from .structure import Pair, Structure
 from .studies import Study, study
-from .sweeps import Sweep, amplitude_sweep, frequency_sweep
+from .sweeps import Sweep, amplitude_sweep, frequency_sweep, overlay
 
 __all__ = [
     "Backbone",
@@ -85,6 +85,8 @@ __all__ = [
     "damped_mode",
     "forced_response",
     "frequency_sweep",
+    "harmonics_of",
+    "overlay",
     "run",
     "stability",
     "study",

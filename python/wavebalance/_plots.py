@@ -1,7 +1,9 @@
-"""Pictures with Matplotlib, which is imported when the first one is drawn."""
+"""Pictures with Matplotlib and tables of pandas, which are imported when the first one is made, and plain SVG for notebooks."""
 
 from __future__ import annotations
 
+import html
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -67,3 +69,92 @@ def record_backbone(columns: dict[str, Any], ax: Any = None) -> Any:
     ax.set_xlabel("Energy over that of grazing")
     ax.set_ylabel("Frequency over that of the linear mode")
     return ax
+
+
+def frame(columns: dict[str, Any]) -> Any:
+    """A pandas.DataFrame. Raises ImportError without pandas."""
+    try:
+        import pandas
+    except ImportError as error:
+        raise ImportError("to_frame() needs pandas (Debian: python3-pandas)") from error
+    return pandas.DataFrame({name: np.array(values) for name, values in columns.items()})
+
+
+@dataclass
+class Line:
+    """A curve of a plain picture, dashed where `dashed` holds."""
+
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    dashed: npt.NDArray[np.bool_] | None = None
+
+
+_COLOURS = ("#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9")
+_WIDTH, _HEIGHT, _LEFT, _BOTTOM, _EDGE = 560, 320, 80, 48, 12
+
+
+def svg(lines: list[Line], x_label: str, y_label: str, title: str) -> str:
+    """A picture of curves as SVG, without any library; the title alone where there is nothing to draw."""
+    heading = f"<p>{html.escape(title)}</p>"
+    x = np.concatenate([line.x for line in lines] or [np.zeros(0)])
+    y = np.concatenate([line.y for line in lines] or [np.zeros(0)])
+    known = np.isfinite(x) & np.isfinite(y)
+    if not known.any():
+        return heading
+    x_range, y_range = _range(x[known]), _range(y[known])
+    body = _frame(x_range, y_range, x_label, y_label)
+    for number, line in enumerate(lines):
+        colour = _COLOURS[number % len(_COLOURS)]
+        dashed = np.zeros(len(line.x), dtype=bool) if line.dashed is None else line.dashed
+        for begin, end, broken in _runs(dashed):
+            points = " ".join(
+                f"{_at(px, x_range, _LEFT, _WIDTH - _EDGE):.1f},{_at(py, y_range, _HEIGHT - _BOTTOM, _EDGE):.1f}"
+                for px, py in zip(line.x[begin:end], line.y[begin:end])
+                if np.isfinite(px) and np.isfinite(py)
+            )
+            pattern = ' stroke-dasharray="5 4"' if broken else ""
+            body += f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="1.6"{pattern}/>'
+    return (
+        f'{heading}<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {_HEIGHT}" style="max-width: {_WIDTH}px"'
+        f' role="img" font-family="sans-serif" font-size="12">{body}</svg>'
+    )
+
+
+def _range(values: npt.NDArray[np.float64]) -> tuple[float, float]:
+    low, high = float(values.min()), float(values.max())
+    return (low, high) if high > low else (low - 0.5 * (abs(low) or 1.0), high + 0.5 * (abs(high) or 1.0))
+
+
+def _at(value: float, limits: tuple[float, float], begin: float, end: float) -> float:
+    return begin + (value - limits[0]) / (limits[1] - limits[0]) * (end - begin)
+
+
+def _runs(dashed: npt.NDArray[np.bool_]) -> list[tuple[int, int, bool]]:
+    """Points from and to, and whether their line is dashed: a line between two points of which one is."""
+    runs: list[tuple[int, int, bool]] = []
+    lines = dashed[:-1] | dashed[1:]
+    begin = 0
+    for i in range(1, len(lines) + 1):
+        if i == len(lines) or lines[i] != lines[begin]:
+            runs.append((begin, i + 1, bool(lines[begin])))
+            begin = i
+    return runs
+
+
+def _frame(x: tuple[float, float], y: tuple[float, float], x_label: str, y_label: str) -> str:
+    """The axes with their labels and the values at their ends."""
+    bottom, right = _HEIGHT - _BOTTOM, _WIDTH - _EDGE
+
+    def text(px: float, py: float, words: str, anchor: str, more: str = "") -> str:
+        return f'<text x="{px}" y="{py}" text-anchor="{anchor}"{more}>{html.escape(words)}</text>'
+
+    middle = (_EDGE + bottom) / 2
+    return (
+        f'<path d="M{_LEFT} {_EDGE}V{bottom}H{right}" fill="none" stroke="#444"/>'
+        + text(_LEFT, bottom + 16, f"{x[0]:.4g}", "start")
+        + text(right, bottom + 16, f"{x[1]:.4g}", "end")
+        + text(_LEFT - 6, bottom, f"{y[0]:.3g}", "end")
+        + text(_LEFT - 6, _EDGE + 10, f"{y[1]:.3g}", "end")
+        + text((_LEFT + right) / 2, bottom + 36, x_label, "middle")
+        + text(16, middle, y_label, "middle", f' transform="rotate(-90 16 {middle})"')
+    )

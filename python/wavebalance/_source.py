@@ -127,7 +127,19 @@ def _with_files(scene: Mapping[str, Any], store: _Store) -> dict[str, Any]:
                 result[section][key] = store.add(key, value)
             elif is_numpy_file(value):
                 result[section][key] = store.add(key, load_matrix(Path(value)))
+        if section == "forcing" and isinstance(keys.get("terms"), (list, tuple)):
+            result[section]["terms"] = [_term_with_file(term, i + 1, store) for i, term in enumerate(keys["terms"])]
     return result
+
+
+def _term_with_file(term: Any, number: int, store: _Store) -> Any:
+    """An entry of forcing.terms, whose load is the name of a file."""
+    load = term.get("load") if isinstance(term, Mapping) else None
+    if is_matrix(load):
+        return {**term, "load": store.add(f"load_{number}", load)}
+    if is_numpy_file(load):
+        return {**term, "load": store.add(f"load_{number}", load_matrix(Path(load)))}
+    return term
 
 
 def _files_of_numpy(name: str, text: str, store: _Store) -> list[str]:

@@ -71,9 +71,20 @@ class Law(_core.Law):
         """The keys of ``[contact]`` that say this law in a scene. Raises ValueError where a scene has no such law."""
         return dict(self._keys)
 
+    def __reduce__(self) -> Any:
+        values = {key: value for key, value in self._keys.items() if key != "law"}
+        return _restored_law, (type(self), values)
+
     def __repr__(self) -> str:
         values = ", ".join(f"{key}={value!r}" for key, value in self._keys.items() if key != "law")
         return f"{type(self).__name__}({values})"
+
+
+def _restored_law(kind: type[Law], values: dict[str, Any]) -> Law:
+    """The law of a class of the catalogue with these values, from a pickle."""
+    law = kind.__new__(kind)
+    law._make(**values)
+    return law
 
 
 class NoContact(Law):
@@ -223,8 +234,11 @@ class Table(Law):
         if isinstance(displacements, (str, os.PathLike)):
             self._make(table=os.path.abspath(displacements))
             return
-        law = _core.table_law([float(u) for u in displacements], [float(f) for f in forces])
-        super().__init__(law, {"law": "table", "points": len(displacements)})
+        self._points = [float(u) for u in displacements], [float(f) for f in forces]
+        super().__init__(_core.table_law(*self._points), {"law": "table", "points": len(displacements)})
+
+    def __reduce__(self) -> Any:
+        return super().__reduce__() if "table" in self._keys else (Table, self._points)
 
     def scene_keys(self) -> dict[str, Any]:
         if "table" not in self._keys:
@@ -257,51 +271,105 @@ class KelvinVoigt(Law):
 
 
 class Function(Law):
-    """A law of Python functions of one displacement (a float, m).
+    """A law of Python functions of one displacement (a float, m), or of displacement and velocity (m/s).
 
     This is slow: every sample of every Newton step calls Python with the interpreter's lock held, a few tenths of a
-    microsecond each and ten to a hundred times the cost of a compiled law. A :class:`Table` of the same force is fast.
+    microsecond each and ten to a hundred times the cost of a compiled law. A :class:`Table` of the same force is fast. A law
+    of functions that pickle finds by name, none of them a lambda, can be pickled.
 
     Parameters
     ----------
     force:
-        The force (N) at a displacement (m).
+        The force (N) at a displacement (m); with two arguments at a displacement and a velocity.
     tangent:
-        Its slope (N/m); by default a central difference over 6e-6 times the displacement, or times `length` near zero.
+        Its slope (N/m) by the displacement, with the arguments of `force`; by default a central difference over 6e-6 times
+        the displacement, or times `length` near zero.
     potential:
-        Its integral (J) from the gap; by default by quadrature between the kinks. Energies alone need it.
+        Its integral (J) at rest from the gap; by default by quadrature between the kinks. Energies alone need it.
+    damping:
+        Its slope (N s/m) by the velocity, of a force with two arguments; by default a central difference over 6e-6 times the
+        velocity, or times `speed` near zero.
     gap:
         Where the force starts, m; for a law that acts everywhere a length that the motion has, or 0.
     unilateral:
         Whether the force vanishes below the gap and is never negative.
     monotone:
-        Whether the force falls nowhere, so that a stiff law may be solved for its force.
+        Whether the force falls nowhere, so that a stiff law may be solved for its force; not with a velocity.
     kinks:
         Displacements at which the slope jumps, m, ascending. Sweeps stop at them; without them they may get lost.
-    length:
-        A displacement that the motion has, m.
+    length, speed:
+        A displacement (m) and a velocity (m/s) that the motion has.
     """
 
     def __init__(
         self,
-        force: Callable[[float], float],
-        tangent: Callable[[float], float] | None = None,
+        force: Callable[..., float],
+        tangent: Callable[..., float] | None = None,
         potential: Callable[[float], float] | None = None,
         *,
+        damping: Callable[[float, float], float] | None = None,
         gap: float = 0.0,
         unilateral: bool = False,
         monotone: bool = False,
         kinks: Sequence[float] = (),
         length: float = 1e-3,
+        speed: float = 1e-1,
     ) -> None:
         breaks = [float(one) for one in kinks]
-        slope = tangent if tangent is not None else _difference(force, length)
-        energy = potential if potential is not None else _integral(force, gap, breaks)
-        law = _core.function_law(force, slope, energy, gap, unilateral, monotone, breaks)
+        named = {"damping": damping, "gap": gap, "unilateral": unilateral, "monotone": monotone}
+        self._arguments = (force, tangent, potential, {**named, "kinks": breaks, "length": length, "speed": speed})
+        if _takes_velocity(force):
+            if monotone:
+                raise ValueError("monotone is True; a force of the velocity, too, is solved for its displacement: expected False")
+            law = _velocity_law(force, tangent, potential, damping, gap, unilateral, breaks, length, speed)
+        elif damping is not None:
+            raise ValueError("damping is given, but force takes a displacement alone; expected force(displacement, velocity)")
+        else:
+            slope = tangent if tangent is not None else _difference(force, length)
+            energy = potential if potential is not None else _integral(force, gap, breaks)
+            law = _core.function_law(force, slope, energy, gap, unilateral, monotone, breaks)
         super().__init__(law, {"force": force, "gap": gap})
+
+    def __reduce__(self) -> Any:
+        return _restored_function, self._arguments
 
     def scene_keys(self) -> dict[str, Any]:
         raise ValueError("a law of Python functions has no keys; a scene takes Table('name.csv') in its place")
+
+
+def _restored_function(force: Any, tangent: Any, potential: Any, named: dict[str, Any]) -> Function:
+    return Function(force, tangent, potential, **named)
+
+
+def _takes_velocity(force: Callable[..., float]) -> bool:
+    """Whether a force has a second argument without a default."""
+    try:
+        parameters = inspect.signature(force).parameters.values()
+    except (TypeError, ValueError):
+        return False  # of compiled functions nothing is known
+    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    return sum(one.kind in kinds and one.default is inspect.Parameter.empty for one in parameters) == 2
+
+
+def _velocity_law(
+    force: Callable[[float, float], float],
+    tangent: Callable[[float, float], float] | None,
+    potential: Callable[[float], float] | None,
+    damping: Callable[[float, float], float] | None,
+    gap: float,
+    unilateral: bool,
+    kinks: list[float],
+    length: float,
+    speed: float,
+) -> _core.Law:
+    def by_displacement(displacement: float, velocity: float) -> float:
+        return _difference(lambda one: force(one, velocity), length)(displacement)
+
+    def by_velocity(displacement: float, velocity: float) -> float:
+        return _difference(lambda one: force(displacement, one), speed)(velocity)
+
+    energy = potential if potential is not None else _integral(lambda one: force(one, 0.0), gap, kinks)
+    return _core.velocity_law(force, tangent or by_displacement, damping or by_velocity, energy, gap, unilateral, kinks)
 
 
 def _difference(force: Callable[[float], float], length: float) -> Callable[[float], float]:
@@ -327,7 +395,7 @@ def _integral(force: Callable[[float], float], begin: float, kinks: Sequence[flo
     return potential
 
 
-LawLike = Union[_core.Law, Callable[[float], float], Sequence[Union[_core.Law, Callable[[float], float]]]]
+LawLike = Union[_core.Law, Callable[..., float], Sequence[Union[_core.Law, Callable[..., float]]]]
 
 
 def as_laws(laws: LawLike) -> Any:

@@ -13,7 +13,14 @@ from . import _core, _plots
 
 __all__ = ["Record"]
 
-Columns = dict[str, Any]
+
+
+class Columns(dict[str, Any]):
+    """The columns of a table; one that is not there is an error that says which are."""
+
+    def __missing__(self, name: str) -> Any:
+        there = ", ".join(self) if self else "none, since the analysis has no such table"
+        raise KeyError(f"there is no column {name!r}; the columns are {there}")
 
 
 class Record:
@@ -37,6 +44,9 @@ class Record:
         Of a motion: time_fraction, displacement_m, velocity_m_per_s, contact_force_N over one period.
     contacts: dict
         Motion and force of every contact, where there are several.
+    outputs: dict
+        Of a motion with analysis.outputs: time_fraction and a column for each, over one period. Of a curve the columns stand
+        in `sweep`.
     sweep: dict
         Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
         error_of_displacement, error_of_force, phases_status, stability_by. The summary has these errors of the peak.
@@ -54,10 +64,11 @@ class Record:
         self.status: str = run.status
         self.warnings: list[str] = run.warnings
         self.summary: dict[str, Any] = run.summary
-        self.response: Columns = run.response
-        self.contacts: Columns = run.contacts
-        self.sweep: Columns = run.sweep
-        self.backbone: Columns = run.backbone
+        self.response: Columns = Columns(run.response)
+        self.contacts: Columns = Columns(run.contacts)
+        self.outputs: Columns = Columns(run.outputs)
+        self.sweep: Columns = Columns(run.sweep)
+        self.backbone: Columns = Columns(run.backbone)
         self.bar_motion: npt.NDArray[np.float64] = run.bar_motion
         self.scene: str = run.scene
 
@@ -75,6 +86,10 @@ class Record:
         them that are gone.
         """
         self._solved_here().write(os.fspath(output))
+
+    def to_frame(self) -> Any:
+        """The curve, the mode or the motion as a pandas.DataFrame with the columns of its file; needs pandas."""
+        return _plots.frame(self.sweep or self.backbone or self.response)
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the motion, the curve (unstable parts dashed) or the mode with Matplotlib, and returns the axes."""

@@ -13,7 +13,7 @@ from ._matrices import as_number
 from .laws import LawLike, as_laws
 from .structure import Pair, Structure, default_pair
 
-__all__ = ["Motion", "Problem", "Response", "Stability", "forced_response", "stability"]
+__all__ = ["Motion", "Problem", "Response", "Stability", "forced_response", "harmonics_of", "stability"]
 
 
 class Problem(_core.Problem):
@@ -42,7 +42,15 @@ class Problem(_core.Problem):
     ) -> None:
         self.structure = structure
         self.pair = default_pair() if pair is None else pair
-        super().__init__(structure, self.pair, np.ravel(np.asarray(harmonics, complex)), threads)
+        self._arguments = np.ravel(np.asarray(harmonics, complex)), threads
+        super().__init__(structure, self.pair, *self._arguments)
+
+    def __reduce__(self) -> Any:
+        return _restored_problem, (self.structure, self.pair, *self._arguments)
+
+
+def _restored_problem(structure: Structure, pair: Pair, harmonics: Any, threads: int) -> Problem:
+    return Problem(structure, pair, harmonics=harmonics, threads=threads)
 
 
 ProblemLike = Union[Structure, Problem]
@@ -86,7 +94,7 @@ class Motion:
 
 
 class Response:
-    """A periodic response at one frequency.
+    """A periodic response at one frequency. It can be pickled, with its structure and laws, and copied.
 
     Attributes
     ----------
@@ -112,10 +120,15 @@ class Response:
         Of the condensation and the solution, s.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_core", "_problem", "_laws")
 
-    def __init__(self, core: _core.Response) -> None:
+    def __init__(self, core: _core.Response, problem: Problem, laws: Any) -> None:
         self._core = core
+        self._problem = problem
+        self._laws = laws
+
+    def __reduce__(self) -> Any:
+        return _restored_response, (self._problem, self._laws, _core.response_state(self._core))
 
     @property
     def converged(self) -> bool:
@@ -174,6 +187,23 @@ class Response:
         """The motion of all n degrees of freedom at `points` uniform times. O(n (M + points log points))."""
         return Motion(self._core._structure_motion(points))
 
+    def harmonics(self, count: int = 5, points: int = 1024) -> npt.NDArray[np.complex128]:
+        """Complex amplitudes of the contacts' displacements, C × (count + 1): u = Re sum_m h_m exp(2 pi i m f t).
+
+        The modulus of h_m is an amplitude (m), its argument a phase ahead of a cosine; h_0 is the mean. `points` must exceed
+        twice `count`. Those of degrees of freedom are ``harmonics_of(response.structure_motion().displacement, count)``.
+        """
+        return harmonics_of(self.motion(points).displacement, count)
+
+    def to_frame(self, points: int = 1024) -> Any:
+        """The motion of the contacts as a pandas.DataFrame with a column for each; needs pandas."""
+        motion = self.motion(points)
+        columns = {"time_fraction": motion.time}
+        for contact, (u, f) in enumerate(zip(motion.displacement, motion.force), start=1):
+            columns[f"displacement_{contact}_m"] = u
+            columns[f"contact_force_{contact}_N"] = f
+        return _plots.frame(columns)
+
     def stability(self, multipliers: int = 4) -> Stability:
         """:func:`stability` of this response."""
         return stability(self, multipliers)
@@ -189,6 +219,29 @@ class Response:
 
     def __repr__(self) -> str:
         return f"<wavebalance.Response at {self.frequency:g} Hz: {self.status}>"
+
+    def _repr_html_(self) -> str:
+        motion = self.motion(256)
+        time = np.append(motion.time, 1.0)
+        lines = [_plots.Line(time, np.append(u, u[0])) for u in motion.displacement]
+        return _plots.svg(lines, "Time (fraction of a period)", "Displacement (m)", repr(self)[1:-1])
+
+
+def _restored_response(problem: Problem, laws: Any, state: tuple[Any, ...]) -> Response:
+    return Response(_core.restored_response(problem, laws, state), problem, laws)
+
+
+def harmonics_of(displacement: npt.ArrayLike, count: int = 5) -> npt.NDArray[np.complex128]:
+    """Complex amplitudes h_0 .. h_count of motions at uniform times of a period, rows × points: Re sum_m h_m exp(2 pi i m t).
+
+    Raises ValueError where there are not more than 2 `count` points.
+    """
+    rows = np.atleast_2d(np.asarray(displacement, dtype=float))
+    if rows.shape[1] <= 2 * count:
+        raise ValueError(f"there are {rows.shape[1]} points; expected more than {2 * count} for {count} harmonics")
+    series = np.fft.rfft(rows)[:, : count + 1] * (2.0 / rows.shape[1])
+    series[:, 0] *= 0.5
+    return series
 
 
 class Stability:
@@ -268,9 +321,9 @@ def forced_response(
     hertz = as_number(frequency, "frequency", "one number in Hz; frequency_sweep takes an interval")
     problem = as_problem(structure, pair)
     start = guess._core if isinstance(guess, Response) else guess
-    return Response(
-        _core.forced_response(problem, as_laws(laws), hertz, start, stay_near_guess, form, tolerance, max_iterations)
-    )
+    all_laws = as_laws(laws)
+    found = _core.forced_response(problem, all_laws, hertz, start, stay_near_guess, form, tolerance, max_iterations)
+    return Response(found, problem, all_laws)
 
 
 def stability(response: Response, multipliers: int = 4) -> Stability:

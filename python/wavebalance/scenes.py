@@ -20,6 +20,7 @@ def run(
     unset: Iterable[str] = (),
     start_from: str | os.PathLike[str] | None = None,
     threads: int = 0,
+    copy_inputs: bool = False,
 ) -> Record:
     """Solves a scene and returns its record, with the same digits as ``wavebalance run``.
 
@@ -41,6 +42,8 @@ def run(
         Results of an earlier run, near whose motion the response is sought.
     threads:
         Harmonics that are condensed side by side, with the same digits; 0: one per core.
+    copy_inputs:
+        Whether `output` gets copies of the files that the scene names, so that it can be moved.
 
     Returns
     -------
@@ -58,7 +61,7 @@ def run(
     """
     with scene_source(scene, overrides, unset, output) as source:
         start = "" if start_from is None else os.fspath(start_from)
-        return Record(_core.run_scene(source, "" if output is None else os.fspath(output), start, threads))
+        return Record(_core.run_scene(source, "" if output is None else os.fspath(output), start, threads, copy_inputs))
 
 
 def check(scene: SceneLike, overrides: Overrides = None, *, unset: Iterable[str] = ()) -> str:

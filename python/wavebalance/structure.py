@@ -90,6 +90,14 @@ class Structure(_core.Structure):
         if static_load is not None:
             self._forces.append((_vector(static_load, "static_load"), np.ones(1, complex), 0))
         self._problem: tuple[_core.Pair, Any] | None = None
+        self._arguments = {
+            "static_load": static_load,
+            "forces": tuple(forces),
+            "loss_factor": loss_factor,
+            "unsymmetric": unsymmetric,
+            "free": free,
+            "contact_mass": contact_mass,
+        }
         super().__init__(
             self.M,
             self.C,
@@ -102,6 +110,10 @@ class Structure(_core.Structure):
             free,
             contact_mass == "redistribute",
         )
+
+    def __reduce__(self) -> Any:
+        damping = self.C if self.C.nnz else None
+        return _restored_structure, ((self.M, damping, self.K, self.load, self.S), self._arguments)
 
     def scene(
         self, laws: LawLike, *, frequency: float | None = None, pair: Pair | None = None, **analysis: Any
@@ -123,10 +135,8 @@ class Structure(_core.Structure):
         Raises
         ------
         ValueError
-            For laws without keys, and for `forces` and `static_load`, which stand in ``[[forcing.terms]]`` of a scene.
+            For laws without keys.
         """
-        if self._forces:
-            raise ValueError("the structure has forces beside its load; a scene has [[forcing.terms]] for them")
         structure: dict[str, Any] = {"type": "matrices", "mass": self.M, "stiffness": self.K}
         if self.C.nnz:
             structure["damping"] = self.C
@@ -136,6 +146,8 @@ class Structure(_core.Structure):
         forcing: dict[str, Any] = {"load": self.load, "amplitude": 1.0}
         if frequency is not None:
             forcing["frequency"] = float(frequency)
+        if self._forces:
+            forcing["terms"] = [term for shape, series, _ in self._forces for term in _terms(shape, series)]
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
         if self.contact_mass != "keep":
             result["contact"]["mass"] = self.contact_mass
@@ -163,6 +175,24 @@ class Structure(_core.Structure):
             own = keys if kept is None else {key: keys[key] for key in kept}
             pairs.append({"dofs": [int(i) + 1 for i in row.indices], "coefficients": row.data.tolist(), **own})
         return {**first, "pairs": pairs}
+
+
+def _restored_structure(matrices: tuple[Any, ...], arguments: dict[str, Any]) -> Structure:
+    return Structure(*matrices, **arguments)
+
+
+def _terms(shape: npt.NDArray[np.float64], series: npt.NDArray[np.complex128]) -> list[dict[str, Any]]:
+    """A force as entries of ``[[forcing.terms]]``, one for each harmonic that it has."""
+    terms: list[dict[str, Any]] = []
+    for harmonic, value in enumerate(series):
+        if value == 0.0:
+            continue
+        term: dict[str, Any] = {"load": shape, "harmonic": harmonic}
+        if harmonic == 0:
+            terms.append({**term, "amplitude": float(value.real)})
+        else:
+            terms.append({**term, "amplitude": float(abs(value)), "phase": float(np.degrees(np.angle(value)))})
+    return terms
 
 
 class Pair(_core.Pair):
@@ -221,6 +251,9 @@ class Pair(_core.Pair):
             "sample_offset": sample_offset,
         }
 
+    def __reduce__(self) -> Any:
+        return _restored_pair, (self.name, self._keys)
+
     def scene_keys(self) -> dict[str, Any]:
         """The keys of ``[time]`` in a scene."""
         return dict(self._keys)
@@ -231,6 +264,11 @@ class Pair(_core.Pair):
 
     def __repr__(self) -> str:
         return f"Pair({self.name!r}, functions={self.functions}, points={self.points})"
+
+
+def _restored_pair(name: str, keys: dict[str, Any]) -> Pair:
+    named = ("formulation", "inner_products", "nyquist", "sample_offset")
+    return Pair(name, keys["functions"], keys["quadrature_points"], **{key: keys[key] for key in named})
 
 
 @functools.lru_cache(maxsize=1)

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plots
-from ._matrices import as_number
+from ._matrices import as_count, as_number
 from .laws import LawLike, as_laws
-from .responses import ProblemLike, Response, as_problem
+from .responses import Problem, ProblemLike, Response, as_problem, harmonics_of
 from .structure import Pair
 
-__all__ = ["Sweep", "amplitude_sweep", "frequency_sweep"]
+__all__ = ["Sweep", "amplitude_sweep", "frequency_sweep", "overlay"]
 
 Numbers = npt.NDArray[np.float64]
 
 
 class Sweep:
     """A curve of P periodic responses, in its order through folds. All arrays have P values and are read-only views.
+    It can be pickled, with its structure and laws, and copied.
 
     Attributes
     ----------
@@ -50,8 +52,10 @@ class Sweep:
         Of the curve and its stability, s.
     """
 
-    def __init__(self, core: _core.Curve) -> None:
+    def __init__(self, core: _core.Curve, problem: Problem, laws: Any) -> None:
         self._core = core
+        self._problem = problem
+        self._laws = laws
         self.status: str = core.status
         self.wall_seconds: float = core.wall_seconds
         self.converged: bool = core.status == "reached_end" and core.rounding_error <= 1e-3
@@ -71,28 +75,99 @@ class Sweep:
         self.stability_status: list[str] = core.stability_status
         self.special_points: list[dict[str, Any]] = core.special_points
 
+    def __reduce__(self) -> Any:
+        return _restored_sweep, (self._problem, self._laws, _core.curve_state(self._core))
+
     def __len__(self) -> int:
         return len(self.frequency)
 
     def response(self, index: int) -> Response:
         """The response at a point, from 0; negative numbers count from the end. Raises IndexError."""
-        return Response(self._core._response(index))
+        return Response(self._core._response(index), self._problem, self._laws)
 
     def special(self, kind: str) -> list[dict[str, Any]]:
         """The special points of one type."""
         return [point for point in self.special_points if point["type"] == kind]
 
-    def plot(self, ax: Any = None) -> Any:
+    def harmonics(self, dofs: Sequence[int] | None = None, count: int = 3, points: int = 256) -> npt.NDArray[np.complex128]:
+        """Complex amplitudes along the curve, P × rows × (count + 1), as :meth:`Response.harmonics` of each point.
+
+        Parameters
+        ----------
+        dofs:
+            Degrees of freedom of the structure, from 0; the contacts by default.
+        """
+        result = []
+        for index in range(len(self)):
+            response = self.response(index)
+            if dofs is None:
+                result.append(response.harmonics(count, points))
+            else:
+                result.append(harmonics_of(response.structure_motion(points).displacement[list(dofs)], count))
+        return np.array(result)
+
+    def to_frame(self) -> Any:
+        """The points as a pandas.DataFrame with the columns of sweep.csv; needs pandas."""
+        columns: dict[str, Any] = {"amplitude" if self._core.over_amplitude else "frequency_Hz": self._place()}
+        columns |= {
+            "max_displacement_m": self.max_displacement,
+            "rms_displacement_m": self.rms_displacement,
+            "min_displacement_m": self.min_displacement,
+            "max_abs_displacement_m": self.max_abs_displacement,
+            "max_contact_force_N": self.max_force,
+            "contact_fraction": self.contact_fraction,
+            "unstable": self.unstable,
+            "contacts": self.contacts,
+        }
+        return _plots.frame(columns)
+
+    def _place(self) -> Numbers:
+        return self.amplitude if self._core.over_amplitude else self.frequency
+
+    def _place_label(self) -> str:
+        return "Factor on the load" if self._core.over_amplitude else "Frequency (Hz)"
+
+    def plot(self, ax: Any = None, label: str | None = None) -> Any:
         """Draws the largest displacement with Matplotlib, dashed where unstable, and returns the axes."""
         ax = _plots.axes(ax)
-        over_amplitude = self._core.over_amplitude
-        _plots.curve(ax, self.amplitude if over_amplitude else self.frequency, self.max_displacement, self.unstable)
-        ax.set_xlabel("Factor on the load" if over_amplitude else "Frequency (Hz)")
+        _plots.curve(ax, self._place(), self.max_displacement, self.unstable, label)
+        ax.set_xlabel(self._place_label())
         ax.set_ylabel("Largest displacement (m)")
         return ax
 
     def __repr__(self) -> str:
         return f"<wavebalance.Sweep of {len(self)} points: {self.status}>"
+
+    def _repr_html_(self) -> str:
+        line = _plots.Line(self._place(), self.max_displacement, self.unstable > 0)
+        return _plots.svg([line], self._place_label(), "Largest displacement (m)", repr(self)[1:-1])
+
+
+def _restored_sweep(problem: Problem, laws: Any, state: tuple[Any, ...]) -> Sweep:
+    return Sweep(_core.restored_curve(problem, laws, state), problem, laws)
+
+
+def overlay(curves: Sequence[Any], labels: Sequence[str] | None = None, ax: Any = None) -> Any:
+    """Draws curves, responses or records over each other with Matplotlib, and returns the axes.
+
+    Parameters
+    ----------
+    curves:
+        Objects with a method ``plot``: :class:`Sweep`, :class:`Response`, records of :func:`wavebalance.run`, modes.
+    labels:
+        One for each; by default their numbers from 1.
+    """
+    names = [str(i + 1) for i in range(len(curves))] if labels is None else list(labels)
+    if len(names) != len(curves):
+        raise ValueError(f"there are {len(names)} labels; expected one for each of {len(curves)} curves")
+    ax = _plots.axes(ax)
+    for one, name in zip(curves, names):
+        before = len(ax.lines)
+        one.plot(ax)
+        if len(ax.lines) > before:
+            ax.lines[before].set_label(name)
+    ax.legend()
+    return ax
 
 
 def frequency_sweep(
@@ -131,11 +206,28 @@ def frequency_sweep(
     ValueError
         For frequencies that are not positive, finite and different, and laws that do not fit.
     """
-    steps = _core.Steps(first_step or 0.0, largest_step or 0.0, max_points, output_points, stability, form)
+    steps = _steps(first_step, largest_step, max_points, output_points, stability, form)
     begin = as_number(frequency_from, "frequency_from", "one number in Hz")
     end = as_number(frequency_to, "frequency_to", "one number in Hz")
-    problem = as_problem(structure, pair)
-    return Sweep(_core.sweep(problem, as_laws(laws), float("nan"), begin, end, steps))
+    problem, all_laws = as_problem(structure, pair), as_laws(laws)
+    return Sweep(_core.sweep(problem, all_laws, float("nan"), begin, end, steps), problem, all_laws)
+
+
+def _steps(
+    first: float | None, largest: float | None, max_points: int, output_points: int, stability: bool, form: str
+) -> _core.Steps:
+    """Steps along a curve. Raises TypeError for what is no number or text."""
+    sizes = [
+        0.0 if one is None else as_number(one, name, "one number, or None")
+        for one, name in ((first, "first_step"), (largest, "largest_step"))
+    ]
+    counts = [
+        as_count(one, name, "a whole number")
+        for one, name in ((max_points, "max_points"), (output_points, "output_points"))
+    ]
+    if not isinstance(form, str):
+        raise TypeError(f'form is {form!r}; expected "automatic", "displacement" or "force"')
+    return _core.Steps(sizes[0], sizes[1], counts[0], counts[1], bool(stability), form)
 
 
 def amplitude_sweep(
@@ -157,6 +249,9 @@ def amplitude_sweep(
 
     Parameters and errors are those of :func:`frequency_sweep`; the amplitudes and steps are factors on the load.
     """
-    steps = _core.Steps(first_step or 0.0, largest_step or 0.0, max_points, output_points, stability, form)
-    problem = as_problem(structure, pair)
-    return Sweep(_core.sweep(problem, as_laws(laws), frequency, amplitude_from, amplitude_to, steps))
+    steps = _steps(first_step, largest_step, max_points, output_points, stability, form)
+    hertz = as_number(frequency, "frequency", "one number in Hz")
+    begin = as_number(amplitude_from, "amplitude_from", "one number, a factor on the load")
+    end = as_number(amplitude_to, "amplitude_to", "one number, a factor on the load")
+    problem, all_laws = as_problem(structure, pair), as_laws(laws)
+    return Sweep(_core.sweep(problem, all_laws, hertz, begin, end, steps), problem, all_laws)
