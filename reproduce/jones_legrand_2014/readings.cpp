@@ -95,8 +95,9 @@ std::string Readings::missing(std::size_t reading, const std::vector<std::string
   return labels;
 }
 
-app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& cells) {
+app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& cells, bool near) {
   app::ResponseOptions options;
+  options.stay_near_guess = near;
   const Eigen::Index per_cell = scene.time.quadrature_points / cells.size();
   options.guess = Eigen::VectorXd::NullaryExpr(scene.time.quadrature_points,
                                                [&](Eigen::Index i) { return cells[i / per_cell]; });

@@ -62,7 +62,8 @@ class Readings {
 };
 
 /// The solution with Haar trial functions whose iterations start from these displacements of its cells.
-app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& cells);
+/// `near`: only by what stays near them, which finds other solutions and fails soon.
+app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& cells, bool near = false);
 /// The displacements of the cells of a Haar solution, and its column in haar_readings_cells.csv.
 Eigen::VectorXd cell_values(const app::Response& response, int cells);
 std::string cells_column(const Pair& pair, const Sums& sums);

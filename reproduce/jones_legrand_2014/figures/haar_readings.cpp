@@ -17,6 +17,8 @@ using report::percent;
 namespace {
 
 constexpr int haar_functions = 64;
+constexpr double first_tooth = 0.2;     // of the gap
+constexpr std::size_t most_starts = 2;  // solutions of others, in search of several
 
 const std::vector<Pair>& read_pairs() {
   static const auto chosen = pairs_named({"haar_fourier", "haar_bspline"});
@@ -90,10 +92,10 @@ Eigen::VectorXd saw_tooth(const Case& study, double share) {
   return cells;
 }
 
-/// The solutions found from several starts: the cells of the reading before, or no contact where that is
-/// empty, and saw teeth. The first is the one that counts.
+/// The solutions found from the last of the cells, or from no contact where there are none, which is the one
+/// that counts; and near most_starts of the cells before and a saw tooth.
 std::vector<app::Response> solutions(const Case& study, const Pair& pair, const Sums& sums,
-                                     const Eigen::VectorXd& last) {
+                                     const std::vector<Eigen::VectorXd>& before) {
   const app::Scene scene = study.scene_under(pair, haar_functions, sums.overrides(pair));
   std::vector<app::Response> found;
   const auto add = [&](const app::Response& one) {
@@ -103,8 +105,11 @@ std::vector<app::Response> solutions(const Case& study, const Pair& pair, const 
     });
     if (one.converged && !known) found.push_back(one);
   };
-  add(last.size() > 0 ? solved_from_cells(scene, last) : app::weighted_residual_response(scene));
-  for (const double share : {0.2, -0.2, 0.0}) add(solved_from_cells(scene, saw_tooth(study, share)));
+  add(before.empty() ? app::weighted_residual_response(scene) : solved_from_cells(scene, before.back()));
+  if (found.empty()) add(solved_from_cells(scene, saw_tooth(study, first_tooth)));
+  const std::size_t skipped = before.size() - std::min(before.size(), most_starts + 1);
+  for (std::size_t i = skipped; i + 1 < before.size(); ++i) add(solved_from_cells(scene, before[i], true));
+  add(solved_from_cells(scene, saw_tooth(study, first_tooth), true));
   return found;
 }
 
@@ -122,10 +127,10 @@ class SeveralSolutions {
   }
   void note(report::Artefact& artefact) const {
     artefact.note(fmt::format(
-        "Four starts were tried under each: the solution before, and the exact motion in the middle of the cells without "
-        "and with a saw tooth of either sign. More than one solution was found for {} of {} (error of the force, the "
+        "Each was started from the solution before it, from the {} before that and from the exact motion in the middle of the "
+        "cells with a saw tooth. More than one solution was found for {} of {} (error of the force, the "
         "first is that of the table){}{}. There may be more.",
-        count_, all_sums().size() * read_pairs().size(), text_.empty() ? "" : ": ", text_));
+        most_starts, count_, all_sums().size() * read_pairs().size(), text_.empty() ? "" : ": ", text_));
   }
 
  private:
@@ -191,7 +196,7 @@ void explain(report::Artefact& artefact, const std::vector<Row>& rows) {
 void haar_readings(report::Artefact& artefact) {
   Case one(artefact, 1), two(artefact, 2);
   std::vector<Row> rows;
-  std::vector<Eigen::VectorXd> found(read_pairs().size());  // the last solution, from which the next starts
+  std::vector<std::vector<Eigen::VectorXd>> found(read_pairs().size());  // from which the next ones start
   SeveralSolutions several;
   Table cells;
   cells.add_column("time_fraction", app::time_fractions(haar_functions));
@@ -203,7 +208,7 @@ void haar_readings(report::Artefact& artefact) {
       const auto all = solutions(one, pair, sums, found[i]);
       several.add(one, pair, sums, all);
       const app::Response first = all.empty() ? app::Response() : all.front();
-      if (first.converged) found[i] = cell_values(first, haar_functions);
+      if (first.converged) found[i].push_back(cell_values(first, haar_functions));
       const auto second =
           app::weighted_residual_response(two.scene_under(pair, haar_functions, sums.overrides(pair)));
       cells.add_column(cells_column(pair, sums),
