@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "command/report_parts.hpp"
 #include "command/run_words.hpp"
+#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -64,10 +66,42 @@ std::string record_picture(const std::vector<ResultFile>& files, const std::stri
                               : picture(files, drawn->name, heading);
 }
 
+/// Where each output vibrates most along a curve, or by how much in a motion.
+std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
+  constexpr std::size_t most = 12;
+  const Table* outputs = table_of(summary, "outputs");
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i) {
+    const auto number = [&](std::string_view column) { return std::get<double>(outputs->at(i, column)); };
+    const double vibration = number("half_peak_to_peak");
+    if (!std::isfinite(vibration)) continue;
+    const std::string place = outputs->has_column(axis.column())
+                                  ? fmt::format(", at {:.6g} {}", number(axis.column()), axis.unit)
+                                  : "";
+    const std::string unit = cell_text(outputs->at(i, "unit"));
+    sentences.push_back(fmt::format("The vibration of {} is {}{}{}, about a mean of {}.",
+                                    cell_text(outputs->at(i, "output")), place.empty() ? "" : "at most ",
+                                    quantity(vibration, unit), place, quantity(number("mean"), unit)));
+  }
+  return sentences;
+}
+
+/// How many contacts are closed at rest; empty where static loads move none.
+std::vector<std::string> rest_sentences(const Summary& summary) {
+  const Table* rest = table_of(summary, "at_rest");
+  if (rest == nullptr) return {};
+  const std::vector<double> forces = rest->numbers("contact_force_N");
+  const auto closed = std::count_if(forces.begin(), forces.end(), [](double force) { return force > 0.0; });
+  if (closed == 0) return {"At rest under the static loads no contact is closed."};
+  return {fmt::format("At rest under the static loads {} of {} contacts {} closed, with at most {}.", closed,
+                      forces.size(), closed == 1 ? "is" : "are",
+                      quantity(*std::max_element(forces.begin(), forces.end()), "N"))};
+}
+
 /// The pictures of the outputs, with what was measured of them; empty without any.
 std::string outputs_of_record(const Record& record, const std::vector<ResultFile>& files,
                               const Summary& summary) {
-  std::string pictures;
+  std::string pictures = paragraph(output_sentences(summary, record.axis));
   for (const RecordFigure& one : record.output_pictures)
     for (const ResultFile& file : files)
       if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
@@ -112,14 +146,14 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.scripts = {"motion.js"};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section_html(
-          "What came out",
-          paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
-              (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
-              folded_table(summary, "at_rest", "At rest under the static loads") +
-              folded_table(summary, "motions",
-                           scene.analysis.type == AnalysisType::motions ? "Motions at this frequency"
-                                                                        : "Motions at points of the curve")) +
+      section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
+                                        (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
+                                        motion(files) + paragraph(rest_sentences(summary)) +
+                                        folded_table(summary, "at_rest", "At rest under the static loads") +
+                                        folded_table(summary, "motions",
+                                                     scene.analysis.type == AnalysisType::motions
+                                                         ? "Motions at this frequency"
+                                                         : "Motions at points of the curve")) +
       section_html("Stability",
                    paragraph(stability_sentences(summary, record.sweep, record.axis)) +
                        folded_table(summary, "structure_special_points", "Special points of the structure") +

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "command/report_parts.hpp"
@@ -39,23 +40,43 @@ std::vector<std::size_t> failures_of(const Table& table) {
   return rows;
 }
 
+/// Why runs failed: each message once, with the runs that have it.
+std::string messages_html(const Table& table, const std::vector<std::size_t>& rows) {
+  std::vector<std::string> messages;
+  std::map<std::string, std::vector<std::string>> runs;
+  for (const std::size_t row : rows) {
+    const std::string message = cell_text(table.at(row, "message"));
+    if (message.empty()) continue;
+    if (runs[message].empty()) messages.push_back(message);
+    runs[message].push_back(cell_text(table.at(row, "run")));
+  }
+  std::vector<std::string> items;
+  for (const std::string& message : messages) {
+    const auto& which = runs[message];
+    items.push_back(
+        fmt::format("Run{} {}: {}", which.size() == 1 ? "" : "s", fmt::join(which, ", "), message));
+  }
+  return items.empty() ? "" : list_html(items);
+}
+
 std::string failures_html(const Study& study, const StudyRecord& record) {
   const std::vector<std::size_t> failures = failures_of(record.table);
   if (failures.empty()) return "";
   std::vector<std::vector<std::string>> rows{{"run"}};
   for (const StudyParameter& one : study.parameters) rows.front().push_back(one.key);
-  rows.front().insert(rows.front().end(), {"status", "message"});
+  rows.front().push_back("status");
   for (const std::size_t i : failures) {
     rows.push_back({cell_text(record.table.at(i, "run"))});
     for (const StudyParameter& one : study.parameters)
       rows.back().push_back(cell_text(record.table.at(i, one.key)));
-    for (const char* name : {"status", "message"}) rows.back().push_back(cell_text(record.table.at(i, name)));
+    rows.back().push_back(cell_text(record.table.at(i, "status")));
   }
   const std::string which =
       failures.size() == most_failures
           ? fmt::format("<p>The first {} are shown; study.csv holds all.</p>\n", most_failures)
           : "";
-  return which + table_html(rows) + "<p>This command solves the first of them alone:</p>\n" +
+  return which + table_html(rows) + messages_html(record.table, failures) +
+         "<p>This command solves the first of them alone:</p>\n" +
          code_html(command_of_row(study, record.table, failures.front()));
 }
 

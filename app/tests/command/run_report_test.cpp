@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "support/chain_files.hpp"
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"
 #include "temporary_folder.hpp"
@@ -45,6 +46,24 @@ TEST(RunReport, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
       tip >> comma;
     }
   }
+}
+
+TEST(RunReport, ReportSaysWhereContactsStandAndWhatOutputsDo) {
+  const TemporaryFolder folder;
+  write_chain(folder);
+  const std::string scene = folder.write(
+      "case.toml", with(chain_scene, "[time]", "[[forcing.terms]]\nharmonic = 0\namplitude = 300.0\n[time]"));
+  run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.outputs=[1]", "--set",
+               "contact.gap=[1.0, 1e-4]"});
+  const std::string motion = read_file(folder / "out" / "report.html");
+  for (const char* words : {"At rest under the static loads 1 of 2 contacts is closed",
+                            "The vibration of row 1 is ", "src=\"outputs.svg\"", "href=\"outputs.csv\""})
+    EXPECT_NE(motion.find(words), std::string::npos) << words;
+  run(folder, {"run", scene, "-o", folder / "curve", "--quiet", "--analysis", "frequency_sweep", "--set",
+               "analysis.frequency_from=40", "--set", "analysis.frequency_to=50", "--set",
+               "contact.gap=[1.0, 1e-4]"});
+  EXPECT_NE(read_file(folder / "curve" / "report.html").find("The vibration of contact 2 is at most "),
+            std::string::npos);
 }
 
 TEST(RunReport, ReportSaysWhatImpactsDo) {
