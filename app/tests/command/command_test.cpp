@@ -184,6 +184,10 @@ TEST(Scenes, AllOfTheRepositoryLoad) {
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(WAVEBALANCE_SCENES)) {
     if (entry.path().extension() != ".toml") continue;
+    const auto beside = [&](const char* ending) {
+      return fs::exists(fs::path(entry.path()).replace_extension(ending));
+    };
+    if (beside(".inp") && !beside(".sti")) continue;  // CalculiX makes its matrices, PipePage tests it
     ++count;
     EXPECT_NO_THROW(load_scene(entry.path())) << entry.path();
   }
