@@ -77,7 +77,10 @@ bool Sweep::stopped() const {
 std::size_t Sweep::peak() const { return peak_of_output ? *peak_of_output : peak_of(curve); }
 
 bool Sweep::misses_part() const {
-  return std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.origin.meets_known; });
+  const bool of_structure =
+      structure_points && (structure_points->apart || !structure_points->passed_by.empty());
+  return of_structure ||
+         std::any_of(isolas.begin(), isolas.end(), [](const Sweep& one) { return one.origin.meets_known; });
 }
 
 std::string Sweep::status() const {

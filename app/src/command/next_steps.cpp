@@ -47,7 +47,8 @@ const Remedies& of_sweeps() {
       {"closed", "another start or direction of the interval, or more time.quadrature_points"},
       {"lost",
        "analysis.exact = true, a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
-      {"missed_part", "a smaller analysis.largest_step"},
+      {"missed_part",
+       "analysis.exact = true, a smaller analysis.largest_step, or more time.quadrature_points"},
       {"unbounded", "more damping, or time.nyquist = \"drop\""},
       {"point_limit", "a larger analysis.max_points, or analysis.exact = true"}};
   return all;

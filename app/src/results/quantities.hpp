@@ -40,11 +40,11 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
     random_starts{"random_starts"}, starts_without_motion{"starts_without_motion"}, branches{"branches"},
     special_points_of_branches{"special_points_of_branches"}, motions{"motions"},
-    structure_special_points{"structure_special_points"}, other_motions{"other_motions"}, isola{"isola"},
-    isolas{"isolas"}, special_points_of_isolas{"special_points_of_isolas"},
-    isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
-    isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"}, rest_status{"rest_status"},
-    outputs{"outputs"};
+    structure_curve{"structure_curve"}, structure_special_points{"structure_special_points"},
+    other_motions{"other_motions"}, isola{"isola"}, isolas{"isolas"},
+    special_points_of_isolas{"special_points_of_isolas"}, isola_frequencies{"isola_frequencies"},
+    isola_starts{"isola_starts"}, isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"},
+    rest_status{"rest_status"}, outputs{"outputs"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
@@ -102,7 +103,10 @@ bool can_turn(solvers::SweepStatus status, std::size_t count) {
 void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   const std::string suffix = sweep_axis(sweep).suffix;
   const std::vector<double> of_samples = places_of(sweep.curve);
-  const std::vector<double> folds = folds_of(sweep.stability, sweep.curve.parameter);
+  const std::optional<std::vector<double>> of_structure = structure_folds(sweep);
+  known = known || of_structure;
+  const std::vector<double> folds =
+      of_structure ? *of_structure : folds_of(sweep.stability, sweep.curve.parameter);
   const std::vector<double>& listed = known ? folds : of_samples;
   record.summary.emplace_back("turning_points_" + suffix, listed);
   const bool differ = known && folds.size() != of_samples.size();
@@ -118,7 +122,7 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   if (!known || folds.size() >= of_samples.size()) return;
   record.warnings.push_back(fmt::format(
       "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
-      "quadrature points.",
+      "functions and points.",
       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s"));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
@@ -47,6 +48,26 @@ Table table_of(const solvers::StructurePoints& points, const SweepAxis& axis) {
   return table;
 }
 
+std::string range_of(const std::vector<double>& places) {
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  return *low == *high ? fmt::format("{:.6g}", *low) : fmt::format("{:.6g} to {:.6g}", *low, *high);
+}
+
+/// That a step of the curve was too long.
+void warn_of_parts_missed(Record& record, const solvers::StructurePoints& points, const std::string& unit) {
+  if (points.apart)
+    record.warnings.push_back(
+        "The motions near the first and the last point of the curve lie on different curves of the structure: the "
+        "curve has gone over from one to the other.");
+  if (points.passed_by.empty()) return;
+  std::vector<double> places;
+  for (const std::size_t fold : points.passed_by) places.push_back(points.events[fold].value);
+  record.warnings.push_back(fmt::format(
+      "The curve of the structure has {} fold{} that this curve passes by, at {} {}: what lies between "
+      "them is missing.",
+      places.size(), places.size() == 1 ? "" : "s", range_of(places), unit));
+}
+
 }  // namespace
 
 Table with_structure_points(const Table& special_points, const Sweep& sweep) {
@@ -64,9 +85,19 @@ Table with_structure_points(const Table& special_points, const Sweep& sweep) {
   return table;
 }
 
+std::optional<std::vector<double>> structure_folds(const Sweep& sweep) {
+  if (!sweep.structure_points || !sweep.structure_points->whole) return std::nullopt;
+  std::vector<double> folds;
+  for (const solvers::ExactEvent& event : sweep.structure_points->events)
+    if (event.type == solvers::SpecialPointType::fold) folds.push_back(event.value);
+  return folds;
+}
+
 void append_structure_points(Record& record, const Sweep& sweep) {
   if (!sweep.structure_points) return;
   const solvers::StructurePoints& points = *sweep.structure_points;
+  record.summary.emplace_back(quantities::structure_curve, std::string(points.whole ? "whole" : "stretches"));
+  warn_of_parts_missed(record, points, sweep_axis(sweep).unit);
   record.summary.emplace_back(quantities::structure_special_points, table_of(points, sweep_axis(sweep)));
   const std::int64_t repeated = count_of(points, StructurePointStatus::repeated),
                      none = count_of(points, StructurePointStatus::none),

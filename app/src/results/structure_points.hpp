@@ -1,4 +1,7 @@
 #pragma once
+#include <optional>
+#include <vector>
+
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/results/record.hpp"
 
@@ -8,8 +11,11 @@ namespace wavebalance::app {
 /// structure's next to each, NaN where there is none, and solvers::StructurePointStatus.
 Table with_structure_points(const Table& special_points, const Sweep& sweep);
 
-/// The table of the special points of the structure near those of a sweep, and a warning where the balance
-/// has others. Nothing where they were not sought.
+/// The folds of the structure in the order of its curve, where this was followed as a whole.
+std::optional<std::vector<double>> structure_folds(const Sweep& sweep);
+
+/// The table of the special points of the structure along a sweep, and warnings where the balance has others
+/// and where it misses part of the structure's curve. Nothing where they were not sought.
 void append_structure_points(Record& record, const Sweep& sweep);
 
 }  // namespace wavebalance::app

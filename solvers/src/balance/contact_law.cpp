@@ -113,25 +113,4 @@ std::vector<double> AnyContactLaw::kinks_of(const Interface& law) {
   return kinks;
 }
 
-ResolventLaw::ResolventLaw(AnyContactLaw law, double flexibility)
-    : law_(std::move(law)), flexibility_(flexibility) {
-  if (!(flexibility > 0.0) || !std::isfinite(flexibility))
-    throw std::invalid_argument("ResolventLaw: flexibility is " + std::to_string(flexibility) +
-                                " m/N; it must be positive and finite");
-}
-
-std::vector<double> ResolventLaw::kinks() const {
-  std::vector<double> kinks = law_.kinks();
-  if (law_.unilateral()) return kinks;
-  for (double& kink : kinks) kink += flexibility_ * law_.force(kink);
-  return kinks;
-}
-
-double ResolventLaw::potential(double v) const {
-  const double force = evaluate(v).force;
-  const double u = v - flexibility_ * force;
-  const double stored = law_.potential(u);
-  return (std::isfinite(stored) ? stored : 0.0) + 0.5 * flexibility_ * force * force;
-}
-
 }  // namespace wavebalance::solvers

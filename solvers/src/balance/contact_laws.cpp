@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "wavebalance/solvers/balance/resolvent_law.hpp"
+
 namespace wavebalance::solvers {
 
 ContactLaws::ContactLaws(std::vector<AnyContactLaw> laws) : laws_(std::move(laws)) {

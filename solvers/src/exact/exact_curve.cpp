@@ -26,7 +26,8 @@ class Tracer {
   void run(PathPoint first) {
     accept(std::move(first));
     while (curve_.status == SweepStatus::no_start) {
-      if (static_cast<int>(curve_.points.size()) >= options_.max_points)
+      if (static_cast<int>(curve_.points.size()) >= options_.max_points ||
+          operations_ > options_.max_operations)
         curve_.status = SweepStatus::point_limit;
       else if (!goes_on(options_.observer,
                         {"exact curve", static_cast<int>(curve_.points.size()), points_.back().value}))
@@ -155,6 +156,7 @@ class Tracer {
     added.slope = point.slope() / model_.speed(point);
     added.multipliers = multipliers_of(point);
     added.unstable = detail::unstable_of(added.multipliers);
+    operations_ += exact_point_operations(point.motion, model_.family().dynamics());
     points_.push_back(std::move(point));
     if (points_.size() > most) points_.pop_front();
   }
@@ -219,7 +221,7 @@ class Tracer {
   const PathModel& model_;
   const ExactCurveOptions& options_;
   ExactCurve& curve_;
-  double step_, growth_ = 1.5, arc_ = 0.0;
+  double step_, growth_ = 1.5, arc_ = 0.0, operations_ = 0.0;
   std::deque<PathPoint> points_;
 };
 
@@ -238,6 +240,14 @@ void ExactCurveOptions::validate() const {
   detail::require_positive("exact_curve", "largest_step", largest_step);
   detail::require_positive("exact_curve", "smallest_step", smallest_step);
   detail::require_at_least("exact_curve", "max_points", max_points, 1);
+  if (!(max_operations > 0.0))
+    detail::reject("exact_curve", "max_operations", max_operations, "a number above 0");
+}
+
+double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& dynamics) {
+  constexpr double of_motion = 8.0, of_multipliers = 25.0;
+  const double n = motion.unknowns, s = double(dynamics.poles().size());
+  return of_motion * n * n * (n / 1.5 + 4.0 * s) + of_multipliers * s * s * s + 1.0;
 }
 
 ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,

@@ -10,10 +10,17 @@ CurveDistance::CurveDistance(const FrequencySweep& curve, double scale)
   for (const SweepPoint& point : curve.points) largest_ = std::max(largest_, point.max_abs_displacement);
 }
 
+double CurveDistance::length(double change, double moved) const {
+  return std::hypot(change / scale_, largest_ > 0.0 ? moved / largest_ : 0.0);
+}
+
 double CurveDistance::between(const SweepPoint& a, const SpecialPoint& b) const {
-  const double moved = a.max_abs_displacement - b.max_abs_displacement;
-  return std::hypot((parameter_of(a, parameter_) - parameter_of(b, parameter_)) / scale_,
-                    largest_ > 0.0 ? moved / largest_ : 0.0);
+  return length(parameter_of(a, parameter_) - parameter_of(b, parameter_),
+                a.max_abs_displacement - b.max_abs_displacement);
+}
+
+double CurveDistance::between(const SpecialPoint& a, double value, double max_abs_displacement) const {
+  return length(parameter_of(a, parameter_) - value, a.max_abs_displacement - max_abs_displacement);
 }
 
 namespace {

@@ -5,188 +5,25 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
-#include "problem/curve_stretches.hpp"
+#include "problem/structure_curve.hpp"
 #include "problem/thread_problems.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using detail::Stretch;
-
-const Eigen::VectorXd& comparison_times() {
-  static const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(64, 0.0, 1.0 - 1.0 / 64.0);
-  return times;
-}
-
-double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).norm() / std::max(b.norm(), 1e-300);
-}
-
-// The same point, followed from elsewhere.
-bool is_same(const ExactEvent& a, const ExactEvent& b) {
-  constexpr double of_value = 1e-7, of_motion = 1e-2;
-  return a.type == b.type && std::abs(a.value - b.value) <= of_value * std::abs(b.value) &&
-         relative_difference(a.motion.displacement(comparison_times()),
-                             b.motion.displacement(comparison_times())) <= of_motion;
-}
-
-// Whether the curve has a motion at this value between two of its points, to first order.
-bool passes(const ExactCurve& curve, double value, const PhaseMotion& motion) {
-  constexpr double near = 0.05;
-  const Eigen::MatrixXd there = motion.displacement(comparison_times());
-  for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
-    const ExactPoint &a = curve.points[i], &b = curve.points[i + 1];
-    if ((a.value - value) * (b.value - value) > 0.0 || a.value == b.value) continue;
-    const double share = (value - a.value) / (b.value - a.value);
-    const Eigen::MatrixXd between = (1.0 - share) * a.motion.displacement(comparison_times()) +
-                                    share * b.motion.displacement(comparison_times());
-    if (relative_difference(between, there) < near) return true;
-  }
-  return false;
-}
-
-bool has_multipliers(const ExactCurve& curve) {
-  return std::all_of(curve.points.begin(), curve.points.end(),
-                     [](const ExactPoint& point) { return point.unstable >= 0; });
-}
-
-bool left_its_interval(const ExactCurve& curve) {
-  return curve.status == SweepStatus::reached_end || curve.status == SweepStatus::returned;
-}
-
-// A motion of the structure from which a stretch is followed.
-struct StretchStart {
-  double value = 0.0, direction = 1.0;
-  PhaseMotion motion;  // not converged where none was found
-
-  bool exists() const { return motion.converged(); }
-};
-
-// What was found along one stretch.
-struct OnStretch {
-  std::vector<ExactEvent> events;
-  bool complete = false, with_multipliers = false, cancelled = false;
-
-  void add(std::vector<ExactEvent> more, bool from_behind) {
-    std::erase_if(more, [&](const ExactEvent& one) {
-      return std::any_of(events.begin(), events.end(),
-                         [&](const auto& other) { return is_same(one, other); });
-    });
-    if (from_behind) std::reverse(more.begin(), more.end());
-    std::move(more.begin(), more.end(), std::back_inserter(events));
-  }
-};
-
-// Follows the curve of the structure along stretches of that of a balance.
-class StretchFollower {
- public:
-  StretchFollower(ContactProblem& problem, const FrequencySweep& curve, const StructurePointsOptions& options,
-                  std::size_t stretches, Observer observer)
-      : problem_(problem),
-        curve_(curve),
-        options_(options),
-        observer_(std::move(observer)),
-        curves_(2.0 * double(stretches)) {}
-
-  OnStretch along(const Stretch& stretch) const {
-    OnStretch result;
-    const StretchStart start = start_of(stretch, true);
-    const ExactCurve forwards = followed(stretch, start);
-    result.add(forwards.events, false);
-    result.cancelled = forwards.status == SweepStatus::cancelled;
-    result.with_multipliers = !forwards.points.empty() && has_multipliers(forwards);
-    if (result.cancelled) return result;
-    const StretchStart end = start_of(stretch, false);
-    if (end.exists() && passes(forwards, end.value, end.motion)) {
-      result.complete = true;
-      return result;
-    }
-    const ExactCurve backwards = followed(stretch, end);
-    result.add(backwards.events, true);
-    result.cancelled = backwards.status == SweepStatus::cancelled;
-    result.with_multipliers = result.with_multipliers && has_multipliers(backwards);
-    result.complete =
-        left_its_interval(backwards) &&
-        (left_its_interval(forwards) || (start.exists() && passes(backwards, start.value, start.motion)));
-    return result;
-  }
-
- private:
-  double scale() const { return std::abs(options_.to - options_.from) / 20.0; }
-
-  // The motion near the first point of the curve from an end of the stretch outwards that has one: near a
-  // fold several points lie beyond that of the structure.
-  StretchStart start_of(const Stretch& stretch, bool forwards) const {
-    constexpr double clear = 0.02;  // of a step beside zigzags of the samples
-    CurvePhasesOptions near;
-    near.phases = options_.phases;
-    near.max_distance = options_.max_distance;
-    StretchStart start;
-    for (const std::size_t steps : {0, 1, 3, 6}) {
-      if (forwards ? stretch.first < steps : stretch.last + steps >= curve_.points.size()) break;
-      const std::size_t at = forwards ? stretch.first - steps : stretch.last + steps;
-      start.value = parameter_of(curve_.points[at], curve_.parameter);
-      start.direction = detail::direction_from(curve_, at, forwards, clear * scale());
-      const PeriodicResponse response = problem_.response(curve_, start.value, curve_.points[at].unknown);
-      start.motion = near_phases(problem_, response, near).value().motion;
-      if (start.motion.status != PhasesStatus::no_motion_near) break;  // elsewhere it takes as much
-    }
-    return start;
-  }
-
-  // So many motions of this size as the work allows.
-  int most_points(const PhaseMotion& motion) const {
-    constexpr double of_motion = 8.0, of_multipliers = 25.0;
-    const double n = motion.unknowns, s = double(problem_.dynamics()->poles().size()),
-                 one = of_motion * n * n * (n / 1.5 + 4.0 * s) + of_multipliers * s * s * s + 1.0;
-    return static_cast<int>(std::min(options_.max_points / curves_, options_.max_operations / curves_ / one));
-  }
-
-  ExactCurve followed(const Stretch& stretch, const StretchStart& start) const {
-    constexpr int fewest = 8;
-    if (!start.exists() || most_points(start.motion) < fewest) return {};
-    ExactCurveOptions options = interval(stretch, start);
-    if (options.to == start.value) return {};
-    options.parameter_scale = scale();
-    options.first_step = options_.first_step;
-    options.largest_step = options_.largest_step;
-    options.max_points = most_points(start.motion);
-    options.phases = options_.phases;
-    options.observer = observer_;
-    const PhaseFamily family(problem_.condensed(), problem_.laws(), *problem_.dynamics(), curve_.parameter);
-    return exact_curve(family, start.motion, options);
-  }
-
-  // A little wider than the stretch, since the structure's folds lie beside those of the balance.
-  ExactCurveOptions interval(const Stretch& stretch, const StretchStart& start) const {
-    const auto [low, high] = detail::values_on(curve_, stretch.first, stretch.last);
-    const double margin = std::max(high - low, scale());
-    const double lowest = std::max(std::min(options_.from, options_.to), std::min(low, start.value) - margin),
-                 highest =
-                     std::min(std::max(options_.from, options_.to), std::max(high, start.value) + margin);
-    ExactCurveOptions options;
-    options.from = start.value;
-    options.to = start.direction > 0.0 ? highest : lowest;
-    options.behind = start.direction > 0.0 ? lowest : highest;
-    return options;
-  }
-
-  ContactProblem& problem_;
-  const FrequencySweep& curve_;
-  const StructurePointsOptions& options_;
-  Observer observer_;
-  double curves_;
-};
+using detail::OnStretch, detail::Stretch, detail::StructureCurve;
 
 // The events of all stretches, each once, and beside them the special points of the balance.
 class Assembly {
  public:
-  Assembly(const std::vector<SpecialPoint>& points, SweepParameter parameter)
-      : points_(points), parameter_(parameter) {
+  /// Points farther apart than `farthest` are not the same.
+  Assembly(const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance, double farthest)
+      : points_(points), distance_(distance), farthest_(farthest) {
     result_.of_balance.resize(points.size());
   }
 
@@ -223,12 +60,14 @@ class Assembly {
 
  private:
   double distance(std::size_t point, std::size_t event) const {
-    return std::abs(parameter_of(points_[point], parameter_) - result_.events[event].value);
+    const ExactEvent& there = result_.events[event];
+    return distance_.between(points_[point], there.value,
+                             there.motion.displacement(detail::comparison_times()).cwiseAbs().maxCoeff());
   }
 
   std::size_t number_of(ExactEvent event) {
     const auto same = std::find_if(result_.events.begin(), result_.events.end(),
-                                   [&](const ExactEvent& other) { return is_same(event, other); });
+                                   [&](const ExactEvent& other) { return detail::is_same(event, other); });
     const auto number = static_cast<std::size_t>(same - result_.events.begin());
     if (same == result_.events.end()) result_.events.push_back(std::move(event));
     return number;
@@ -237,7 +76,7 @@ class Assembly {
   NearStructurePoint near(std::size_t point, const std::vector<std::size_t>& events, bool known) const {
     const std::size_t* best = nullptr;
     for (const std::size_t& event : events)
-      if (result_.events[event].type == points_[point].type &&
+      if (result_.events[event].type == points_[point].type && distance(point, event) <= farthest_ &&
           (best == nullptr || distance(point, event) < distance(point, *best)))
         best = &event;
     if (best != nullptr) return {StructurePointStatus::repeated, *best};
@@ -245,38 +84,88 @@ class Assembly {
   }
 
   const std::vector<SpecialPoint>& points_;
-  SweepParameter parameter_;
+  const detail::CurveDistance& distance_;
+  double farthest_;
   StructurePoints result_;
+};
+
+// Tells of the work done, from any thread; remembers that the observer returned false.
+class Teller {
+ public:
+  Teller(const Observer& observer, std::string_view unit) : observer_(observer), unit_(unit) {}
+
+  bool tell(double value, int done, double share) {
+    if (!cancelled_ && !goes_on(observer_, {"special points", done, value, unit_, share})) cancelled_ = true;
+    return !cancelled_;
+  }
+  bool cancelled() const { return cancelled_; }
+
+ private:
+  const Observer& observer_;
+  std::string_view unit_;
+  std::atomic<bool> cancelled_{false};
 };
 
 // One for each stretch; not all of them where the observer returns false.
 std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vector<ContactProblem>& problems,
-                                 const FrequencySweep& curve, const StructurePointsOptions& options) {
+                                 const FrequencySweep& curve, const StructurePointsOptions& options,
+                                 Teller& teller) {
   std::vector<OnStretch> found(stretches.size());
-  const std::string_view unit = unit_of(problems.front().condensed(), curve.parameter);
   std::atomic<int> done{0};
-  std::atomic<bool> cancelled{false};
+  const double curves = 2.0 * double(stretches.size()), left = 0.75;  // of the operations
+  const detail::CurveEffort effort{options.max_points / curves, left * options.max_operations / curves};
   const auto tell = [&](double value) {
     const int count = done;
-    if (!cancelled && !goes_on(options.observer, {"special points", count, value, unit,
-                                                  double(count) / double(stretches.size())}))
-      cancelled = true;
-    return !cancelled;
+    return teller.tell(value, count, double(count) / double(stretches.size()));
   };
   const auto work = [&](int worker, Eigen::Index index) {
     const auto i = static_cast<std::size_t>(index);
-    const Observer observer = [&tell, &cancelled, worker](const Progress& progress) {
-      return worker == 0 ? tell(progress.value) : !cancelled;
+    const Observer observer = [&tell, &teller, worker](const Progress& progress) {
+      return worker == 0 ? tell(progress.value) : !teller.cancelled();
     };
     ContactProblem& problem = problems[static_cast<std::size_t>(worker)];
-    found[i].cancelled = cancelled;
-    if (cancelled) return;
-    found[i] = StretchFollower(problem, curve, options, stretches.size(), observer).along(stretches[i]);
+    found[i].cancelled = teller.cancelled();
+    if (found[i].cancelled) return;
+    found[i] = StructureCurve(problem, curve, options, effort, observer).along(stretches[i]);
     ++done;
   };
   parallel_for(static_cast<int>(problems.size()), static_cast<Eigen::Index>(stretches.size()), work,
                [&] { tell(missing); });
   return found;
+}
+
+// All points of the curve, and all its special points.
+Stretch all_of(const FrequencySweep& curve, const std::vector<SpecialPoint>& points) {
+  Stretch all{0, curve.points.size() - 1, std::vector<std::size_t>(points.size())};
+  std::iota(all.points.begin(), all.points.end(), std::size_t{0});
+  return all;
+}
+
+// Along the whole curve at once.
+OnStretch along_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
+                      const StructurePointsOptions& options, Teller& teller) {
+  constexpr double share = 0.25;  // of the operations, for both curves
+  const double low = std::min(options.from, options.to), length = std::abs(options.to - options.from);
+  const Observer observer = [&](const Progress& progress) {
+    return teller.tell(progress.value, 0, std::clamp((progress.value - low) / length, 0.0, 1.0));
+  };
+  const detail::CurveEffort effort{double(options.max_points), 0.5 * share * options.max_operations};
+  return StructureCurve(problem, curve, options, effort, observer).along_whole(all);
+}
+
+// The folds that the balance's curve passes by.
+std::vector<std::size_t> passed_by(ContactProblem& problem, const FrequencySweep& curve,
+                                   const StructurePoints& found, double scale, double reach) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < found.events.size(); ++i) {
+    const bool of_balance = std::any_of(
+        found.of_balance.begin(), found.of_balance.end(),
+        [i](const auto& near) { return near.status == StructurePointStatus::found && near.event == i; });
+    if (found.events[i].type == SpecialPointType::fold && !of_balance &&
+        !detail::lies_on(problem, curve, found.events[i], scale, reach))
+      numbers.push_back(i);
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -306,23 +195,34 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
                                  const std::vector<SpecialPoint>& points,
                                  const StructurePointsOptions& options) {
   options.validate();
-  Assembly assembly(points, curve.parameter);
-  if (points.empty()) return assembly.finished();
-  const detail::CurveDistance distance(curve, std::abs(options.to - options.from) / 20.0);
+  const double scale = std::abs(options.to - options.from) / 20.0;
+  const detail::CurveDistance distance(curve, scale);
   const std::vector<Stretch> stretches =
       detail::stretches_about(curve, points, distance, options.reach, options.max_stretches);
   constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
-  std::vector<ContactProblem> problems =
-      detail::thread_problems(make, places_worth * stretches.size(), options.threads);
-  if (problems.front().dynamics() == nullptr) return assembly.finished();
-  std::vector<OnStretch> found = along_all(stretches, problems, curve, options);
-  bool cancelled = false;
-  for (std::size_t i = 0; i < stretches.size(); ++i) {
-    cancelled = cancelled || found[i].cancelled;
-    assembly.add(stretches[i], std::move(found[i]));
+  std::vector<ContactProblem> problems = detail::thread_problems(
+      make, places_worth * std::max<std::size_t>(1, stretches.size()), options.threads);
+  ContactProblem& problem = problems.front();
+  Assembly assembly(points, distance, std::numeric_limits<double>::infinity());
+  if (curve.points.empty() || problem.dynamics() == nullptr) return assembly.finished();
+  Teller teller(options.observer, unit_of(problem.condensed(), curve.parameter));
+  const Stretch all = all_of(curve, points);
+  OnStretch whole = along_whole(problem, curve, all, options, teller);
+  StructurePoints result;
+  if (whole.complete) {
+    const bool apart = whole.apart;
+    Assembly of_whole(points, distance, options.reach);
+    of_whole.add(all, std::move(whole));
+    result = of_whole.finished();
+    result.whole = true;
+    result.apart = apart;
+    result.passed_by = passed_by(problem, curve, result, scale, options.reach);
+  } else if (!points.empty()) {
+    std::vector<OnStretch> found = along_all(stretches, problems, curve, options, teller);
+    for (std::size_t i = 0; i < stretches.size(); ++i) assembly.add(stretches[i], std::move(found[i]));
+    result = assembly.finished();
   }
-  StructurePoints result = assembly.finished();
-  result.cancelled = cancelled;
+  result.cancelled = teller.cancelled();
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
+#include "wavebalance/solvers/balance/resolvent_law.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"

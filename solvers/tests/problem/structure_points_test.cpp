@@ -69,12 +69,56 @@ TEST(StructurePoints, AreThoseOfTheExactCurveWhateverTheFunctions) {
   }
 }
 
+TEST(StructurePoints, OfAWholeCurveAreKnownWithoutOneOfTheBalance) {
+  const Swept swept;
+  const StructurePoints found = swept.points(swept.curve(), {});
+  expect_events(found, swept.exact());
+  EXPECT_TRUE(found.whole);
+  EXPECT_FALSE(found.apart);
+  EXPECT_TRUE(found.passed_by.empty());
+}
+
+// Both folds lie at 0.1957 Hz and 0.1699 Hz. A curve that jumps from the upper branch to that without contact
+// does not come near the first.
+TEST(StructurePoints, SayWhichFoldsACurveThatJumpsPassesBy) {
+  const Swept swept;
+  FrequencySweep curve = swept.curve();
+  bool high = false;
+  std::erase_if(curve.points, [&](const SweepPoint& point) {
+    high = high || point.max_displacement > 2.0;
+    return high && (point.frequency < 0.2 || point.max_displacement > 1.0);
+  });
+  const StructurePoints found = swept.points(curve, {});
+  EXPECT_TRUE(found.whole);
+  ASSERT_FALSE(found.passed_by.empty());
+  EXPECT_NEAR(found.events[found.passed_by.front()].value, 0.195691, 1e-6);
+}
+
+// Within 0.1 to 0.18 Hz the branch without contact is not connected with that through the first point.
+TEST(StructurePoints, SayThatTheEndsOfACurveLieApart) {
+  Swept below{31, 256, 0.1, 0.18};
+  const FrequencySweep from_above = Swept{31, 256, 0.35, 0.18}.curve();
+  FrequencySweep curve = below.curve();
+  ASSERT_GT(curve.points.back().max_displacement, 1.1);
+  ASSERT_LT(from_above.points.back().max_displacement, 1.0);
+  EXPECT_FALSE(below.points(curve, {}).apart);
+  curve.points.back() = from_above.points.back();
+  const StructurePoints found = below.points(curve, {});
+  EXPECT_TRUE(found.whole);
+  EXPECT_TRUE(found.apart);
+}
+
 TEST(StructurePoints, AreTheSameOnAnyNumberOfThreads) {
   const Swept swept;
   const FrequencySweep curve = swept.curve();
   const CurveStability stability = swept.problem().stability(curve);
-  const StructurePoints one = swept.points(curve, stability, {.reach = 0.01, .threads = 1}),
-                        three = swept.points(curve, stability, {.reach = 0.01, .threads = 3});
+  // Too little work for the whole curve, and enough for stretches.
+  StructurePointsOptions options{.reach = 0.01, .max_operations = 5e6};
+  const StructurePoints one = swept.points(curve, stability, options);
+  options.threads = 3;
+  const StructurePoints three = swept.points(curve, stability, options);
+  EXPECT_FALSE(one.whole);
+  EXPECT_FALSE(one.events.empty());
   ASSERT_EQ(one.events.size(), three.events.size());
   for (std::size_t i = 0; i < one.events.size(); ++i) EXPECT_EQ(one.events[i].value, three.events[i].value);
 }
@@ -102,7 +146,8 @@ TEST(StructurePoints, BeyondTheLimitsAreNotSought) {
   const Swept swept;
   const FrequencySweep curve = swept.curve();
   const CurveStability stability = swept.problem().stability(curve);
-  const StructurePoints one = swept.points(curve, stability, {.reach = 0.001, .max_stretches = 1});
+  const StructurePoints one =
+      swept.points(curve, stability, {.reach = 0.001, .max_stretches = 1, .max_operations = 5e6});
   int sought = 0, left = 0;
   for (const NearStructurePoint& near : one.of_balance) ++(near.status == Status::not_sought ? left : sought);
   EXPECT_GT(sought, 0);

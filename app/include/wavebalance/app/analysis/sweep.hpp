@@ -62,7 +62,7 @@ struct Sweep {
   /// Of scenes with friction: of each point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
-  /// Set by add_phases() with analysis.stability, where the curve has special points: those of the structure.
+  /// Set by add_phases() with analysis.stability: the special points of the structure.
   std::optional<solvers::StructurePoints> structure_points = {};
   bool phases_cancelled = false;  ///< the observer stopped add_phases()
   int periods = 1;                ///< of the load, over which its motions are solved for
@@ -87,7 +87,8 @@ struct Sweep {
     return (curve.status == solvers::SweepStatus::reached_end || curve.closed_at_start || returned) &&
            curve.rounding_error <= largest_rounding_error && !misses_part();
   }
-  /// An isola ends on a curve that was known, so that a step on one of the two was too long.
+  /// A step was too long: the curve passes by folds of the structure or has gone over to another curve of it,
+  /// or one of the isolas ends on a curve that was known.
   bool misses_part() const;
   /// The observer stopped the curve, which holds the points so far.
   bool interrupted() const { return curve.status == solvers::SweepStatus::cancelled; }
@@ -134,9 +135,9 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
 /// special points at most most_special_points_with_phases of each curve are then taken, those where
 /// multipliers pass the unit circle before grazings. With analysis.stability the special points of the
-/// structure are solved for near those of the main curve. Nothing where neither analysis.stability nor
-/// analysis.phases is true or the structure's modes cannot be computed. An observer that stops it leaves
-/// those found so far.
+/// structure along the main curve are solved for, as structure_points() does. Nothing where neither
+/// analysis.stability nor analysis.phases is true or the structure's modes cannot be computed. An observer
+/// that stops it leaves those found so far.
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,

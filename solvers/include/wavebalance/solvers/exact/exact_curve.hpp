@@ -1,6 +1,7 @@
 #pragma once
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "wavebalance/solvers/exact/phase_family.hpp"
@@ -12,14 +13,17 @@ namespace wavebalance::solvers {
 /// parameter_scale, and a change of the displacements by as much as the first motion vibrates (rms), have
 /// length 1 each.
 struct ExactCurveOptions {
-  double from = 0.0;             ///< Hz or load scale, where the first motion is
-  double to = 0.0;               ///< either side of `from`
+  double from = 0.0;    ///< Hz or load scale, where the first motion is
+  double to = 0.0;      ///< either side of `from`
   double behind = 0.0;  ///< beyond this value on the other side a curve that turns ends, too; 0: at `from`
   double parameter_scale = 0.0;  ///< Hz or load scale; 0: a 20th of the interval
   double first_step = 0.02;      ///< arc length
   double largest_step = 0.2;     ///< arc length
   double smallest_step = 1e-7;   ///< arc length; the curve is lost below
   int max_points = 5000;
+  /// exact_point_operations() of all points together, after which the curve has the status `point_limit`,
+  /// too.
+  double max_operations = std::numeric_limits<double>::infinity();
   bool stability = true;             ///< multipliers at each point, and the points where they pass the circle
   ContactPhasesOptions phases = {};  ///< tolerance, nodes and panels of each motion
   Observer observer = {};            ///< called after each point with its value
@@ -52,6 +56,10 @@ struct ExactCurve {
   std::vector<ExactPoint> points;
   std::vector<ExactEvent> events;
 };
+
+/// About so many floating-point operations a point of a curve takes that is like this motion, with its
+/// multipliers.
+double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& dynamics);
 
 /// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
 /// that has converged at options.from until it leaves the interval, of which options.behind may be the end on

@@ -31,7 +31,7 @@ struct StructurePointsOptions {
   /// the parameter by a 20th of the interval, and of the displacement by the largest one, have length 1 each.
   double reach = 0.25;
   std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
-  int max_points = 2000;           ///< motions on all curves together
+  int max_points = 2000;           ///< motions on the whole curve; and on all stretches together
   double max_operations = 1e12;    ///< floating-point operations of all curves together
   double max_distance = 0.1;       ///< as of CurvePhasesOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
@@ -49,19 +49,30 @@ struct StructurePoints {
   /// curve with which the stretch begins in which it was found.
   std::vector<ExactEvent> events;
   std::vector<NearStructurePoint> of_balance;  ///< one for each special point of the balance
-  bool cancelled = false;                      ///< the observer returned false
+  /// The curve of the structure through the motion near the first point of the balance's was followed until
+  /// it left the interval: `events` are all that it has.
+  bool whole = false;
+  /// The motion near the last point of the balance's curve lies on another curve of the structure, which was
+  /// followed out of the interval, too: the balance's curve has gone over from one to the other.
+  bool apart = false;
+  /// The numbers of the folds of a whole curve that lie farther than StructurePointsOptions::reach from every
+  /// point of the balance's, which passes them by.
+  std::vector<std::size_t> passed_by;
+  bool cancelled = false;  ///< the observer returned false
 };
 
-/// The special points that the structure has near those of a balance's curve: exact_curve() along the
-/// stretches of the curve about these, from motions by phases of contact near their first points and, where
-/// that does not come past their last ones, back from these. Special points that lie near each other share a
-/// stretch, so that one of the structure stands once where samples make many of it, and one that the balance
-/// does not have is found in a stretch, too. Beside all stretches none is sought.
+/// The special points of the structure along a balance's curve. exact_curve() is followed from a motion by
+/// phases of contact near the first point of the balance's curve, and where it does not come to its last
+/// point, back from that. Where a quarter of the operations is not enough for it, or it is lost, it is
+/// followed along stretches about the special points of the balance alone, likewise from both ends. Points
+/// that lie near each other share a stretch, so that one of the structure stands once where samples make many
+/// of it, and one that the balance does not have is found in a stretch, too; beside all stretches none is
+/// sought.
 ///
 /// `make` makes the problem on which the curve was traced with keep_unknowns; `points` are of its
 /// CurveStability. Neither the order of the stretches nor the threads change a digit. Without events where
 /// the structure has no modes to compute. Throws std::invalid_argument for options out of range, and as
-/// ContactProblem::response() does. One exact_curve() or two per stretch.
+/// ContactProblem::response() does. One exact_curve() or two, and as many per stretch.
 StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep& curve,
                                  const std::vector<SpecialPoint>& points,
                                  const StructurePointsOptions& options);
