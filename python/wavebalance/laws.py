@@ -7,10 +7,10 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._functions import difference, integral, takes_velocity, velocity_law
 
 __all__ = [
     "Bilinear",
@@ -318,15 +318,15 @@ class Function(Law):
         breaks = [float(one) for one in kinks]
         named = {"damping": damping, "gap": gap, "unilateral": unilateral, "monotone": monotone}
         self._arguments = (force, tangent, potential, {**named, "kinks": breaks, "length": length, "speed": speed})
-        if _takes_velocity(force):
+        if takes_velocity(force):
             if monotone:
                 raise ValueError("monotone is True; a force of the velocity, too, is solved for its displacement: expected False")
-            law = _velocity_law(force, tangent, potential, damping, gap, unilateral, breaks, length, speed)
+            law = velocity_law(force, tangent, potential, damping, gap, unilateral, breaks, length, speed)
         elif damping is not None:
             raise ValueError("damping is given, but force takes a displacement alone; expected force(displacement, velocity)")
         else:
-            slope = tangent if tangent is not None else _difference(force, length)
-            energy = potential if potential is not None else _integral(force, gap, breaks)
+            slope = tangent if tangent is not None else difference(force, length)
+            energy = potential if potential is not None else integral(force, gap, breaks)
             law = _core.function_law(force, slope, energy, gap, unilateral, monotone, breaks)
         super().__init__(law, {"force": force, "gap": gap})
 
@@ -339,60 +339,6 @@ class Function(Law):
 
 def _restored_function(force: Any, tangent: Any, potential: Any, named: dict[str, Any]) -> Function:
     return Function(force, tangent, potential, **named)
-
-
-def _takes_velocity(force: Callable[..., float]) -> bool:
-    """Whether a force has a second argument without a default."""
-    try:
-        parameters = inspect.signature(force).parameters.values()
-    except (TypeError, ValueError):
-        return False  # of compiled functions nothing is known
-    kinds = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
-    return sum(one.kind in kinds and one.default is inspect.Parameter.empty for one in parameters) == 2
-
-
-def _velocity_law(
-    force: Callable[[float, float], float],
-    tangent: Callable[[float, float], float] | None,
-    potential: Callable[[float], float] | None,
-    damping: Callable[[float, float], float] | None,
-    gap: float,
-    unilateral: bool,
-    kinks: list[float],
-    length: float,
-    speed: float,
-) -> _core.Law:
-    def by_displacement(displacement: float, velocity: float) -> float:
-        return _difference(lambda one: force(one, velocity), length)(displacement)
-
-    def by_velocity(displacement: float, velocity: float) -> float:
-        return _difference(lambda one: force(displacement, one), speed)(velocity)
-
-    energy = potential if potential is not None else _integral(lambda one: force(one, 0.0), gap, kinks)
-    return _core.velocity_law(force, tangent or by_displacement, damping or by_velocity, energy, gap, unilateral, kinks)
-
-
-def _difference(force: Callable[[float], float], length: float) -> Callable[[float], float]:
-    def tangent(displacement: float) -> float:
-        step = 6e-6 * max(abs(displacement), length)
-        return (force(displacement + step) - force(displacement - step)) / (2.0 * step)
-
-    return tangent
-
-
-def _integral(force: Callable[[float], float], begin: float, kinks: Sequence[float]) -> Callable[[float], float]:
-    nodes, weights = np.polynomial.legendre.leggauss(16)  # type: ignore[no-untyped-call]
-
-    def potential(displacement: float) -> float:
-        low, high = min(begin, displacement), max(begin, displacement)
-        ends = [low, *(one for one in kinks if low < one < high), high]
-        total = 0.0
-        for a, b in zip(ends, ends[1:]):
-            half = 0.5 * (b - a)
-            total += half * sum(w * force(0.5 * (a + b) + half * x) for x, w in zip(nodes, weights))
-        return total if displacement >= begin else -total
-
-    return potential
 
 
 LawLike = Union[_core.Law, Callable[..., float], Sequence[Union[_core.Law, Callable[..., float]]]]
