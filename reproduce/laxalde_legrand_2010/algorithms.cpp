@@ -83,10 +83,13 @@ Table printed_branches(const std::vector<Branch>& branches) {
       {"Equations", "Algorithm", "N", "Reached energy", "Ended", "Newton steps", "ω over the linear one"});
   for (const Branch& one : branches) {
     const auto& last = one.points.back();
-    table.append_row({one.formulation == ModeFormulation::published ? "as printed" : "corrected",
-                      name_of(one.eigenvalue), std::int64_t{one.harmonics}, number(last.prescribed_ratio, 4),
-                      std::string(to_string(last.status)), std::int64_t{one.newton_steps()},
-                      last.accepted() ? number(last.omega / one.linear_omega, 6) : std::string("–")});
+    table.append_row(
+        {one.formulation == ModeFormulation::published ? "as printed" : "corrected", name_of(one.eigenvalue),
+         std::int64_t{one.harmonics}, number(last.prescribed_ratio, 4),
+         (last.status == LagrangianStatus::internal_resonance ? "internal resonance"
+                                                              : std::string(to_string(last.status))),
+         std::int64_t{one.newton_steps()},
+         last.accepted() ? number(last.omega / one.linear_omega, 6) : std::string("–")});
   }
   return table;
 }
