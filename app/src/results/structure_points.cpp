@@ -103,11 +103,14 @@ void append_structure_points(Record& record, const Sweep& sweep) {
                      none = count_of(points, StructurePointStatus::none),
                      left = count_of(points, StructurePointStatus::not_known) +
                             count_of(points, StructurePointStatus::not_sought);
-  if (repeated + none > 0)
+  std::vector<std::string> errors;
+  if (repeated > 0) errors.push_back(fmt::format("{} repeat one of the structure", repeated));
+  if (none > 0) errors.push_back(fmt::format("{} have none of their type near", none));
+  if (!errors.empty())
     record.warnings.push_back(fmt::format(
-        "Of {} special points of the curve {} are an error of the functions and points: {} repeat one of the structure and "
-        "{} have none of their type near. structure_special_points lists the {} of the structure.",
-        points.of_balance.size(), repeated + none, repeated, none, points.events.size()));
+        "Of {} special points of the curve {} are an error of the functions and points: {}. structure_special_points lists "
+        "the {} of the structure.",
+        points.of_balance.size(), repeated + none, fmt::join(errors, " and "), points.events.size()));
   if (left == 0) return;
   record.warnings.push_back(
       fmt::format("For {} of {} special points of the curve it is not known whether the structure has them: "
