@@ -32,6 +32,7 @@ std::string valid_value(Draw& draw, const SceneKey& key) {
   if (key.type == SceneKey::Type::path) return "\"no_such_file.mtx\"";
   if (key.form == SceneKey::Form::list) return valid_list(draw, key);
   if (key.type != SceneKey::Type::text) return valid_number(draw, key);
+  if (key.choices.empty()) return "\"contact 1\"";  // the only free text that is no path: an output
   // Daubechies filters take the loader milliseconds.
   const bool basis = key.section == "time" && key.choices.size() > 3;
   const std::size_t choices = basis && draw.chance(0.9) ? 3 : key.choices.size();

@@ -87,7 +87,9 @@ TEST(CurveMotions, OverTheAmplitudeAreThoseOfThePeakTheFoldsAndBothEnds) {
   const Table folds = motions.where("at", "fold");
   const auto turns = value_of<std::vector<double>>(record.summary, "turning_points_N");
   ASSERT_EQ(folds.rows(), turns.size());
-  for (std::size_t i = 0; i < turns.size(); ++i) EXPECT_NEAR(folds.numbers("amplitude_N")[i], turns[i], 1e-6);
+  // Motions are those of the balance, turning points those of the structure.
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    EXPECT_NEAR(folds.numbers("amplitude_N")[i], turns[i], 1e-4 * turns[i]);
   for (const double residual : motions.numbers("residual")) EXPECT_LT(residual, 1e-9);
   EXPECT_TRUE(record.warnings.empty());
 }

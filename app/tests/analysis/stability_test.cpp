@@ -82,9 +82,12 @@ TEST(RecordOfASweep, ListsItsSpecialPointsAndTheStabilityOfEachPoint) {
   const Table special = value_of<Table>(record.summary, "special_points");
   EXPECT_EQ(special.texts("type"), (std::vector<std::string>{"grazing", "fold", "fold", "grazing"}));
   const auto turns = value_of<std::vector<double>>(record.summary, "turning_points_Hz");
+  EXPECT_EQ(value_of<std::string>(record.summary, "structure_curve"), "whole");
+  const Table folds = value_of<Table>(record.summary, "structure_special_points").where("type", "fold");
+  EXPECT_EQ(turns, folds.numbers("frequency_Hz"));
   ASSERT_EQ(turns.size(), 2u);
-  EXPECT_EQ(turns[0], special.numbers("frequency_Hz")[1]);
-  EXPECT_EQ(turns[1], special.numbers("frequency_Hz")[2]);
+  EXPECT_NEAR(turns[0], special.numbers("frequency_Hz")[1], 1e-5 * turns[0]);
+  EXPECT_NEAR(turns[1], special.numbers("frequency_Hz")[2], 1e-5 * turns[1]);
   const auto unstable = record.sweep.numbers("unstable"), contacts = record.sweep.numbers("contacts");
   const auto frequency = record.sweep.numbers("frequency_Hz");
   for (std::size_t i = 0; i < unstable.size(); ++i) {
