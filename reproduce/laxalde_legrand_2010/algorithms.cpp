@@ -204,7 +204,10 @@ void claim_small_steps(report::Artefact& artefact, const app::ModeStudy& study) 
        .measured = readings.front().measured,
        .verdict = report::over(readings),
        .readings = readings,
-       .earlier = report::not_judged},
+       .earlier =
+           "It was not judged. Then the growth by the corrected equations decided, and after that 2 % of the range of the "
+           "frequencies. It differed by both. The growth by the printed ones, which the sentence is about, decides since "
+           "this was seen."},
       "The multiplier of the normalisation, which multiplies the mass matrix too, takes up what the frozen eigenvalue "
       "misses.");
 }

@@ -56,6 +56,7 @@ std::optional<ModalFlow> ModalFlow::make(const LinearStructure& structure, doubl
   flow.sigma_ = stiffness.cwiseMax(0.0).cwiseSqrt().cwiseMax(2.0 * std::numbers::pi * frequency);
   const Eigen::MatrixXd contact = structure.contact_directions * eigen->vectors;
   flow.contact_ = contact.leftCols(m);
+  flow.to_contact_ = flow.contact_ * flow.sigma_.cwiseInverse().asDiagonal();
   Eigen::MatrixXd damping = detail::transposed_product(flow.shapes_, structure.damping * flow.shapes_);
   if (structure.loss_factor > 0.0)
     damping.diagonal() += structure.loss_factor * stiffness.cwiseMax(0.0).cwiseSqrt();
@@ -89,7 +90,7 @@ void ModalFlow::set_step(double step) {
   exponential_ = exponential.topLeftCorner(states, states);
   end_ = exponential.block(0, states + contacts, states, contacts);
   begin_ = exponential.block(0, states, states, contacts) - end_;
-  contact_exponential_ = contact_ * sigma_.cwiseInverse().asDiagonal() * exponential_.topRows(m);
+  contact_exponential_ = to_contact_ * exponential_.topRows(m);
   step_compliance_ = static_compliance_;
   for (Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
   step_mobility_ = -contact_ * end_.bottomRows(m);
@@ -106,15 +107,19 @@ void ModalFlow::add_force(Eigen::VectorXd& state, const Eigen::VectorXd& force) 
 }
 
 Eigen::VectorXd ModalFlow::contact_displacement(const Eigen::VectorXd& state) const {
-  return contact_ * state.head(modes()).cwiseQuotient(sigma_);
+  return to_contact_ * state.head(modes());
 }
 
-Eigen::VectorXd ModalFlow::contact_displacement_after(const Eigen::VectorXd& state) const {
-  return contact_exponential_ * state;
+void ModalFlow::add_contact_displacement(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {
+  to.noalias() += to_contact_ * state.head(modes());
 }
 
-Eigen::VectorXd ModalFlow::contact_velocity(const Eigen::VectorXd& state) const {
-  return contact_ * state.tail(modes());
+void ModalFlow::add_contact_displacement_after(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {
+  to.noalias() += contact_exponential_ * state;
+}
+
+void ModalFlow::add_contact_velocity(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {
+  to.noalias() += contact_ * state.tail(modes());
 }
 
 Eigen::VectorXd ModalFlow::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {

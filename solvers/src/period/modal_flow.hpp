@@ -39,15 +39,16 @@ class ModalFlow {
 
   /// Displacements of the contacts (C, m) in a state, without the static deflection under present forces.
   Eigen::VectorXd contact_displacement(const Eigen::VectorXd& state) const;
+  void add_contact_displacement(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
   /// The same at the end of a step without contact forces. O(C m).
-  Eigen::VectorXd contact_displacement_after(const Eigen::VectorXd& state) const;
+  void add_contact_displacement_after(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
   /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
   /// omitted modes included. Symmetric, not negative.
   const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
   /// The part of the omitted modes alone.
   const Eigen::MatrixXd& static_compliance() const { return static_compliance_; }
   /// Velocities of the contacts (C, m/s) in a state.
-  Eigen::VectorXd contact_velocity(const Eigen::VectorXd& state) const;
+  void add_contact_velocity(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
   /// C x C, m/s/N: what forces at the end of a step take from the velocities there.
   const Eigen::MatrixXd& step_mobility() const { return step_mobility_; }
   /// State of a displacement (n, m) and a velocity (n, m/s). O(n m).
@@ -58,10 +59,10 @@ class ModalFlow {
   void set_step(double step);
 
   Eigen::MatrixXd shapes_, projection_;
-  Eigen::VectorXd sigma_;              // m, rad/s
-  Eigen::MatrixXd contact_;            // C x m
-  Eigen::MatrixXd rates_;              // 2m x 2m, of the first-order form, 1/s
-  Eigen::MatrixXd static_compliance_;  // C x C, m/N, of the omitted modes
+  Eigen::VectorXd sigma_;                 // m, rad/s
+  Eigen::MatrixXd contact_, to_contact_;  // C x m, of displacements and velocities q and of sigma q
+  Eigen::MatrixXd rates_;                 // 2m x 2m, of the first-order form, 1/s
+  Eigen::MatrixXd static_compliance_;     // C x C, m/N, of the omitted modes
   Eigen::MatrixXd exponential_, contact_exponential_, begin_, end_, step_compliance_, step_mobility_;
 };
 

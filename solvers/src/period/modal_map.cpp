@@ -75,13 +75,17 @@ Eigen::VectorXd ModalMap::free_velocity(Ticks time) const {
 }
 
 Eigen::VectorXd ModalMap::velocity(const PeriodState& state, Ticks time) const {
-  return free_velocity(time) + flows_.front().contact_velocity(state.motion);
+  Eigen::VectorXd velocity = free_velocity(time);
+  flows_.front().add_contact_velocity(state.motion, velocity);
+  return velocity;
 }
 
 Eigen::VectorXd ModalMap::displacement(const PeriodState& state, Ticks time) const {
   const ModalFlow& flow = flows_.front();
-  return free_displacement(time) + flow.contact_displacement(state.motion) -
-         flow.static_compliance() * state.force;
+  Eigen::VectorXd displacement = free_displacement(time);
+  flow.add_contact_displacement(state.motion, displacement);
+  displacement.noalias() -= flow.static_compliance() * state.force;
+  return displacement;
 }
 
 bool ModalMap::is_clear(const Eigen::VectorXd& displacement) const {
@@ -97,18 +101,18 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;
   step.end.motion = flow.advance(begin.motion, begin.force);
-  const Eigen::VectorXd predicted = free_displacement(end) + flow.contact_displacement(step.end.motion);
-  step.displacement = predicted;
-  step.end.force = Eigen::VectorXd::Zero(predicted.size());
-  if (is_clear(predicted)) return step;
+  step.displacement = free_displacement(end);
+  flow.add_contact_displacement(step.end.motion, step.displacement);
+  step.end.force.setZero(step.displacement.size());
+  if (is_clear(step.displacement)) return step;
   const Eigen::VectorXd velocity = depends_on_velocity_ ? this->velocity(step.end, end) : Eigen::VectorXd();
   const Ticks start = end - (Ticks{1} << (deepest_level - level));
   step.end.force = step_forces(laws_,
-                               {flow.step_compliance(), flow.step_mobility(), predicted, velocity,
+                               {flow.step_compliance(), flow.step_mobility(), step.displacement, velocity,
                                 has_memory_ ? displacement(begin, start) : Eigen::VectorXd()},
                                begin.force);
   flow.add_force(step.end.motion, step.end.force);
-  step.displacement -= flow.step_compliance() * step.end.force;
+  step.displacement.noalias() -= flow.step_compliance() * step.end.force;
   return step;
 }
 
@@ -138,10 +142,11 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
     note_changes(begin, whole, start + length, level);
     return whole;
   }
-  const bool free = begin.force.isZero(0.0) && whole.end.force.isZero(0.0);
-  if (free &&
-      is_clear(free_displacement(start + half) + flow(level + 1).contact_displacement_after(begin.motion)))
-    return whole;
+  if (begin.force.isZero(0.0) && whole.end.force.isZero(0.0)) {
+    Eigen::VectorXd middle = free_displacement(start + half);
+    flow(level + 1).add_contact_displacement_after(begin.motion, middle);
+    if (is_clear(middle)) return whole;
+  }
   const Step first = single(begin, start + half, level + 1);
   Step second = single(first.end, start + length, level + 1);
   const Eigen::VectorXd correction = (second.end.motion - whole.end.motion) / 3.0;

@@ -35,7 +35,7 @@ std::string history_text(const std::vector<Found>& changed) {
       "own. The reviewer knew the figures of that version and named the verdicts to which the rule would lead. A second "
       "review then found “depends” where no reading agreed, readings that contradict the papers, axes that were not "
       "theirs, and misprints by decree. Sentences on these four points were added to the rule. Its three figures, {:g} %, "
-      "{:g} % and a factor of {:g}, have not changed. The others had stood in single criteria. Of the statements below, {} "
+      "{:g} % and a factor of {:g}, have not changed. The others had stood in single criteria, some with other values. Of the statements below, {} "
       "were judged by another criterion or had another verdict before, and {} were not judged.</p>\n",
       100.0 * tie_share, 100.0 * visible_share, similar_factor,
       static_cast<std::ptrdiff_t>(changed.size()) - before, before);
