@@ -79,9 +79,12 @@ std::vector<std::string> output_sentences(const Summary& summary, const SweepAxi
                                   ? fmt::format(", at {:.6g} {}", number(axis.column()), axis.unit)
                                   : "";
     const std::string unit = cell_text(outputs->at(i, "unit"));
+    constexpr double rounding = 1e-9;
+    const double mean = number("mean");
     sentences.push_back(fmt::format("The vibration of {} is {}{}{}, about a mean of {}.",
                                     cell_text(outputs->at(i, "output")), place.empty() ? "" : "at most ",
-                                    quantity(vibration, unit), place, quantity(number("mean"), unit)));
+                                    quantity(vibration, unit), place,
+                                    std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
   }
   return sentences;
 }

@@ -278,9 +278,12 @@ std::string type_in_words(const std::string& type) {
   return found == known.end() ? spaced(type) : found->second;
 }
 
+/// Those of the structure where its whole curve was followed.
 void append_special_points(std::vector<std::string>& sentences, const Summary& summary,
                            const SweepAxis& axis) {
-  const auto* points = value_in<Table>(summary, quantities::special_points.name);
+  const bool whole = text_in(summary, quantities::structure_curve) == "whole";
+  const auto* points = value_in<Table>(
+      summary, (whole ? quantities::structure_special_points : quantities::special_points).name);
   if (points == nullptr || points->empty()) return;
   std::map<std::string, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)

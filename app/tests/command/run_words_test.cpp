@@ -127,6 +127,20 @@ TEST(RunWords, SpecialPointsAreListedByType) {
   EXPECT_NE(text.find("joins another: 1226.7 Hz."), std::string::npos) << text;
 }
 
+TEST(RunWords, SpecialPointsAreThoseOfTheStructureWhereItsWholeCurveIsKnown) {
+  Table balance({"type", "frequency_Hz"}), structure({"type", "frequency_Hz"});
+  balance.append_row({std::string("fold"), 1337.7681796});
+  structure.append_row({std::string("fold"), 1337.739426});
+  for (const bool whole : {true, false}) {
+    const std::string text =
+        joined(stability_sentences({{"stability", std::string("converged")},
+                                    {"special_points", balance},
+                                    {"structure_curve", std::string(whole ? "whole" : "stretches")},
+                                    {"structure_special_points", structure}}));
+    EXPECT_NE(text.find(whole ? "back: 1337.739 Hz." : "back: 1337.768 Hz."), std::string::npos) << text;
+  }
+}
+
 TEST(RunWords, UnstablePartsOfACurveAreNamedInTheirOrder) {
   Table curve({"frequency_Hz", "unstable"});
   for (const auto& [frequency, unstable] :
