@@ -25,10 +25,9 @@ struct Pair {
   Colour colour;
 };
 /// In the colours of JL14.
-constexpr Pair pairs[] = {
-    {"Fourier", "fourier_fourier", "fourier", "fourier", Colour::blue},
-    {"DB6", "daubechies6_daubechies6", "daubechies6", "daubechies6", Colour::green},
-    {"Haar:Fourier", "haar_fourier", "haar", "fourier", Colour::purple}};
+constexpr Pair pairs[] = {{"Fourier", "fourier_fourier", "fourier", "fourier", Colour::blue},
+                          {"DB6", "daubechies6_daubechies6", "daubechies6", "daubechies6", Colour::green},
+                          {"Haar:Fourier", "haar_fourier", "haar", "fourier", Colour::purple}};
 
 using Responses = std::vector<BladeResponse>;
 

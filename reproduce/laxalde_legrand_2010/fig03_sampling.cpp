@@ -190,10 +190,10 @@ void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const E
        .verdict = report::over(readings),
        .readings = readings,
        .earlier = report::not_judged,
-       .headline = fmt::format(
-           "With N = {} and m = {} to {} the largest force grows from {} to {} kN; exact {} kN.",
-           main_harmonics, few.samples, many.samples, number(1e-3 * few.largest_force, 3),
-           number(1e-3 * many.largest_force, 4), number(1e-3 * exact.largest_force, 3))},
+       .headline =
+           fmt::format("With N = {} and m = {} to {} the largest force grows from {} to {} kN; exact {} kN.",
+                       main_harmonics, few.samples, many.samples, number(1e-3 * few.largest_force, 3),
+                       number(1e-3 * many.largest_force, 4), number(1e-3 * exact.largest_force, 3))},
       "N harmonics can meet the gap at few samples only. Where a single one bears the force, its mean is fixed by "
       "the motion, so that it grows with m while the motion stays, and the contact shrinks to an instant.");
 }

@@ -59,7 +59,8 @@ Document parse_document(std::string_view text, const std::string& name);
 /// The keys and values that write_scene() writes, without lines.
 Document document_of(const Scene& scene, const std::string& name);
 
-/// Removes the entries of these names, "section.key" or, of tables, "forcing.terms" for all of them. Throws SceneError if there is no such entry.
+/// Removes the entries of these names, "section.key" or, of tables, "forcing.terms" for all of them. Throws
+/// SceneError if there is no such entry.
 void remove_entries(Document& document, std::span<const std::string> names);
 
 /// Sets or replaces entries by "section.key=value". Throws SceneError if an override has no such form.

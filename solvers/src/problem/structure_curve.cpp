@@ -75,8 +75,6 @@ void OnStretch::add(std::vector<ExactEvent> more, bool from_behind) {
   std::move(more.begin(), more.end(), std::back_inserter(events));
 }
 
-double StructureCurve::scale() const { return std::abs(options_.to - options_.from) / 20.0; }
-
 OnStretch StructureCurve::along(const Stretch& stretch) const {
   return from_both_ends(stretch, wider(stretch), false);
 }
@@ -124,7 +122,7 @@ StretchStart StructureCurve::start_of(const Stretch& stretch, bool forwards) con
     if (forwards ? stretch.first < steps : stretch.last + steps >= curve_.points.size()) break;
     const std::size_t at = forwards ? stretch.first - steps : stretch.last + steps;
     start.value = parameter_of(curve_.points[at], curve_.parameter);
-    start.direction = direction_from(curve_, at, forwards, clear * scale());
+    start.direction = direction_from(curve_, at, forwards, clear * unit_of_parameter(options_));
     const PeriodicResponse response = problem_.response(curve_, start.value, curve_.points[at].unknown);
     start.motion = near_phases(problem_, response, near).value().motion;
     if (start.motion.status != PhasesStatus::no_motion_near) break;  // elsewhere it takes as much
@@ -143,7 +141,7 @@ ExactCurve StructureCurve::followed(ValueRange range, const StretchStart& start)
   options.to = start.direction > 0.0 ? highest : lowest;
   options.behind = start.direction > 0.0 ? lowest : highest;
   if (options.to == start.value) return {};
-  options.parameter_scale = scale();
+  options.parameter_scale = unit_of_parameter(options_);
   options.first_step = options_.first_step;
   options.largest_step = options_.largest_step;
   options.max_points = static_cast<int>(effort_.points);
@@ -157,7 +155,7 @@ ExactCurve StructureCurve::followed(ValueRange range, const StretchStart& start)
 // A little wider than the stretch, since the structure's folds lie beside those of the balance.
 ValueRange StructureCurve::wider(const Stretch& stretch) const {
   const auto [low, high] = values_on(curve_, stretch.first, stretch.last);
-  const double margin = std::max(high - low, scale());
+  const double margin = std::max(high - low, unit_of_parameter(options_));
   return {std::max(std::min(options_.from, options_.to), low - margin),
           std::min(std::max(options_.from, options_.to), high + margin)};
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "problem/curve_stretches.hpp"
@@ -11,6 +12,11 @@ const Eigen::VectorXd& comparison_times();
 
 /// The same special point, followed from elsewhere.
 bool is_same(const ExactEvent& a, const ExactEvent& b);
+
+/// The change of the parameter that has length 1, a 20th of the interval.
+inline double unit_of_parameter(const StructurePointsOptions& options) {
+  return std::abs(options.to - options.from) / 20.0;
+}
 
 /// With how much work one curve of the structure is followed.
 struct CurveEffort {
@@ -54,7 +60,6 @@ class StructureCurve {
   OnStretch along_whole(const Stretch& all) const;
 
  private:
-  double scale() const;
   OnStretch from_both_ends(const Stretch& stretch, ValueRange range, bool first_decides) const;
   StretchStart start_of(const Stretch& stretch, bool forwards) const;
   ExactCurve followed(ValueRange range, const StretchStart& start) const;

@@ -89,6 +89,8 @@ class Assembly {
   StructurePoints result_;
 };
 
+constexpr double share_of_whole = 0.25;  // of the operations; stretches have the rest
+
 // Tells of the work done, from any thread; remembers that the observer returned false.
 class Teller {
  public:
@@ -112,8 +114,9 @@ std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vec
                                  Teller& teller) {
   std::vector<OnStretch> found(stretches.size());
   std::atomic<int> done{0};
-  const double curves = 2.0 * double(stretches.size()), left = 0.75;  // of the operations
-  const detail::CurveEffort effort{options.max_points / curves, left * options.max_operations / curves};
+  const double curves = 2.0 * double(stretches.size());
+  const detail::CurveEffort effort{options.max_points / curves,
+                                   (1.0 - share_of_whole) * options.max_operations / curves};
   const auto tell = [&](double value) {
     const int count = done;
     return teller.tell(value, count, double(count) / double(stretches.size()));
@@ -144,12 +147,12 @@ Stretch all_of(const FrequencySweep& curve, const std::vector<SpecialPoint>& poi
 // Along the whole curve at once.
 OnStretch along_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
                       const StructurePointsOptions& options, Teller& teller) {
-  constexpr double share = 0.25;  // of the operations, for both curves
   const double low = std::min(options.from, options.to), length = std::abs(options.to - options.from);
   const Observer observer = [&](const Progress& progress) {
     return teller.tell(progress.value, 0, std::clamp((progress.value - low) / length, 0.0, 1.0));
   };
-  const detail::CurveEffort effort{double(options.max_points), 0.5 * share * options.max_operations};
+  // From the first point and from the last one.
+  const detail::CurveEffort effort{double(options.max_points), 0.5 * share_of_whole * options.max_operations};
   return StructureCurve(problem, curve, options, effort, observer).along_whole(all);
 }
 
@@ -166,6 +169,23 @@ std::vector<std::size_t> passed_by(ContactProblem& problem, const FrequencySweep
       numbers.push_back(i);
   }
   return numbers;
+}
+
+// Not whole where the curve of the structure was not followed through the interval.
+StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve,
+                         const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance,
+                         const StructurePointsOptions& options, Teller& teller) {
+  const Stretch all = all_of(curve, points);
+  OnStretch found = along_whole(problem, curve, all, options, teller);
+  if (!found.complete) return {};
+  const bool apart = found.apart;
+  Assembly assembly(points, distance, options.reach);
+  assembly.add(all, std::move(found));
+  StructurePoints result = assembly.finished();
+  result.whole = true;
+  result.apart = apart;
+  result.passed_by = passed_by(problem, curve, result, detail::unit_of_parameter(options), options.reach);
+  return result;
 }
 
 }  // namespace
@@ -195,29 +215,18 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
                                  const std::vector<SpecialPoint>& points,
                                  const StructurePointsOptions& options) {
   options.validate();
-  const double scale = std::abs(options.to - options.from) / 20.0;
-  const detail::CurveDistance distance(curve, scale);
-  const std::vector<Stretch> stretches =
-      detail::stretches_about(curve, points, distance, options.reach, options.max_stretches);
-  constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
-  std::vector<ContactProblem> problems = detail::thread_problems(
-      make, places_worth * std::max<std::size_t>(1, stretches.size()), options.threads);
-  ContactProblem& problem = problems.front();
+  const detail::CurveDistance distance(curve, detail::unit_of_parameter(options));
   Assembly assembly(points, distance, std::numeric_limits<double>::infinity());
+  ContactProblem problem = make();
   if (curve.points.empty() || problem.dynamics() == nullptr) return assembly.finished();
   Teller teller(options.observer, unit_of(problem.condensed(), curve.parameter));
-  const Stretch all = all_of(curve, points);
-  OnStretch whole = along_whole(problem, curve, all, options, teller);
-  StructurePoints result;
-  if (whole.complete) {
-    const bool apart = whole.apart;
-    Assembly of_whole(points, distance, options.reach);
-    of_whole.add(all, std::move(whole));
-    result = of_whole.finished();
-    result.whole = true;
-    result.apart = apart;
-    result.passed_by = passed_by(problem, curve, result, scale, options.reach);
-  } else if (!points.empty()) {
+  StructurePoints result = of_whole(problem, curve, points, distance, options, teller);
+  if (!result.whole && !points.empty()) {
+    const std::vector<Stretch> stretches =
+        detail::stretches_about(curve, points, distance, options.reach, options.max_stretches);
+    constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
+    std::vector<ContactProblem> problems =
+        detail::thread_problems(make, places_worth * stretches.size(), options.threads);
     std::vector<OnStretch> found = along_all(stretches, problems, curve, options, teller);
     for (std::size_t i = 0; i < stretches.size(); ++i) assembly.add(stretches[i], std::move(found[i]));
     result = assembly.finished();

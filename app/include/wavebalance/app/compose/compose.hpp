@@ -41,7 +41,8 @@ struct StructureModes {
   Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
 };
 
-/// Frequencies that differ by less of themselves are equal but for the errors of a mesh: those of a round pipe.
+/// Frequencies that differ by less of themselves are equal but for the errors of a mesh: those of a round
+/// pipe.
 inline constexpr double equal_frequencies = 1e-5;
 
 /// Modes of equal frequency are those combinations of them of which the first moves the contacts most, and
