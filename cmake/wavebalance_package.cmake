@@ -99,7 +99,7 @@ function(wavebalance_install_package)
     list(APPEND targets wavebalance_command)
   endif()
   if(TARGET wavebalance_mpi)
-    list(APPEND targets wavebalance_mpi)  # installed, and left out of the Debian package, which would depend on MPI
+    list(APPEND targets wavebalance_mpi)  # a Debian package of its own, so that the first one does not depend on MPI
   endif()
   if(TARGET wavebalance_python)
     list(APPEND components python)
@@ -107,7 +107,51 @@ function(wavebalance_install_package)
   endif()
   if(PROJECT_IS_TOP_LEVEL)
     add_custom_target(wavebalance_installed DEPENDS ${targets})
-    wavebalance_add_debian_package(${components})
+    wavebalance_install_pages()
+    wavebalance_add_debian_package(${components} doc)
+    wavebalance_add_other_packages()
+  endif()
+endfunction()
+
+# wavebalance_install_pages(): README.md with the pages that it leads to, and the example scenes, as the component doc. They
+# have the places of the sources, so that links between them hold.
+function(wavebalance_install_pages)
+  file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/*/*.md
+    ${PROJECT_SOURCE_DIR}/reproduce/*/README.md ${PROJECT_SOURCE_DIR}/reproduce/*/modes/README.md)
+  foreach(page IN LISTS pages ITEMS CITATION.cff reproduce/picture.png)
+    get_filename_component(folder ${page} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
+  endforeach()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/reproduce/scenes DESTINATION ${CMAKE_INSTALL_DOCDIR}/reproduce COMPONENT doc)
+endfunction()
+
+# wavebalance_add_other_packages(): the target wavebalance_packages makes what stands beside the Debian package: a package of
+# the component mpi, and a wheel of the Python package.
+function(wavebalance_add_other_packages)
+  set(folder ${PROJECT_SOURCE_DIR}/build)
+  add_custom_target(wavebalance_packages DEPENDS wavebalance_installed)
+  if(TARGET wavebalance_mpi)
+    set(config ${PROJECT_BINARY_DIR}/CPackMpiConfig.cmake)
+    file(CONFIGURE OUTPUT ${config} @ONLY CONTENT [=[include(@PROJECT_BINARY_DIR@/CPackConfig.cmake)
+set(CPACK_PACKAGE_NAME wavebalance-mpi)
+set(CPACK_DEBIAN_PACKAGE_NAME wavebalance-mpi)
+set(CPACK_INSTALL_CMAKE_PROJECTS "@PROJECT_BINARY_DIR@;wavebalance;mpi;/")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "wavebalance (= @PROJECT_VERSION@)")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Studies of wavebalance on many machines:
+what mpirun -n K wavebalance study needs beside the package wavebalance.")
+]=])
+    add_custom_command(TARGET wavebalance_packages POST_BUILD VERBATIM
+      COMMAND ${CMAKE_CPACK_COMMAND} -G DEB --config ${config} -B ${folder})
+  endif()
+  if(TARGET wavebalance_python)
+    set(stage ${PROJECT_BINARY_DIR}/python/wheel)
+    add_custom_command(TARGET wavebalance_packages POST_BUILD VERBATIM
+      COMMAND ${CMAKE_COMMAND} -E rm -rf ${stage}
+      COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --component python --prefix ${stage}
+      COMMAND ${Python_EXECUTABLE} ${PROJECT_SOURCE_DIR}/python/make_wheel.py ${stage}/${WAVEBALANCE_PYTHON_DIR}/wavebalance
+        ${PROJECT_VERSION} ${PROJECT_SOURCE_DIR}/python/README.md ${folder})
   endif()
 endfunction()
 

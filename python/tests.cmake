@@ -21,6 +21,12 @@ foreach(example IN LISTS examples)
   get_filename_component(name ${example} NAME_WE)
   wavebalance_add_python_test(example_${name} LABEL reference COMMAND ${example})
 endforeach()
+file(GLOB notebooks CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/examples/*.ipynb)
+foreach(notebook IN LISTS notebooks)
+  get_filename_component(name ${notebook} NAME_WE)
+  wavebalance_add_python_test(notebook_${name} LABEL reference
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/run_notebook.py ${notebook})
+endforeach()
 
 # The component alone is a whole package.
 add_test(NAME python.installed_package_runs COMMAND ${CMAKE_COMMAND} -D build=${PROJECT_BINARY_DIR}

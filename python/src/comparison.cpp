@@ -27,17 +27,19 @@ void add_comparison(py::module_& module) {
           pictures[py::str(picture.stem)] = app::render(picture.figure, app::PictureFormat::svg);
         return pictures;
       });
-  module.def("compare_scene", [](const SceneSource& source, const std::string& pairs,
-                                 const std::string& error, double budget, int threads) {
-    return unlocked([&](const solvers::Observer& observer) {
-      app::ComparisonOptions options;
-      if (!pairs.empty()) options.pairs = app::parse_pairs(pairs);
-      if (!error.empty()) options.measure = app::parse_error_measure(error);
-      options.budget = budget;
-      options.threads = threads;
-      return app::compare_bases(scene_of(source), options, observer);
-    });
-  });
+  module.def("compare_scene",
+             [](const SceneSource& source, const std::string& pairs, const std::string& error, double budget,
+                const std::string& start_from, int threads) {
+               return unlocked([&](const solvers::Observer& observer) {
+                 app::ComparisonOptions options;
+                 if (!pairs.empty()) options.pairs = app::parse_pairs(pairs);
+                 if (!error.empty()) options.measure = app::parse_error_measure(error);
+                 options.budget = budget;
+                 options.threads = threads;
+                 if (!start_from.empty()) options.start = app::read_start_motion(start_from);
+                 return app::compare_bases(scene_of(source), options, observer);
+               });
+             });
 }
 
 }  // namespace wavebalance::python

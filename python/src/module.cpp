@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "unlocked.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/solvers/linalg/blas_threads.hpp"
 
@@ -6,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace wavebalance;
   module.doc() = "The compiled part of wavebalance.";
   module.attr("version") = std::string(app::version());
+  module.def("exchange_progress", &python::exchange_progress);
   python::add_exceptions(module);
   python::add_scenes(module);
   python::add_comparison(module);

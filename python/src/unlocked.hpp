@@ -22,27 +22,33 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 };
 
+/// Takes the function that is called with the phase, step, value, measure and share done of long work, or
+/// None, and returns the one before. With the lock.
+pybind11::object exchange_progress(pybind11::object callback);
+/// Calls it. False where it raised; Python's exception is then set. With the lock.
+bool tell_progress(const solvers::Progress& progress);
+
 /// Python's lock, released while this object lives, so that other threads of Python run beside a solve.
 class Unlocked {
  public:
   /// Stops long work on Ctrl-C: signals are handled about ten times per second, with the lock taken for that
-  /// moment. Only the thread that made this object takes it, since Python handles signals in its main thread
-  /// alone; other threads that work for it call the observer, too, and never wait for the lock. This object
-  /// must outlive the work.
+  /// moment, and the function of exchange_progress() is called. Only the thread that made this object takes
+  /// it, since Python handles signals in its main thread alone; other threads that work for it call the
+  /// observer, too, and never wait for the lock. This object must outlive the work.
   solvers::Observer observer() {
-    return [this](const solvers::Progress&) { return goes_on(); };
+    return [this](const solvers::Progress& progress) { return goes_on(progress); };
   }
-  /// Whether a signal ended the work. Python's exception is then set.
+  /// Whether a signal or that function ended the work. Python's exception is then set.
   bool interrupted() const { return interrupted_; }
 
  private:
-  bool goes_on() {
+  bool goes_on(const solvers::Progress& progress) {
     if (interrupted_ || std::this_thread::get_id() != owner_) return !interrupted_;
     const auto now = std::chrono::steady_clock::now();
     if (now < next_) return true;
     next_ = now + interval;
     const pybind11::gil_scoped_acquire locked;
-    interrupted_ = PyErr_CheckSignals() != 0;
+    interrupted_ = PyErr_CheckSignals() != 0 || !tell_progress(progress);
     return !interrupted_;
   }
 

@@ -5,6 +5,7 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 - :func:`run` solves it and returns a :class:`Record`; :func:`check` says what would be solved.
 - :func:`compare` measures pairs of bases against each other.
 - :func:`study` solves it for many values of its keys, on all cores or with any executor.
+- :func:`progress` shows what long work does.
 
 A structure of one's own is made of SciPy's sparse matrices:
 
@@ -20,6 +21,7 @@ solve with ``KeyboardInterrupt``. Solves release the interpreter's lock, so that
 
 from . import laws, wavelets
 from ._core import InadmissiblePair, SceneError, SingularSystem
+from ._progress import progress
 from ._version import version as __version__
 from .comparison import Comparison, compare
 from .laws import (
@@ -87,6 +89,7 @@ __all__ = [
     "frequency_sweep",
     "harmonics_of",
     "overlay",
+    "progress",
     "run",
     "stability",
     "study",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from typing import Any
 
@@ -59,6 +60,7 @@ def compare(
     error: str = "",
     budget: float = 10.0,
     unset: Iterable[str] = (),
+    start_from: str | os.PathLike[str] | None = None,
     threads: int = 0,
 ) -> Comparison:
     """Solves a scene in several pairs of bases and sizes, and says which to take, as ``wavebalance compare`` does.
@@ -74,6 +76,9 @@ def compare(
         defined.
     budget:
         Wall time of everything, s, above 0.
+    start_from:
+        A motion of an earlier run, as for :func:`wavebalance.run`, near which the reference is sought; each solve then begins
+        with the reference.
     threads:
         Pairs solved side by side; 0: one per core.
 
@@ -84,4 +89,5 @@ def compare(
     """
     names = pairs if isinstance(pairs, str) else ",".join(pairs)
     with scene_source(scene, overrides, unset) as source:
-        return Comparison(_core.compare_scene(source, names, error, float(budget), threads))
+        start = "" if start_from is None else os.fspath(start_from)
+        return Comparison(_core.compare_scene(source, names, error, float(budget), start, threads))

@@ -89,8 +89,9 @@ double phases_bytes(const Sizes& s) {
 }
 
 double response_seconds(const Sizes& s) {
+  const double dense = std::min(s.active, s.contacts > 1.0 ? 256.0 : 144.0);
   return 8e-8 * s.contacts * s.points * std::log2(s.points) +
-         2e-8 * s.contacts * s.contacts * s.functions * s.degrees + 5e-10 * std::pow(s.active, 3);
+         2e-8 * s.contacts * s.contacts * s.functions * s.degrees + 5e-10 * std::pow(dense, 3);
 }
 
 double responses(const Analysis& analysis) {
@@ -99,6 +100,20 @@ double responses(const Analysis& analysis) {
                           std::abs(analysis.amplitude_to - analysis.amplitude_from);  // one is 0
   const double steps = 2.0 * interval / analysis.largest_step;
   return std::min(steps + 1.0, static_cast<double>(analysis.max_points));
+}
+
+/// Beside a curve that takes so long.
+void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
+  if (!is_sweep(scene.analysis) || !scene.analysis.stability) return;
+  constexpr double least = 0.1, most = 10.0;         // of the curve
+  constexpr double longest_structure_curve = 300.0;  // s, what StructurePointsOptions::max_operations take
+  cost.least_stability_seconds = least * cost.seconds;
+  cost.most_stability_seconds = most * cost.seconds + (sizes.contacts > 1.0 ? longest_structure_curve : 0.0);
+}
+
+std::string duration_text(double seconds) {
+  if (seconds >= 600.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
 }
 
 /// Bytes of the control group's limit; infinite where there is none.
@@ -132,7 +147,17 @@ CostEstimate estimate_cost(const Scene& scene) {
   cost.bytes += balance_bytes(sizes);
   cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
                  3e-6 * sizes.contacts * sizes.output_points;
+  add_stability(scene, sizes, cost);
   return cost;
+}
+
+std::string cost_text(const CostEstimate& cost) {
+  const std::string memory = memory_text(cost.bytes) + " of memory";
+  if (std::isnan(cost.seconds)) return "about " + memory;
+  if (!(cost.most_stability_seconds > 0.0)) return "about " + duration_text(cost.seconds) + " and " + memory;
+  return fmt::format("about {} for the curve, {} to {} for its stability, and {}",
+                     duration_text(cost.seconds), duration_text(cost.least_stability_seconds),
+                     duration_text(cost.most_stability_seconds), memory);
 }
 
 std::string slow_stepping_advice(const Scene& scene) {

@@ -27,6 +27,7 @@ ComparisonOptions options_of(const CompareArguments& arguments) {
   if (!arguments.error.empty()) options.measure = parse_error_measure(arguments.error);
   options.budget = arguments.budget;
   options.threads = arguments.run.threads;
+  if (!arguments.run.start_from.empty()) options.start = read_start_motion(arguments.run.start_from);
   return options;
 }
 
@@ -62,6 +63,8 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
   summary.emplace_back("scene", arguments.run.scene.string());
   summary.emplace_back("set", arguments.run.overrides);
   summary.emplace_back("unset", arguments.run.removed);
+  if (!arguments.run.start_from.empty())
+    summary.emplace_back("start_from", arguments.run.start_from.string());
   summary.emplace_back("version", std::string(version()));
   Table list({"name", "about"});
   for (const ResultFile& file : files) list.append_row({file.name, file.about});
@@ -111,7 +114,7 @@ int compare_scene(const CompareArguments& arguments) {
   const ComparisonOptions options = options_of(arguments);
   const Scene scene = given_scene(arguments.run);
   check_comparison(scene, options);
-  const InputFiles inputs = inputs_of(arguments.run.scene, scene);
+  const InputFiles inputs = inputs_of(arguments.run.scene, scene, arguments.run.start_from);
   require_replaceable(
       arguments.run.output, [&](const std::string& name) { return may_write(name, arguments.run.report); },
       inputs);

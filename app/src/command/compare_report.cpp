@@ -17,6 +17,8 @@ std::string command_of(const CompareArguments& arguments) {
   if (!arguments.pairs.empty()) text += " --pairs " + shell_word(arguments.pairs);
   if (!arguments.error.empty()) text += " --error " + shell_word(arguments.error);
   text += fmt::format(" --budget {}", arguments.budget);
+  if (!arguments.run.start_from.empty())
+    text += " --start-from " + shell_word(arguments.run.start_from.string());
   for (const auto& one : arguments.run.overrides) text += " --set " + shell_word(one);
   for (const auto& one : arguments.run.removed) text += " --unset " + shell_word(one);
   return text + " --output " + shell_word(arguments.run.output.string());

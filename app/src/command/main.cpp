@@ -93,8 +93,16 @@ void add_threads(CLI::App& command, int& threads, const std::string& help) {
   command.add_option("--threads", threads, help)->type_name("N")->check(CLI::Validator(check, ""));
 }
 
+void add_start(CLI::App& command, RunArguments& arguments) {
+  command
+      .add_option("--start-from", arguments.start_from,
+                  "start near a motion of an earlier run: its folder, or DIR/motion_peak.csv of a sweep")
+      ->type_name("DIR");
+}
+
 void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_scene(command, arguments.run);
+  add_start(command, arguments.run);
   command.add_option("--output,-o", arguments.run.output, "folder of the results, made if missing")
       ->required();
   command
@@ -203,9 +211,7 @@ int dispatch(int argc, char** argv) {
   CLI::App& run = *app.add_subcommand("run", "solve a scene and write its results");
   add_scene(run, arguments);
   run.add_option("--output,-o", arguments.output, "folder of the results, made if missing")->required();
-  run.add_option("--start-from", arguments.start_from,
-                 "start near a motion of an earlier run: its folder, or DIR/motion_peak.csv of a sweep")
-      ->type_name("DIR");
+  add_start(run, arguments);
   run.add_option("--max-memory", arguments.max_memory,
                  "refuse a scene that is expected to take more; without it, more than the machine has")
       ->type_name("GB")

@@ -66,11 +66,13 @@ class ResponseComparison {
 
   Comparison compare() {
     SplitPairs pairs = split_pairs(measured_.scene, options_);
-    found_.reference =
-        find_reference(measured_.scene, measured_.model, error_points, reference_share * options_.budget,
-                       [&](const solvers::Progress&) { return goes_on("reference"); });
+    found_.reference = find_reference(
+        measured_.scene, measured_.model, error_points, reference_share * options_.budget,
+        [&](const solvers::Progress&) { return goes_on("reference"); }, options_.start);
     if (found_.reference.converged) {
       measured_.reference = found_.reference.motion;
+      found_.from_reference = !options_.start.contacts.empty() || !found_.reference.reached_directly;
+      if (found_.from_reference) measured_.start = {"the reference", found_.reference.motion, 1};
       choose_measure();
       const std::vector<SolvePoint> phases = phase_points();
       found_.points = size_study(measured_, pairs.admissible, size_options());
@@ -182,6 +184,10 @@ class ResponseComparison {
     scene.analysis.output_points = error_points;
     ResponseOptions options;
     options.stability = true;
+    solvers::ResponseStart start = response_start(measured_.start, scene);
+    options.stay_near_guess = start.displacement.size() > 0;
+    options.guess = std::move(start.displacement);
+    options.guess_force = std::move(start.force);
     const Response response = weighted_residual_response(scene, measured_.model, options);
     return response.stability ? response.stability->status : "";
   }
@@ -223,6 +229,7 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options) {
     throw std::invalid_argument(
         "--error " + std::string(to_string(*options.measure)) +
         ": curves of a sweep are compared by their displacements; expected displacement");
+  require_start_fits(options.start, discretised(scene, {"fourier", "fourier"}, 3, 8));
   for (const BasisPair& pair : options.pairs) {
     const auto found = admissibility_of(pair, scene);
     if (!found.admissible)

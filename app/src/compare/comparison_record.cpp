@@ -87,6 +87,20 @@ std::string recommendations_text(const std::vector<Recommendation>& recommendati
   return text;
 }
 
+/// Where each solve begins, if not with the response without contact.
+std::string start_sentence(const Comparison& comparison) {
+  if (!comparison.from_reference) return "";
+  return comparison.reference.reached_directly
+             ? "Each solve begins with the motion of the reference.\n"
+             : "Each solve begins with the motion of the reference, since Newton's method from the response "
+               "without contact does not lead to it.\n";
+}
+
+/// A number of what was not chosen is missing.
+Cell count_cell(const std::optional<SolvePoint>& point, int SolvePoint::*number) {
+  return point ? Cell(std::int64_t{(*point).*number}) : Cell(solvers::missing);
+}
+
 std::vector<std::string> warnings_of(const Comparison& comparison) {
   std::vector<std::string> warnings;
   if (comparison.force_asked && !comparison.without_force.empty())
@@ -195,17 +209,17 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations) 
                       std::string(to_string(one.measure)),
                       choice.pair.trial,
                       choice.pair.weight,
-                      std::int64_t{choice.functions},
-                      std::int64_t{choice.points},
+                      count_cell(one.choice, &SolvePoint::functions),
+                      count_cell(one.choice, &SolvePoint::points),
                       choice.seconds,
                       choice.displacement_error,
                       choice.force_error,
-                      std::int64_t{fourier.functions},
+                      count_cell(one.fourier, &SolvePoint::functions),
                       fourier.seconds,
                       one.fourier_time_ratio(),
                       std::string(to_string(one.matters)),
-                      std::int64_t{phases.functions},
-                      std::int64_t{phases.points},
+                      count_cell(one.phases, &SolvePoint::functions),
+                      count_cell(one.phases, &SolvePoint::points),
                       phases.seconds,
                       phases.error,
                       one.stability,
@@ -236,6 +250,7 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   record.reference = comparison.reference;
   add_reference(record.summary, record.reference);
   record.summary.emplace_back("error_of", std::string(to_string(comparison.measure)));
+  record.summary.emplace_back("solves_begin_with", comparison.from_reference ? "reference" : "no_contact");
   record.summary.emplace_back("solves", static_cast<std::int64_t>(comparison.points.size()));
   if (!comparison.points.empty()) record.recommendations = comparison.recommendations;
   record.summary.emplace_back("recommendations", recommendations_table(record.recommendations));
@@ -251,7 +266,7 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   }
   const std::string opening = reference_sentence(comparison.reference) + "\n" +
                               (comparison.reference.converged ? measure_sentence(comparison) + "\n" : "") +
-                              counted(comparison) + "\n";
+                              start_sentence(comparison) + counted(comparison) + "\n";
   const bool compared = !comparison.points.empty();
   const auto advice = [&](bool markdown) {
     return compared ? recommendations_text(comparison.recommendations, markdown) : no_time_text;

@@ -30,14 +30,16 @@ std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& mod
 }
 
 std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
-                                 const solvers::Observer& observer) {
+                                 const solvers::Observer& observer, const StartMotion& start) {
   const int points = 4 * (functions + 1);
-  solvers::ContactProblem problem =
-      uncondensed_problem(discretised(scene, {"fourier", "fourier"}, functions, points), model);
+  const Scene sized = discretised(scene, {"fourier", "fourier"}, functions, points);
+  solvers::ContactProblem problem = uncondensed_problem(sized, model);
   solvers::ForcedResponseOptions options;
   options.form = scene.contact.form;
   options.observer = observer;
-  solvers::PeriodicResponse response = problem.respond(scene.forcing.frequency, options);
+  options.stay_near_guess = !start.contacts.empty();
+  solvers::PeriodicResponse response =
+      problem.respond(scene.forcing.frequency, options, response_start(start, sized));
   if (!response.converged()) return std::nullopt;
   Guide guide{std::move(problem), std::move(response), {}, solvers::missing, functions, points};
   guide.contacts = guide.problem.motion(guide.response, scene.analysis.output_points);

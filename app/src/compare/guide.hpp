@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
@@ -24,9 +25,9 @@ struct Guide {
 std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& model, double tolerance,
                                    const solvers::Observer& observer);
 
-/// A balance with so many Fourier functions, whose error is not estimated; nothing where it has not
-/// converged. Throws solvers::SingularSystem.
+/// A balance with so many Fourier functions near a start, or near the response without contact, whose error
+/// is not estimated; nothing where it has not converged. Throws solvers::SingularSystem.
 std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
-                                 const solvers::Observer& observer);
+                                 const solvers::Observer& observer, const StartMotion& start = {});
 
 }  // namespace wavebalance::app

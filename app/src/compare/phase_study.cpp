@@ -58,7 +58,8 @@ class PhaseStudy {
     return best;
   }
 
-  PhaseSolve solve(solvers::ContactProblem& problem, double tolerance) const {
+  PhaseSolve solve(solvers::ContactProblem& problem, const solvers::ResponseStart& start,
+                   double tolerance) const {
     problem.condensed().forget_condensation();
     const solvers::Observer observer = [this](const solvers::Progress& progress) {
       return solvers::goes_on(options_.observer, progress);
@@ -66,7 +67,8 @@ class PhaseStudy {
     solvers::ForcedResponseOptions options;
     options.form = measured_.scene.contact.form;
     options.observer = observer;
-    PhaseSolve found{problem.respond(measured_.scene.forcing.frequency, options), std::nullopt};
+    options.stay_near_guess = start.displacement.size() > 0;
+    PhaseSolve found{problem.respond(measured_.scene.forcing.frequency, options, start), std::nullopt};
     if (!found.balance.converged()) return found;
     const solvers::ContactDynamics dynamics(problem.structure());
     const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
@@ -88,9 +90,10 @@ class PhaseStudy {
     point.construction_seconds =
         least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
     solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
+    const solvers::ResponseStart start = response_start(measured_.start, scene);
     PhaseSolve found;
     try {
-      point.seconds = least_seconds([&] { found = solve(problem, tolerance); }, options_.solve);
+      point.seconds = least_seconds([&] { found = solve(problem, start, tolerance); }, options_.solve);
     } catch (const solvers::SingularSystem&) {
       point.status = "singular";
       return point;

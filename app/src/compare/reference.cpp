@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -37,9 +38,10 @@ Reference found_reference(const std::string& kind, const std::string& text, doub
 class ReferenceSearch {
  public:
   ReferenceSearch(const Scene& scene, const StructureModel& model, int points, double seconds,
-                  const solvers::Observer& observer)
+                  const solvers::Observer& observer, const StartMotion& start)
       : scene_(scene),
         model_(model),
+        start_motion_(start),
         seconds_(seconds),
         observer_([this, &observer](const solvers::Progress& progress) {
           interrupted_ = interrupted_ || !goes_on(observer, {"reference"});
@@ -52,8 +54,13 @@ class ReferenceSearch {
   Reference find() {
     Reference reference;
     try {
-      std::optional<Reference> found = linear();
-      if (!found) found = beside_guide();
+      std::optional<Reference> found;
+      if (start_motion_.contacts.empty()) {
+        found = linear();
+        if (!found) found = beside_guide();
+      } else {
+        found = beside_start();
+      }
       reference =
           found ? std::move(*found) : missing_reference(interrupted_ ? "interrupted" : "no_reference");
     } catch (const solvers::SingularSystem&) {
@@ -93,15 +100,16 @@ class ReferenceSearch {
     const std::size_t coarse = guides_.size() - 1;
     found = phases();
     if (found) return found;
-    found = finer_balance();
-    // Beyond a few contacts a count of multipliers takes longer than the solution.
-    constexpr int few = 6;
-    if (scene_.analysis.stability && !interrupted_) {
-      Guide& counted = guides_[model_.contacts() <= few ? coarse : first];
-      found->stability = counted.problem.stability(counted.response);
-    }
-    found->without_phases = without_phases_;
-    return found;
+    refine_balance();
+    return by_balance(guides_[model_.contacts() <= few_contacts ? coarse : first]);
+  }
+
+  /// A reference near the start.
+  std::optional<Reference> beside_start() {
+    std::optional<Reference> found = phases_of_sizes(start_sizes);
+    if (found || guides_.size() < 2) return found;
+    if (without_phases_.empty()) without_phases_ = phases_refusal(model_);
+    return by_balance(guides_[model_.contacts() <= few_contacts ? guides_.size() - 1 : 0]);
   }
 
   /// The response without contact, where it keeps away from every obstacle.
@@ -149,21 +157,27 @@ class ReferenceSearch {
   }
 
   /// Of rigid contact, from few functions: the force oscillates in finer balances, which then seem to have
-  /// many phases. The error of a balance is its distance from the one before.
+  /// many phases.
   std::optional<Reference> rigid_phases() {
     if (!is_rigid(scene_.contact.law) || !phases_refusal(model_).empty()) return std::nullopt;
+    return phases_of_sizes(rigid_sizes);
+  }
+
+  /// From balances with so many functions each; the error of each is its distance from the one before.
+  std::optional<Reference> phases_of_sizes(std::span<const int> sizes) {
     allowed_ = phases_share * seconds_;
-    for (const int functions : rigid_starts) {
-      std::optional<Guide> guide = sized_guide(scene_, model_, functions, observer_);
+    for (const int functions : sizes) {
+      std::optional<Guide> guide = sized_guide(scene_, model_, functions, observer_, start_motion_);
       if (!guide) continue;
       if (!guides_.empty())
         guide->estimated_error = displacement_error(guides_.back().contacts, guide->contacts);
       guides_.push_back(std::move(*guide));
     }
     const std::size_t starts = guides_.size();
+    refused_ = !phases_refusal(model_).empty();
     std::optional<Reference> found;
     for (std::size_t i = 0; i < starts && starts > 1 && !found && !refused_ && !interrupted_; ++i)
-      found = phases_from(guides_[i], 1.0 / 3.0);
+      found = phases_from(guides_[i], 1.0 / static_cast<double>(sizes.size()));
     return found;
   }
 
@@ -197,18 +211,24 @@ class ReferenceSearch {
   Reference by_phases(PhaseReference found, Guide& guide) {
     Reference reference = found_reference("phases", "contact phases", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
+    reference.reached_directly = guide.response.strategy == solvers::Strategy::newton;
     if (scene_.analysis.stability)
       reference.stability = guide.problem.stability(guide.response, &found.motion);
     return reference;
   }
 
-  Reference finer_balance() {
+  void refine_balance() {
     for (double tolerance = 1e-3; tolerance > 5e-9 && !interrupted_; tolerance /= 10.0) {
       if (guides_.back().estimated_error <= tolerance) continue;
       std::optional<Guide> finer = balance(tolerance);
       if (!finer || !is_of_guide(finer->contacts)) break;
       guides_.push_back(std::move(*finer));
     }
+  }
+
+  /// The finest balance, whose stability is that of a guide. Beyond a few contacts a count of multipliers
+  /// takes longer than the solution.
+  Reference by_balance(Guide& counted) {
     const Guide& last = guides_.back();
     Reference reference =
         found_reference("finer_balance",
@@ -217,6 +237,10 @@ class ReferenceSearch {
                         last.estimated_error, last.contacts);
     if (guides_.size() > 1)
       reference.force_error = force_error(guides_[guides_.size() - 2].contacts, last.contacts);
+    if (scene_.analysis.stability && !interrupted_)
+      reference.stability = counted.problem.stability(counted.response);
+    reference.without_phases = without_phases_;
+    reference.reached_directly = last.response.strategy == solvers::Strategy::newton;
     return reference;
   }
 
@@ -224,10 +248,12 @@ class ReferenceSearch {
   static constexpr double phases_share = 1.0 / 3.0;                  // of the time
   // Errors of the balances from which the phases are sought, and sizes of those before them.
   static constexpr double coarse_guide = 1e-2, fine_guide = 1e-3, finest_guide = 1e-4;
-  static constexpr std::array rigid_starts{15, 31, 63};
+  static constexpr std::array rigid_sizes{15, 31, 63}, start_sizes{31, 63, 127, 255};
+  static constexpr int few_contacts = 6;
 
   Scene scene_;
   const StructureModel& model_;
+  const StartMotion& start_motion_;
   double seconds_;
   double allowed_ = 0.0;
   double tolerance_ = 0.0, level_began_ = 0.0, level_seconds_ = 0.0;  // of the refinement under way
@@ -242,8 +268,8 @@ class ReferenceSearch {
 }  // namespace
 
 Reference find_reference(const Scene& scene, const StructureModel& model, int points, double seconds,
-                         const solvers::Observer& observer) {
-  return ReferenceSearch(scene, model, points, seconds, observer).find();
+                         const solvers::Observer& observer, const StartMotion& start) {
+  return ReferenceSearch(scene, model, points, seconds, observer, start).find();
 }
 
 }  // namespace wavebalance::app

@@ -136,15 +136,17 @@ class SizeSeries {
 
   bool goes_on() const { return solvers::goes_on(options_.observer, {phase_}); }
 
-  solvers::PeriodicResponse solve(solvers::ContactProblem& problem) const {
+  solvers::PeriodicResponse solve(solvers::ContactProblem& problem,
+                                  const solvers::ResponseStart& start) const {
     problem.condensed().forget_condensation();
     solvers::ForcedResponseOptions options;
     options.form = measured_.scene.contact.form;
+    options.stay_near_guess = start.displacement.size() > 0;
     // Ends a solve that takes too long; it has not converged then.
-    options.observer = [&, start = processor_seconds()](const solvers::Progress&) {
-      return processor_seconds() - start < max_seconds_ && goes_on();
+    options.observer = [&, begin = processor_seconds()](const solvers::Progress&) {
+      return processor_seconds() - begin < max_seconds_ && goes_on();
     };
-    return problem.respond(measured_.scene.forcing.frequency, options);
+    return problem.respond(measured_.scene.forcing.frequency, options, start);
   }
 
   void measure(const Scene& scene, SolvePoint& point) const {
@@ -156,9 +158,10 @@ class SizeSeries {
       return;
     }
     solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
+    const solvers::ResponseStart start = response_start(measured_.start, scene);
     solvers::PeriodicResponse response;
     try {
-      point.seconds = least_seconds([&] { response = solve(problem); }, options_.solve);
+      point.seconds = least_seconds([&] { response = solve(problem, start); }, options_.solve);
     } catch (const solvers::SingularSystem&) {
       point.status = "singular";
       return;
@@ -228,6 +231,12 @@ Scene discretised(Scene scene, const BasisPair& pair, int functions, int points)
 
 solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model) {
   return {make_pair(scene.time), model.structure, make_laws(scene)};
+}
+
+solvers::ResponseStart response_start(const StartMotion& start, const Scene& scene) {
+  if (start.contacts.empty()) return {};
+  StartSamples samples = start_samples(start, scene);
+  return {std::move(samples.displacement), std::move(samples.force)};
 }
 
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference) {

@@ -195,7 +195,7 @@ class CurveComparison {
     try {
       const auto observer = [&](const solvers::Progress&) { return goes_on(phase); };
       const Sweep sweep = over_amplitude() ? amplitude_sweep(scene, model_, observer)
-                                           : frequency_sweep(scene, model_, observer);
+                                           : frequency_sweep(scene, model_, observer, options_.start);
       ComparedCurve curve = curve_of(scene, pair, sweep, processor_seconds() - start);
       if (curve.status == "interrupted" && !observer_.stopped()) curve.status = "out_of_time";
       return curve;

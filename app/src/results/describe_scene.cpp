@@ -320,16 +320,10 @@ std::string mode_lines(const Scene& scene) {
       std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1));
 }
 
-std::string duration_text(double seconds) {
-  if (seconds >= 600.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
-}
-
 std::string cost_line(const Scene& scene) {
   const CostEstimate cost = estimate_cost(scene);
-  const std::string time = std::isnan(cost.seconds) ? "" : duration_text(cost.seconds) + " and ";
   const double available = available_memory();
-  return "cost       about " + time + memory_text(cost.bytes) + " of memory" +
+  return "cost       " + cost_text(cost) +
          (cost.bytes > available ? "; MORE THAN the " + memory_text(available) + " that there are" : "") +
          "\n";
 }

@@ -12,7 +12,7 @@ using enum EntryKind;
 
 inline constexpr Quantity converged{"converged", heading}, status{"status", heading},
     analysis{"analysis", heading}, wall_seconds{"wall_seconds", heading, "s"},
-    reduction_seconds{"reduction_seconds", heading, "s"};
+    solve_seconds{"solve_seconds", heading, "s"}, reduction_seconds{"reduction_seconds", heading, "s"};
 
 inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"}, mode{"mode", setting},
     linear_frequency{"linear_frequency_Hz", setting, "Hz", "linear frequency"},

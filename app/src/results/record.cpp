@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -368,6 +369,21 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
   return forced_record(scene, model, how.start, std::move(options));
 }
 
+Record composed_record(const Scene& scene, const AnalysisOptions& how) {
+  if (scene.structure.kept_modes >= 0) goes_on(how.observer, {"reduction of the structure"});
+  StructureModel model = make_model(scene, how.observer);
+  model.threads = how.threads;
+  return record_of(scene, model, how);
+}
+
+/// The time of everything, before that of the solution.
+void insert_wall_seconds(Summary& summary, double seconds) {
+  const auto place = std::find_if(summary.begin(), summary.end(), [](const Entry& entry) {
+    return entry.name == quantities::solve_seconds.name;
+  });
+  summary.insert(place, Entry(quantities::wall_seconds, seconds));
+}
+
 }  // namespace
 
 Record analyse(const Scene& scene, const Observer& observer) {
@@ -375,12 +391,12 @@ Record analyse(const Scene& scene, const Observer& observer) {
 }
 
 Record analyse(const Scene& scene, const AnalysisOptions& how) {
+  const auto start = std::chrono::steady_clock::now();
   require_start_fits(how.start, scene);
-  if (how.model != nullptr) return record_of(scene, *how.model, how);
-  if (scene.structure.kept_modes >= 0) goes_on(how.observer, {"reduction of the structure"});
-  StructureModel model = make_model(scene, how.observer);
-  model.threads = how.threads;
-  return record_of(scene, model, how);
+  Record record = how.model != nullptr ? record_of(scene, *how.model, how) : composed_record(scene, how);
+  insert_wall_seconds(record.summary,
+                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return record;
 }
 
 }  // namespace wavebalance::app

@@ -16,13 +16,13 @@
 namespace wavebalance::app {
 
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
-                         int unknowns, double wall_seconds) {
+                         int unknowns, double solve_seconds) {
   return {{quantities::converged, converged},
           {quantities::status, status},
           {quantities::residual, residual},
           {quantities::iterations, std::int64_t{iterations}},
           {quantities::unknowns, std::int64_t{unknowns}},
-          {quantities::wall_seconds, wall_seconds}};
+          {quantities::solve_seconds, solve_seconds}};
 }
 
 void append_discretisation(Summary& summary, const Time& time) {

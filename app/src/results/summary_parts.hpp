@@ -8,7 +8,7 @@ namespace wavebalance::app {
 
 /// The first entries of every summary.
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
-                         int unknowns, double wall_seconds);
+                         int unknowns, double solve_seconds);
 
 /// Pair of bases, its formulation and its sizes.
 void append_discretisation(Summary& summary, const Time& time);

@@ -7,8 +7,10 @@ namespace wavebalance::app {
 
 /// What `analyse` is expected to take on one core of 2 to 3 GHz.
 struct CostEstimate {
-  double seconds = 0.0;  ///< processor time; NaN where only the solution shows it
-  double bytes = 0.0;    ///< resident memory at its peak
+  double seconds = 0.0;  ///< processor time of a response or a curve; NaN where only the solution shows it
+  /// That of the stability and the structure's own curve beside a curve, at least and at most; zero without.
+  double least_stability_seconds = 0.0, most_stability_seconds = 0.0;
+  double bytes = 0.0;  ///< resident memory at its peak
 };
 
 /// From the sizes of a scene alone: C contacts, M functions, N quadrature points, P output points, n degrees
@@ -17,17 +19,20 @@ struct CostEstimate {
 ///
 ///   bytes = 20e6 + 130 C N + (150 + 32 C^2) M + 8 C^2 N r + 16 a^2 + 16 s^2 + 100 C s
 ///           + (500 + 400 C [C > 1]) P + structure,
-///   seconds = (8e-8 C N log2 N + 2e-8 C^2 M n + 5e-10 a^3) per response + 3e-6 C P + structure,
+///   seconds = (8e-8 C N log2 N + 2e-8 C^2 M n + 5e-10 b^3) per response + 3e-6 C P + structure,
 ///
-/// r the period after which products with the compliance repeat (1 for an odd number of Fourier functions,
-/// otherwise N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The structure takes
-/// 1500 n bytes, and where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction 4e-4 s per degree
-/// of freedom before it. In six scenes from 1 to 24 contacts, up to 2^16 functions and 2^20 points, memory
-/// was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Sweeps with many
-/// contacts take more points, and responses that Newton's method does not find take more time. Sizes that a
-/// tolerance chooses, periods of time stepping and points of a mode are not known: the time is NaN, and
-/// memory that of the structure and the output. With laws of the velocity at 10 to 200 contacts memory was
-/// within a factor of 1.5, too. O(1), but matrices that have not been read are read.
+/// b = min(a, 144), or min(a, 256) for several contacts, the samples up to which LU takes the place of GMRES,
+/// and r the period after which products with the compliance repeat (1 for an odd number of Fourier
+/// functions, otherwise N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The
+/// structure takes 1500 n bytes, and where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction
+/// 4e-4 s per degree of freedom before it. In six scenes from 1 to 24 contacts, up to 2^16 functions and 2^20
+/// points, memory was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Stability
+/// with the structure's own curve took 0.1 to 9 times the time of the curve in ten sweeps of one contact, and
+/// 0.2 to 170 times in four of 3 to 24, as that curve has few phases or many; it is bounded by the operations
+/// that it may take. Responses that Newton's method does not find take more time. Sizes that a tolerance
+/// chooses, periods of time stepping and points of a mode are not known: the time is NaN, and memory that of
+/// the structure and the output. With laws of the velocity at 10 to 200 contacts memory was within a factor
+/// of 1.5, too. O(1), but matrices that have not been read are read.
 CostEstimate estimate_cost(const Scene& scene);
 
 /// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes
@@ -40,6 +45,9 @@ double available_memory();
 
 /// "3.2 GB", "15 MB"
 std::string memory_text(double bytes);
+
+/// "about 0.2 s for the curve, 0.02 s to 2 s for its stability, and 21 MB of memory"
+std::string cost_text(const CostEstimate& cost);
 
 /// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than
 /// `max_gigabytes` where that is positive, before any is allocated.

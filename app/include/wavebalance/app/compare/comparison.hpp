@@ -22,7 +22,8 @@ struct ComparisonOptions {
   std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
   /// Which error decides; empty: both where that of the force is defined, else that of the displacement.
   std::optional<ErrorMeasure> measure = {};
-  int threads = 0;  ///< that solve pairs side by side; 0: one per core
+  int threads = 0;         ///< that solve pairs side by side; 0: one per core
+  StartMotion start = {};  ///< near which the reference and a sweep begin; empty: as a run without a start
 };
 
 /// How a pair did in all its sizes.
@@ -44,6 +45,9 @@ struct PairResult {
 struct Comparison {
   bool interrupted = false;
   Reference reference;
+  /// Whether each solve begins with the motion of the reference: with a start, and where Newton's method from
+  /// the response without contact does not lead to it.
+  bool from_reference = false;
   ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
   std::string
       without_force;  ///< why the force is left out, a phrase; empty where it decides or was not asked for
@@ -64,9 +68,9 @@ struct Comparison {
 };
 
 /// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
-/// the budget is not positive, the threads are negative, an error is named for a sweep, or the scene is none
-/// to be compared: forced responses, frequency and amplitude sweeps over one period of the load are.
-/// O(pairs).
+/// the budget is not positive, the threads are negative, an error is named for a sweep, the scene cannot
+/// begin with the start, or it is none to be compared: forced responses, frequency and amplitude sweeps over
+/// one period of the load are. O(pairs).
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and

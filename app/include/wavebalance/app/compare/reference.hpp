@@ -2,6 +2,7 @@
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compare/error_measure.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
@@ -24,6 +25,9 @@ struct Reference {
   /// Why contact phases are not the reference, a phrase; empty where they are, and where contact never
   /// closes.
   std::string without_phases;
+  /// Whether Newton's method from the response without contact leads to it. If not, a solve from there does
+  /// other work than that of its size.
+  bool reached_directly = true;
   double wall_seconds = 0.0;
 
   double error_by(ErrorMeasure measure) const { return weighed_error(measure, error, force_error); }
@@ -45,9 +49,13 @@ struct Reference {
 ///
 /// The balance is refined to tolerances of 1e-2 to 1e-8 until `seconds` are used; the error of its
 /// displacements is that which the refinement estimates, that of its forces the distance of the last two
-/// levels. An observer that returns false leaves the reference not converged, with the status "interrupted".
-/// Throws what weighted_residual_response() throws.
+/// levels.
+///
+/// With a start the balances begin with it in place of the response without contact, and have 31 to 255
+/// functions; the error of each is its distance from the one before. An observer that returns false leaves
+/// the reference not converged, with the status "interrupted". Throws what weighted_residual_response()
+/// throws.
 Reference find_reference(const Scene& scene, const StructureModel& model, int points, double seconds,
-                         const solvers::Observer& observer = {});
+                         const solvers::Observer& observer = {}, const StartMotion& start = {});
 
 }  // namespace wavebalance::app

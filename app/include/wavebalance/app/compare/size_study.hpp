@@ -2,6 +2,7 @@
 #include <functional>
 #include <vector>
 
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compare/error_measure.hpp"
 #include "wavebalance/app/compare/solve_point.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
@@ -20,6 +21,7 @@ struct MeasuredScene {
   /// Displacements and forces of all contacts at uniform points; no forces where they are not compared.
   solvers::Motion reference;
   ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
+  StartMotion start = {};                             ///< of each solve; empty: the response without contact
 };
 
 /// Which sizes are solved and how each is timed.
@@ -58,6 +60,9 @@ Scene discretised(Scene scene, const BasisPair& pair, int functions, int points)
 
 /// The problem before its condensation, which is part of a solve.
 solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model);
+
+/// The samples of a start in a scene's sizes, and whether a solve stays near them; an empty motion has none.
+solvers::ResponseStart response_start(const StartMotion& start, const Scene& scene);
 
 /// Relative rms errors of all contacts together; NaN where the reference is zero or missing.
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference);
