@@ -118,7 +118,7 @@ endfunction()
 function(wavebalance_install_pages)
   file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/*/*.md
     ${PROJECT_SOURCE_DIR}/reproduce/*/README.md ${PROJECT_SOURCE_DIR}/reproduce/*/modes/README.md)
-  foreach(page IN LISTS pages ITEMS CITATION.cff reproduce/picture.png)
+  foreach(page IN LISTS pages ITEMS CITATION.cff reproduce/picture.png reproduce/speed.png)
     get_filename_component(folder ${page} DIRECTORY)
     install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
   endforeach()

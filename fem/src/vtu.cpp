@@ -1,5 +1,6 @@
 #include "wavebalance/fem/vtu.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -90,11 +91,10 @@ class Arrays {
   std::string appended_;
 };
 
-void validate(const SolidMesh& mesh, std::span<const PointField> fields) {
-  mesh.validate();
+void validate(Eigen::Index nodes, std::span<const PointField> fields) {
   for (const PointField& field : fields) {
     detail::require(!field.name.empty(), "write_vtu", "a field has no name");
-    const Eigen::Index rows = field.values.rows(), columns = field.values.cols(), nodes = mesh.nodes.cols();
+    const Eigen::Index rows = field.values.rows(), columns = field.values.cols();
     if (columns != nodes)
       detail::reject_value("write_vtu", "the number of columns of the field " + field.name,
                            static_cast<double>(columns), "that of the nodes, " + std::to_string(nodes));
@@ -106,14 +106,14 @@ void validate(const SolidMesh& mesh, std::span<const PointField> fields) {
   }
 }
 
-void write_cells(Arrays& arrays, const SolidMesh& mesh) {
-  const Eigen::Index count = mesh.elements.cols();
-  Eigen::Matrix<std::int64_t, 1, Eigen::Dynamic> offsets(count);
-  for (Eigen::Index i = 0; i < count; ++i) offsets[i] = (i + 1) * mesh.elements.rows();
-  const int type = mesh.element == SolidElement::hexahedron8 ? linear_hexahedron : quadratic_hexahedron;
-  arrays.write<std::int64_t>("Name=\"connectivity\"", "Int64", mesh.elements);
-  arrays.write<std::int64_t>("Name=\"offsets\"", "Int64", offsets);
-  arrays.write<std::uint8_t>("Name=\"types\"", "UInt8", Eigen::RowVectorXi::Constant(count, type));
+Eigen::Map<const Eigen::RowVectorXi> as_row(const std::vector<int>& numbers) {
+  return {numbers.data(), std::ssize(numbers)};
+}
+
+void write_cells(Arrays& arrays, const Mesh& mesh) {
+  arrays.write<std::int64_t>("Name=\"connectivity\"", "Int64", as_row(mesh.connectivity));
+  arrays.write<std::int64_t>("Name=\"offsets\"", "Int64", as_row(mesh.cell_ends));
+  arrays.write<std::uint8_t>("Name=\"types\"", "UInt8", as_row(mesh.cell_types));
 }
 
 std::string file_open_tag(const char* type) {
@@ -136,19 +136,47 @@ void close(std::ofstream& output, const std::filesystem::path& file) {
 
 }  // namespace
 
+void Mesh::validate() const {
+  detail::require(cell_types.size() == cell_ends.size(), "Mesh", "there are not as many types as cells");
+  detail::require(std::is_sorted(cell_ends.begin(), cell_ends.end()) &&
+                      (cell_ends.empty() ? 0 : cell_ends.back()) == std::ssize(connectivity),
+                  "Mesh", "the ends of the cells do not fit their points");
+  for (const int point : connectivity)
+    if (point < 0 || point >= points.cols())
+      detail::reject_value("Mesh", "a point of a cell", point, "in 0.." + std::to_string(points.cols() - 1));
+  detail::require(points.allFinite(), "Mesh", "a coordinate is not finite");
+}
+
+Mesh mesh_of(const SolidMesh& solid) {
+  solid.validate();
+  const int type = solid.element == SolidElement::hexahedron8 ? linear_hexahedron : quadratic_hexahedron;
+  const int each = static_cast<int>(solid.elements.rows());
+  Mesh mesh{solid.nodes, {}, {}, {solid.elements.data(), solid.elements.data() + solid.elements.size()}};
+  for (int i = 0; i < solid.elements.cols(); ++i) {
+    mesh.cell_types.push_back(type);
+    mesh.cell_ends.push_back((i + 1) * each);
+  }
+  return mesh;
+}
+
 void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const PointField> fields,
                VtuFormat format) {
-  validate(mesh, fields);
+  write_vtu(output, mesh_of(mesh), fields, format);
+}
+
+void write_vtu(std::ostream& output, const Mesh& mesh, std::span<const PointField> fields, VtuFormat format) {
+  mesh.validate();
+  validate(mesh.points.cols(), fields);
   const auto precision = output.precision();
   Arrays arrays(output, format);
   output << file_open_tag("UnstructuredGrid") << "<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-         << mesh.nodes.cols() << "\" NumberOfCells=\"" << mesh.elements.cols() << "\">\n<PointData>\n";
+         << mesh.points.cols() << "\" NumberOfCells=\"" << mesh.cell_types.size() << "\">\n<PointData>\n";
   for (const PointField& field : fields)
     arrays.write<double>("Name=\"" + escaped(field.name) + "\" NumberOfComponents=\"" +
                              std::to_string(field.values.rows()) + "\"",
                          "Float64", field.values, 9);
   output << "</PointData>\n<Points>\n";
-  arrays.write<double>("Name=\"points\" NumberOfComponents=\"3\"", "Float64", mesh.nodes, 17);
+  arrays.write<double>("Name=\"points\" NumberOfComponents=\"3\"", "Float64", mesh.points, 17);
   output << "</Points>\n<Cells>\n";
   write_cells(arrays, mesh);
   output << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
@@ -160,7 +188,8 @@ void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const Poin
 
 void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,
                VtuFormat format) {
-  validate(mesh, fields);
+  mesh.validate();
+  validate(mesh.nodes.cols(), fields);
   std::ofstream output = open_output(file);
   write_vtu(output, mesh, fields, format);
   close(output, file);

@@ -9,6 +9,7 @@
 
 #include "compose/load_places.hpp"
 #include "compose/massless_rows.hpp"
+#include "compose/moved_mesh.hpp"
 #include "compose/symmetric_part.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -175,6 +176,7 @@ StructureFiles named_files(const Scene& scene) {
   files.paths = {structure.mass, structure.stiffness, structure.damping, scene.forcing.load,
                  structure.dof_map};
   files.term_paths = term_paths(scene);
+  files.mesh_path = structure.mesh;
   files.moving = moving_rows(scene);
   files.unsymmetric = structure.unsymmetric;
   files.free = structure.free;
@@ -183,8 +185,8 @@ StructureFiles named_files(const Scene& scene) {
 }
 
 bool same_names(const StructureFiles& a, const StructureFiles& b) {
-  return a.paths == b.paths && a.term_paths == b.term_paths && a.moving == b.moving &&
-         a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
+  return a.paths == b.paths && a.term_paths == b.term_paths && a.mesh_path == b.mesh_path &&
+         a.moving == b.moving && a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
 }
 
 StructureFiles read_files(StructureFiles files) {
@@ -208,6 +210,7 @@ StructureFiles read_files(StructureFiles files) {
   check_matrices(files);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
   read_loads(files, size);
+  if (!files.mesh_path.empty()) files.mesh = moved_mesh(files.mesh_path, files);
   return files;
 }
 

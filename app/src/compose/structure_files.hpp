@@ -14,6 +14,8 @@
 
 namespace wavebalance::app {
 
+struct MovedMesh;
+
 /// The files of a structure of matrices, read and checked.
 struct StructureFiles {
   std::array<std::string, 5> paths;  ///< files of mass, stiffness, damping, load and dof map; empty: none
@@ -27,11 +29,13 @@ struct StructureFiles {
   std::vector<std::string> term_paths;      ///< of each term of the forcing, its file of a load; empty: none
   std::vector<Eigen::VectorXd> term_loads;  ///< likewise, n each, or 0
   std::optional<fem::DofMap> dof_map;
-  std::optional<int> internal_from;  ///< fem::first_internal_node()
-  bool damping_adds_energy = false;  ///< it is not positive semidefinite
-  bool unsymmetric = false;          ///< damping and stiffness were allowed to be
-  bool free = false;                 ///< the stiffness was allowed to be singular
-  bool reduced = false;              ///< the mass was allowed to be semidefinite, for kept modes
+  std::string mesh_path;                  ///< file of the mesh; empty: none
+  std::shared_ptr<const MovedMesh> mesh;  ///< null without
+  std::optional<int> internal_from;       ///< fem::first_internal_node()
+  bool damping_adds_energy = false;       ///< it is not positive semidefinite
+  bool unsymmetric = false;               ///< damping and stiffness were allowed to be
+  bool free = false;                      ///< the stiffness was allowed to be singular
+  bool reduced = false;                   ///< the mass was allowed to be semidefinite, for kept modes
 
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;

@@ -248,6 +248,7 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
   StructureModel model;
   model.warnings = warnings_of(*files);
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
+  model.mesh = files->mesh;
   fem::Matrices matrices = files->matrices;
   if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
   const Eigen::VectorXd unit = unit_load(scene, *files);

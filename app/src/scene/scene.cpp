@@ -86,8 +86,8 @@ void add_files(std::vector<std::string>& files, const contact::LawValues& values
 
 std::vector<std::string> input_files(const Scene& scene) {
   const MatricesStructure& matrices = scene.structure.matrices;
-  std::vector<std::string> files{matrices.mass, matrices.stiffness, matrices.damping, matrices.dof_map,
-                                 scene.forcing.load};
+  std::vector<std::string> files{matrices.mass,    matrices.stiffness, matrices.damping,
+                                 matrices.dof_map, matrices.mesh,      scene.forcing.load};
   add_files(files, scene.contact.values);
   for (const ForcingTerm& term : scene.forcing.terms) files.insert(files.end(), {term.samples, term.load});
   for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);

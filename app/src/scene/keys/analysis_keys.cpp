@@ -186,7 +186,8 @@ SceneValue default_motion_points(const Scene& scene) {
   const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
                      scene.analysis.type == AnalysisType::amplitude_sweep;
   const bool motion = !sweep || !scene.analysis.motion_at.empty();
-  return std::int64_t{scene.structure.type == StructureType::blade && motion ? 32 : 0};
+  const bool meshed = scene.structure.type == StructureType::blade || !scene.structure.matrices.mesh.empty();
+  return std::int64_t{meshed && motion ? 32 : 0};
 }
 
 }  // namespace
@@ -203,14 +204,16 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       "and those at frequencies, of an amplitude sweep at amplitudes, solved for there, each time that "
       "the curve passes one; [\"peak\", 150.0] is an example",
       positive, optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"})));
-  analysis(&Analysis::motion_points, "motion_points", "",
-           "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
-           "for ParaView, matrices to motion.mtx, a column an instant; of a sweep the motions of motion_at",
-           within(0, 9999),
-           derived("32 for a blade, 0 for matrices and where there is no motion", default_motion_points),
-           only_with(structure_is({"blade", "matrices"}) &&
-                     analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "motions",
-                                  "nonlinear_mode"})));
+  analysis(
+      &Analysis::motion_points, "motion_points", "",
+      "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
+      "for ParaView, matrices to motion.mtx, a column an instant, with a mesh also for ParaView; of a sweep the motions of motion_at",
+      within(0, 9999),
+      derived("32 for a blade and with a mesh, 0 without and where there is no motion",
+              default_motion_points),
+      only_with(structure_is({"blade", "matrices"}) &&
+                analysis_is(
+                    {"forced_response", "frequency_sweep", "amplitude_sweep", "motions", "nonlinear_mode"})));
   analysis(
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "

@@ -60,6 +60,11 @@ void add_matrices(std::vector<SceneKey>& keys) {
       "columns node, direction (x, y, z, rx, ry, rz or 1..6) and, unless in the order of the rows, row",
       path, optional);
   matrices(
+      &MatricesStructure::mesh, "mesh", "",
+      "nodes and elements, the input file of CalculiX or Abaqus: motions of the whole structure are also written for "
+      "ParaView; with a dof_map",
+      path, optional);
+  matrices(
       &MatricesStructure::contact_dofs, "contact_dofs", "",
       "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
       "with its obstacle on the negative side; with dof_map also \"-node 1042 z\"; or else [[contact.pairs]]",

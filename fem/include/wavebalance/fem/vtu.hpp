@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/fem/solid.hpp"
+#include "wavebalance/fem/mesh.hpp"
 
 namespace wavebalance::fem {
 
@@ -23,10 +23,12 @@ enum class VtuFormat {
   appended_base64  ///< doubles, after the XML tree; half the size and exact
 };
 
-/// Writes an unstructured grid of quadratic (25) or linear (12) hexahedra with point data, as ParaView and
-/// VTK read it. O(size). Throws std::invalid_argument if the mesh is not valid, or if a field does not
-/// have one column per node and 1 to 9 rows, has an entry that is not finite or an empty name;
+/// Writes an unstructured grid with point data, as ParaView and VTK read it; solids have quadratic (25) or
+/// linear (12) hexahedra. O(size). Throws std::invalid_argument if the mesh is not valid, or if a field does
+/// not have one column per node and 1 to 9 rows, has an entry that is not finite or an empty name;
 /// std::runtime_error if writing fails.
+void write_vtu(std::ostream& output, const Mesh& mesh, std::span<const PointField> fields,
+               VtuFormat format = VtuFormat::appended_base64);
 void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const PointField> fields,
                VtuFormat format = VtuFormat::appended_base64);
 void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -10,11 +11,19 @@
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
+#include "wavebalance/fem/mesh.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/problem/structure_dynamics.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
+
+/// The mesh of a structure of matrices and how it moves.
+struct MovedMesh {
+  fem::Mesh mesh;
+  /// 3 nodes x unknowns: displacements of the nodes, x, y and z of each, from those of the structure.
+  Eigen::SparseMatrix<double> displacements;
+};
 
 /// A scene's structure, composed once: the structure that is solved, and the way back to the whole structure.
 /// Immutable once it is used.
@@ -30,7 +39,8 @@ struct StructureModel {
   double frequency_change = std::numeric_limits<double>::quiet_NaN();
   /// unknowns x r: displacements from the coordinates of the reduced structure; 0 x 0: they are equal.
   Eigen::MatrixXd recovery;
-  std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for structures without one
+  std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for other structures
+  std::shared_ptr<const MovedMesh> mesh;    ///< of structure.mesh; null without
   /// How many threads condense problems that are made of it, as CondensedProblem::set_threads() takes them.
   int threads = 0;
   /// The dynamics of `structure`, for all runs that share the model.

@@ -71,6 +71,7 @@ struct MatricesStructure {
   std::string stiffness = {};          ///< likewise, N/m
   std::string damping = {};            ///< likewise, N s/m; or empty
   std::string dof_map = {};            ///< file that names the n rows by nodes [fem::read_dof_map]; or empty
+  std::string mesh = {};               ///< file of the nodes and elements [fem::read_mesh]; or empty
   bool unsymmetric = false;            ///< damping and stiffness may be unsymmetric
   bool free = false;                   ///< the structure is free to move
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side

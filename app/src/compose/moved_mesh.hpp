@@ -1,0 +1,15 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "compose/structure_files.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+
+namespace wavebalance::app {
+
+/// The mesh in a file, whose nodes move with the rows that the dof map gives them; those of no row stay where
+/// they are. Rows of one name, as those of shells that a code has expanded to solids, count with their mean.
+/// Throws StructureFault without a map, and where none of its nodes is in the mesh.
+std::shared_ptr<const MovedMesh> moved_mesh(const std::string& path, const StructureFiles& files);
+
+}  // namespace wavebalance::app
