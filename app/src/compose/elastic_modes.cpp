@@ -11,7 +11,7 @@ bool is_damped_mode(const Scene& scene) {
 bool is_elastic_mode(const Scene& scene) {
   const std::string& law = scene.contact.law;
   return !is_damped_mode(scene) && scene.analysis.type == AnalysisType::nonlinear_mode && law != no_law &&
-         !is_damped(law) && !acts_on_both_sides(law) && (!is_rigid(law) || redistributes_mass(scene));
+         !is_damped(law) && (!is_rigid(law) || redistributes_mass(scene));
 }
 
 Time mode_time(const Scene& scene) {

@@ -66,16 +66,13 @@ void check_form(const Document& document, const Scene& scene) {
       "\"automatic\" or \"displacement\"");
 }
 
-/// A nonlinear mode is a free motion that begins where a contact touches.
+/// A nonlinear mode is a free motion, which keeps its energy.
 void check_law_of_mode(const Document& document, const std::string& law) {
-  const std::string expected = "; expected " + alternatives(laws_of_modes());
   if (is_damped(law))
     fail_rule(document, {"contact.law"},
               "not with a nonlinear mode: the law \"" + law +
-                  "\" takes energy from a free motion, which is then not periodic" + expected);
-  if (acts_on_both_sides(law))
-    fail_rule(document, {"contact.law"},
-              "not with a nonlinear mode, which begins where a contact touches" + expected);
+                  "\" takes energy from a free motion, which is then not periodic; expected " +
+                  alternatives(laws_of_modes()));
 }
 
 /// Phases of friction are those of one tangent, of all contacts.

@@ -45,6 +45,26 @@ void check_mode_pair(const Document& document, const Scene& scene, bool damped) 
   }
 }
 
+/// The lengths that energies refer to.
+void check_lengths_of_mode(const Document& document, const Scene& scene) {
+  const double length = scene.analysis.reference_length;
+  bool gaps_alone = true;
+  for (const SceneContact& contact : contacts_of(scene)) {
+    gaps_alone = gaps_alone && has_gap(contact.law);
+    if (has_gap(contact.law) && !(contact.gap > 0.0))
+      fail_rule(document,
+                {contact.pair ? pair_section(*contact.pair) + ".gap" : "contact.gap", "contact.gap"},
+                "expected a number in m, > 0 for a nonlinear mode");
+    if (!has_gap(contact.law) && !(length > 0.0))
+      fail_rule(document, {"analysis.reference_length", "contact.law"},
+                "the law \"" + contact.law +
+                    "\" has no gap; expected a number in m, > 0, the displacement that energies refer to");
+  }
+  if (gaps_alone && length > 0.0)
+    fail_rule(document, {"analysis.reference_length"},
+              "all laws have gaps, which energies refer to; expected none");
+}
+
 /// A mode with friction: its curve is one over the amplitude.
 void check_damped_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
@@ -79,11 +99,7 @@ void check_mode(const Document& document, const Scene& scene) {
   if (scene.contact.law == no_law)
     fail_rule(document, {"contact.law"},
               "expected " + alternatives(laws_of_modes()) + " for a nonlinear mode");
-  for (const SceneContact& contact : contacts_of(scene))
-    if (!damped && !(contact.gap > 0.0))
-      fail_rule(document,
-                {contact.pair ? pair_section(*contact.pair) + ".gap" : "contact.gap", "contact.gap"},
-                "expected a number in m, > 0 for a nonlinear mode");
+  if (!damped) check_lengths_of_mode(document, scene);
   if (analysis.mode > reduced_size(scene))
     fail_rule(document, {"analysis.mode"},
               "expected at most " + std::to_string(reduced_size(scene)) + ", " + size_text(scene));

@@ -310,7 +310,11 @@ void set_gaps(StructureModel& model, const Scene& scene) {
                                 " contacts; there must be as many as the structure has, " +
                                 std::to_string(contacts));
   model.gaps.resize(contacts);
-  for (int contact = 0; contact < contacts; ++contact) model.gaps[contact] = all[std::size_t(contact)].gap;
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  for (int i = 0; i < contacts; ++i) {
+    const SceneContact& contact = all[std::size_t(i)];
+    model.gaps[i] = mode && !has_gap(contact.law) ? scene.analysis.reference_length : contact.gap;
+  }
 }
 
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {

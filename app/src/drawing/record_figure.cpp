@@ -254,7 +254,9 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
-  panel.x.label = "Energy over that of linear grazing";
+  panel.x.label = scene.analysis.reference_length > 0.0
+                      ? "Energy over that of the linear mode at the reference length"
+                      : "Energy over that of linear grazing";
   panel.x.lower = 0.0;
   panel.x.upper = shown_energy(column("energy_ratio", false), scene.analysis.largest_energy);
   panel.y.label = "Frequency over the linear one";

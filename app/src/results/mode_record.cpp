@@ -132,7 +132,8 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
 }
 
 void append_quality(Summary& summary, double penetration, double min_force, double virial_residual) {
-  summary.emplace_back(quantities::max_penetration_over_gap, std::max(0.0, penetration));
+  summary.emplace_back(quantities::max_penetration_over_gap,
+                       std::isnan(penetration) ? missing : std::max(0.0, penetration));
   summary.emplace_back(quantities::min_contact_force, min_force);
   summary.emplace_back(quantities::virial_residual, virial_residual);
 }
@@ -149,7 +150,9 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   append_discretisation(record.summary, study);
   append_statuses(record.summary, curve);
   warn_of_failed_points(record, curve);
-  append_quality(record.summary, largest(curve, [](const auto& point) { return point.max_penetration; }),
+  const bool gapless = study.scene().analysis.reference_length > 0.0;
+  append_quality(record.summary,
+                 gapless ? missing : largest(curve, [](const auto& point) { return point.max_penetration; }),
                  -largest(curve, [](const auto& point) { return -point.min_force; }),
                  largest(curve, [](const auto& point) { return point.virial_residual; }));
   record.summary.emplace_back(quantities::largest_energy_ratio,
@@ -210,8 +213,9 @@ Record motion_record(const ModeStudy& study) {
         "curve of the mode goes along it, and no motion off the resonance was found beyond.",
         resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share));
   }
-  append_quality(record.summary, moves ? point.max_penetration : missing, moves ? point.min_force : missing,
-                 moves ? point.virial_residual : missing);
+  const bool gapless = scene.analysis.reference_length > 0.0;
+  append_quality(record.summary, moves && !gapless ? point.max_penetration : missing,
+                 moves ? point.min_force : missing, moves ? point.virial_residual : missing);
   if (!moves) return record;
   append_stability(record, study, point);
   record.response = response_table(response.leading());

@@ -141,6 +141,10 @@ void add_mode(std::vector<SceneKey>& keys) {
                 return each * scene.analysis.harmonics;
               }));
   mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
+  mode(
+      &Analysis::reference_length, "reference_length", "m",
+      "of laws without a gap, the displacement at which the linear mode has the energy that others are told by",
+      not_negative, optional);
   mode(&Analysis::energy_ratio, "energy_ratio", "",
        "the one motion of this energy, over that of the linear mode that just touches; 0 for the curve",
        not_negative, optional);

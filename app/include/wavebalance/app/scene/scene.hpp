@@ -286,12 +286,13 @@ struct Analysis {
   int seed = 20140817;     ///< motions: of these states
   int longest_period = 4;  ///< motions: periods of the load after which a motion may repeat
 
-  int mode = 1;                       ///< nonlinear_mode: the linear mode that is continued, from 1
-  int harmonics = 10;                 ///< nonlinear_mode: N of the Fourier series
-  int samples = 0;                    ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
-  bool cosine_only = false;           ///< nonlinear_mode: motions that are even in time only
-  double energy_ratio = 0.0;          ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
-  double largest_energy = 10.0;       ///< nonlinear_mode: energy ratio at which the curve ends
+  int mode = 1;                   ///< nonlinear_mode: the linear mode that is continued, from 1
+  int harmonics = 10;             ///< nonlinear_mode: N of the Fourier series
+  int samples = 0;                ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
+  bool cosine_only = false;       ///< nonlinear_mode: motions that are even in time only
+  double reference_length = 0.0;  ///< nonlinear_mode: m, in place of the gap of a law that has none; 0: none
+  double energy_ratio = 0.0;      ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
+  double largest_energy = 10.0;   ///< nonlinear_mode: energy ratio at which the curve ends
   double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
   int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
   /// nonlinear_mode with friction, of the amplitude over that at which a contact first slips: the one motion
