@@ -62,7 +62,7 @@ def record_backbone(columns: dict[str, Any], ax: Any = None) -> Any:
     ax = axes(ax)
     if "amplitude_ratio" in columns:
         ax.semilogx(columns["amplitude_ratio"], columns["damping_ratio"])
-        ax.set_xlabel("Amplitude over that of first slip")
+        ax.set_xlabel("Amplitude over that at which a contact first acts")
         ax.set_ylabel("Damping ratio")
         return ax
     ax.semilogx(columns["energy_ratio"], columns["frequency_ratio"])

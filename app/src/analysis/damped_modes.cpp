@@ -20,10 +20,10 @@ double amplitude_of_slip(const solvers::DampedMode& mode) {
   if (std::isfinite(amplitude) && amplitude > 0.0) return amplitude;
   throw std::invalid_argument(
       amplitude > 0.0
-          ? "analysis.type = \"nonlinear_mode\": no contact slips in that mode at any amplitude; expected another "
-            "mode, which moves one along its tangent"
+          ? "analysis.type = \"nonlinear_mode\": no contact slips, opens or closes in that mode at any amplitude; expected "
+            "another mode, which moves one along its direction"
           : "analysis.type = \"nonlinear_mode\": a contact is not linear at any amplitude, so that there is none at which it "
-            "begins to slip; expected a static state in which contacts stick, and no law beside friction that is nonlinear "
+            "begins to act; expected a static state in which contacts stick, gaps above 0, and no law that is nonlinear "
             "from rest on");
 }
 
@@ -73,18 +73,28 @@ solvers::Motion DampedStudy::contact_motion(const solvers::DampedPoint& point) c
 }
 
 Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve) {
-  Table table({"amplitude_ratio", "amplitude_m", "frequency_Hz", "frequency_ratio", "damping_ratio",
-               "friction_work_J", "stick_fraction", "slip_fraction", "open_fraction", "status", "residual",
-               "max_displacement_m", "min_displacement_m", "rms_displacement_m", "max_abs_displacement_m"});
+  const bool rubs = has_friction(study.scene());
+  std::vector<std::string> columns{"amplitude_ratio", "amplitude_m", "frequency_Hz", "frequency_ratio",
+                                   "damping_ratio"};
+  if (rubs)
+    columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
+  columns.insert(columns.end(), {"status", "residual", "max_displacement_m", "min_displacement_m",
+                                 "rms_displacement_m", "max_abs_displacement_m"});
+  Table table(columns);
   for (const solvers::DampedPoint& point : curve.points) {
-    const solvers::Motion contacts{point.displacement, {}, point.force};
-    const FrictionShares shares = friction_shares(friction_measures(study.scene(), contacts));
     const Eigen::MatrixXd& u = point.displacement;
-    table.append_row({point.amplitude / study.slip_amplitude(), point.amplitude,
-                      point.omega / (2.0 * std::numbers::pi), point.omega / study.mode().linear_omega(),
-                      point.damping_ratio(), shares.work, shares.stick, shares.slip, shares.open,
-                      std::string("converged"), point.residual, u.maxCoeff(), u.minCoeff(),
-                      u.rowwise().norm().maxCoeff() / std::sqrt(double(u.cols())), u.cwiseAbs().maxCoeff()});
+    std::vector<Cell> row{point.amplitude / study.slip_amplitude(), point.amplitude,
+                          point.omega / (2.0 * std::numbers::pi), point.omega / study.mode().linear_omega(),
+                          point.damping_ratio()};
+    if (rubs) {
+      const solvers::Motion contacts{point.displacement, {}, point.force};
+      const FrictionShares shares = friction_shares(friction_measures(study.scene(), contacts));
+      row.insert(row.end(), {shares.work, shares.stick, shares.slip, shares.open});
+    }
+    row.insert(row.end(),
+               {std::string("converged"), point.residual, u.maxCoeff(), u.minCoeff(),
+                u.rowwise().norm().maxCoeff() / std::sqrt(double(u.cols())), u.cwiseAbs().maxCoeff()});
+    table.append_row(std::move(row));
   }
   return table;
 }

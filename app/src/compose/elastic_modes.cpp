@@ -5,13 +5,14 @@
 namespace wavebalance::app {
 
 bool is_damped_mode(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::nonlinear_mode && names_friction(scene.contact);
+  return scene.analysis.type == AnalysisType::nonlinear_mode &&
+         (names_friction(scene.contact) || names_damper(scene.contact));
 }
 
 bool is_elastic_mode(const Scene& scene) {
   const std::string& law = scene.contact.law;
   return !is_damped_mode(scene) && scene.analysis.type == AnalysisType::nonlinear_mode && law != no_law &&
-         !is_damped(law) && (!is_rigid(law) || redistributes_mass(scene));
+         (!is_rigid(law) || redistributes_mass(scene));
 }
 
 Time mode_time(const Scene& scene) {

@@ -66,15 +66,6 @@ void check_form(const Document& document, const Scene& scene) {
       "\"automatic\" or \"displacement\"");
 }
 
-/// A nonlinear mode is a free motion, which keeps its energy.
-void check_law_of_mode(const Document& document, const std::string& law) {
-  if (is_damped(law))
-    fail_rule(document, {"contact.law"},
-              "not with a nonlinear mode: the law \"" + law +
-                  "\" takes energy from a free motion, which is then not periodic; expected " +
-                  alternatives(laws_of_modes()));
-}
-
 /// Phases of friction are those of one tangent, of all contacts.
 void check_friction_phases(const Document& document, const Scene& scene) {
   const bool shoots = scene.analysis.type == AnalysisType::shooting;
@@ -175,11 +166,8 @@ void check_laws(const Document& document, const Scene& scene) {
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
   check_rigid_friction(document, scene);
   check_laws_exist(document, contacts);
-  for (const SceneContact& contact : contacts) {
-    if (scene.analysis.type == AnalysisType::nonlinear_mode && !has_friction(scene))
-      check_law_of_mode(document, contact.law);
+  for (const SceneContact& contact : contacts)
     if (is_damped(contact.law)) check_velocity(document, scene, contact.law);
-  }
   check_form(document, scene);
 }
 

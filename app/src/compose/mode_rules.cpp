@@ -65,12 +65,12 @@ void check_lengths_of_mode(const Document& document, const Scene& scene) {
               "all laws have gaps, which energies refer to; expected none");
 }
 
-/// A mode with friction: its curve is one over the amplitude.
+/// A mode with friction or dampers: its curve is one over the amplitude.
 void check_damped_mode(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const Analysis usual;
   const auto refuse = [&](bool given, const char* key, const std::string& what) {
-    if (given) fail_rule(document, {key, "contact.law"}, "not with friction, " + what);
+    if (given) fail_rule(document, {key, "contact.law"}, "not with friction or dampers, " + what);
   };
   const std::string ends =
       "of which the curve is one over the amplitude; expected none, or largest_amplitude";
@@ -92,7 +92,7 @@ void check_mode(const Document& document, const Scene& scene) {
     if (given)
       fail_rule(
           document, {key, "contact.law"},
-          "a mode without friction has no amplitude of first slip; expected none, or law = \"coulomb\"");
+          "the motions of a mode without friction and dampers are told by energy; expected none, or analysis.energy_ratio");
   };
   refuse(!damped && analysis.amplitude_ratio > 0.0, "analysis.amplitude_ratio");
   refuse(!damped && analysis.largest_amplitude != Analysis().largest_amplitude, "analysis.largest_amplitude");

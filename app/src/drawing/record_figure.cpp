@@ -279,7 +279,8 @@ Figure damped_figure(const Scene& scene, const Table& backbone) {
   for (const auto& [column, label] :
        {std::pair{"frequency_Hz", "Frequency (Hz)"}, {"damping_ratio", "Damping ratio"}}) {
     Panel& panel = figure.add_panel();
-    panel.x.label = "Amplitude over that of first slip";
+    panel.x.label =
+        has_friction(scene) ? "Amplitude over that of first slip" : "Amplitude over that of first contact";
     panel.x.logarithmic = true;
     panel.y.label = label;
     Series series("", backbone, "amplitude_ratio", column);

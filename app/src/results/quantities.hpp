@@ -75,7 +75,7 @@ inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{
     max_penetration_over_gap{"max_penetration_over_gap", result};
 // Those of modes with friction.
 inline constexpr Quantity linear_damping_ratio{"linear_damping_ratio", setting},
-    slip_amplitude{"slip_amplitude_m", result, "m", "amplitude of first slip"},
+    slip_amplitude{"slip_amplitude_m", result, "m", "amplitude at which a contact first acts"},
     damping_ratio{"damping_ratio", result}, largest_damping_ratio{"largest_damping_ratio", result},
     least_frequency_ratio{"least_frequency_ratio", result};
 

@@ -150,18 +150,13 @@ TEST_F(LawScene, OfATableNamesFileAndLineOfWhatIsWrong) {
   EXPECT_NE(found.allowed.find("spring.csv:2: \"1e-3,soft\""), std::string::npos) << found.allowed;
 }
 
-TEST_F(LawScene, OfADamperIsRefusedForHaarFunctionsAndNonlinearModes) {
+TEST_F(LawScene, OfADamperIsRefusedForHaarFunctions) {
   const std::string stop = cases()[6].contact;
   std::string haar = with(scene_with(stop), "trial = \"fourier\"", "trial = \"haar\"");
   const auto functions = error(haar);
   EXPECT_EQ(functions.key, "time.trial");
   EXPECT_NE(functions.allowed.find("\"hunt_crossley\""), std::string::npos) << functions.allowed;
   EXPECT_NE(functions.allowed.find("\"haar\""), std::string::npos) << functions.allowed;
-  std::string mode =
-      with(rod_scene, "law = \"rigid\"                   # 10\n", stop.substr(0, stop.find("gap")));
-  const auto free = error(mode);
-  EXPECT_EQ(free.key, "contact.law");
-  EXPECT_NE(free.allowed.find("takes energy from a free motion"), std::string::npos) << free.allowed;
 }
 
 TEST_F(LawScene, IsSolvedAndARecordOfADamperSaysWhatItDissipates) {

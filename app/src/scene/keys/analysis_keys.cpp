@@ -137,7 +137,8 @@ void add_mode(std::vector<SceneKey>& keys) {
       within(2, 1 << 16),
       derived("2 x harmonics, 8 x with an exponential or linear law, 32 x with friction",
               [](const Scene& scene) {
-                const int each = names_friction(scene.contact) ? 32 : is_rigid(scene.contact.law) ? 2 : 8;
+                const bool loses = names_friction(scene.contact) || names_damper(scene.contact);
+                const int each = loses ? 32 : is_rigid(scene.contact.law) ? 2 : 8;
                 return each * scene.analysis.harmonics;
               }));
   mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
@@ -154,17 +155,19 @@ void add_mode(std::vector<SceneKey>& keys) {
        "or beyond this ratio of the frequency to the linear one", above(1.001), optional);
   mode(&Analysis::points, "points", "",
        "of the curve, uniform in frequency up to there; about as many with an "
-       "exponential or linear law; with friction about uniform in the logarithm of the amplitude",
+       "elastic law; with friction or dampers about uniform in the logarithm of the amplitude",
        within(2, 1'000'000), optional);
   mode(
       &Analysis::amplitude_ratio, "amplitude_ratio", "",
-      "with friction, the one motion of this amplitude, over that at which a contact first slips; 0 for the curve",
+      "with friction or dampers, the one motion of this amplitude, over that at which a contact first slips, opens or "
+      "closes; 0 for the curve",
       not_negative, optional);
   mode(&Analysis::largest_amplitude, "largest_amplitude", "",
-       "with friction, the curve from half that amplitude on ends at this multiple of it", above(1),
-       optional);
-  const auto with_friction = law_names([](const contact::LawEntry& law) { return law.acts_over_period; });
-  for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = with_friction;
+       "with friction or dampers, the curve from half that amplitude on ends at this multiple of it",
+       above(1), optional);
+  const auto losing =
+      law_names([](const contact::LawEntry& law) { return law.acts_over_period || law.reads_velocity; });
+  for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = losing;
 }
 
 /// Whether counts take a few times as long as the curve, or less.
@@ -173,7 +176,8 @@ SceneValue stability_by_default(const Scene& scene) {
   const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
                      scene.analysis.type == AnalysisType::amplitude_sweep;
   if (!sweep && !mode) return true;
-  if (mode && (is_rigid(scene.contact.law) || names_friction(scene.contact))) return true;  // not known
+  const bool loses = names_friction(scene.contact) || names_damper(scene.contact);
+  if (mode && (is_rigid(scene.contact.law) || loses)) return true;  // not known
   constexpr int few = 6;
   constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
   const int contacts = contact_count(scene);

@@ -105,7 +105,7 @@ std::vector<std::string_view> law_names(bool (*wanted)(const LawEntry&)) {
 }
 
 std::vector<std::string_view> laws_of_modes() {
-  return law_names([](const LawEntry& law) { return law.name != no_law && !law.reads_velocity; });
+  return law_names([](const LawEntry& law) { return law.name != no_law; });
 }
 
 std::string parameter_names(std::string_view law) {

@@ -10,16 +10,18 @@
 
 namespace wavebalance::app {
 
-/// A scene's nonlinear mode with friction. Immutable.
+/// A scene's nonlinear mode with friction or dampers. Immutable.
 class DampedStudy {
  public:
-  /// O(n^3). Throws as solvers::DampedMode does, and std::invalid_argument where no contact slips at any
-  /// amplitude, so that there is none to begin at, or one slips at all.
+  /// O(n^3). Throws as solvers::DampedMode does, and std::invalid_argument where no contact slips, opens
+  /// or closes at any amplitude, so that there is none to begin at, or one does at all.
   DampedStudy(const Scene& scene, const StructureModel& model);
 
   const Scene& scene() const { return scene_; }
   const solvers::DampedMode& mode() const { return mode_; }
-  double slip_amplitude() const { return slip_amplitude_; }  ///< m, at which a contact first slips or opens
+  double slip_amplitude() const {
+    return slip_amplitude_;
+  }  ///< m, at which a contact first slips, opens or closes
 
   /// From half the amplitude of first slip to `largest` times it.
   solvers::DampedBackbone curve(double largest, const solvers::Observer& observer) const;
@@ -33,8 +35,8 @@ class DampedStudy {
 };
 
 /// amplitude_ratio, amplitude_m, frequency_Hz, frequency_ratio, damping_ratio, friction_work_J, the means
-/// over contacts of stick_fraction, slip_fraction and open_fraction, status, residual; max_, min_, rms_ and
-/// max_abs_displacement_m of the contacts. O(points contacts output_points).
+/// over contacts of stick_fraction, slip_fraction and open_fraction, all four with friction alone, status,
+/// residual; max_, min_, rms_ and max_abs_displacement_m of the contacts. O(points contacts output_points).
 Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve);
 
 }  // namespace wavebalance::app

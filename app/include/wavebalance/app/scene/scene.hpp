@@ -173,6 +173,8 @@ bool is_rigid(std::string_view law);
 bool has_friction(std::string_view law);
 /// Whether a law of [contact] or of a pair has it.
 bool names_friction(const Contact& contact);
+/// Whether the force of a law of [contact] or of a pair depends on the velocity.
+bool names_damper(const Contact& contact);
 /// Whether one of these has friction without tangential_stiffness, which is rigid.
 bool names_rigid_friction(const Contact& contact);
 /// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
@@ -295,8 +297,8 @@ struct Analysis {
   double largest_energy = 10.0;   ///< nonlinear_mode: energy ratio at which the curve ends
   double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
   int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
-  /// nonlinear_mode with friction, of the amplitude over that at which a contact first slips: the one motion
-  /// there, 0 for the whole curve; and where the curve ends
+  /// nonlinear_mode with friction or dampers, of the amplitude over that at which a contact first acts: the
+  /// one motion there, 0 for the whole curve; and where the curve ends
   double amplitude_ratio = 0.0, largest_amplitude = 10.0;
 
   bool operator==(const Analysis&) const = default;
