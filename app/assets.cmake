@@ -1,7 +1,7 @@
 # The styles and scripts of pages, as text in the program, and the libraries of others that pages may use.
 set(folder ${CMAKE_CURRENT_SOURCE_DIR}/src/page/assets)
 set(own_assets "")
-foreach(name page.css page.js curves.js motion.js sums.js blade.js)
+foreach(name page.css page.js curves.js motion.js sums.js body.js)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folder}/${name})
   file(READ ${folder}/${name} text)
   string(APPEND own_assets "{\"${name}\", R\"wavebalance(${text})wavebalance\"},\n")

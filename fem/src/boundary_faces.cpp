@@ -1,6 +1,9 @@
 #include "wavebalance/fem/boundary_faces.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace wavebalance::fem {
 namespace {
@@ -47,6 +50,64 @@ std::vector<Face> single(std::vector<Face> faces) {
   return found;
 }
 
+/// A face of a solid by its corners, in their order around it and ascending.
+struct CornerFace {
+  std::vector<int> corners, key;
+};
+
+void add_triangles(const std::vector<int>& corners, std::vector<int>& triangles) {
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    triangles.insert(triangles.end(), {corners[0], corners[i - 1], corners[i]});
+}
+
+/// The faces of a solid of so many corners, by these.
+const std::vector<std::vector<int>>& faces_of_corners(int corners) {
+  static const std::vector<std::vector<int>> tetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}},
+      wedge{{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
+      hexahedron{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return corners == 4 ? tetrahedron : corners == 6 ? wedge : hexahedron;
+}
+
+void add_faces(const int* points, int corners, std::vector<CornerFace>& faces) {
+  for (const std::vector<int>& places : faces_of_corners(corners)) {
+    CornerFace face;
+    for (const int place : places) face.corners.push_back(points[place]);
+    face.key = face.corners;
+    std::sort(face.key.begin(), face.key.end());
+    faces.push_back(std::move(face));
+  }
+}
+
+/// A cell of VTK's type with `count` points.
+void add_cell(int type, const int* points, int count, std::vector<CornerFace>& faces, MeshSurface& surface) {
+  switch (type) {
+    case 3:
+      surface.segments.insert(surface.segments.end(), {points[0], points[1]});
+      return;
+    case 21:  // both ends, then the middle
+      surface.segments.insert(surface.segments.end(), {points[0], points[2], points[2], points[1]});
+      return;
+    case 5:
+    case 22:
+      return add_triangles({points[0], points[1], points[2]}, surface.triangles);
+    case 9:
+    case 23:
+      return add_triangles({points[0], points[1], points[2], points[3]}, surface.triangles);
+    case 10:
+    case 24:
+      return add_faces(points, 4, faces);
+    case 13:
+    case 26:
+      return add_faces(points, 6, faces);
+    case 12:
+    case 25:
+      return add_faces(points, 8, faces);
+    default:
+      throw std::invalid_argument("surface_of: a cell of " + std::to_string(count) + " points has the type " +
+                                  std::to_string(type) + "; it must be one that read_mesh() makes");
+  }
+}
+
 }  // namespace
 
 Connectivity boundary_faces(const SolidMesh& mesh) {
@@ -60,6 +121,27 @@ Connectivity boundary_faces(const SolidMesh& mesh) {
       faces(row, column) = mesh.elements(places[static_cast<std::size_t>(row)], face.element);
   }
   return faces;
+}
+
+MeshSurface surface_of(const Mesh& mesh) {
+  mesh.validate();
+  MeshSurface surface;
+  std::vector<CornerFace> faces;
+  int begin = 0;
+  for (std::size_t cell = 0; cell < mesh.cell_types.size(); ++cell) {
+    const int* points = mesh.connectivity.data() + begin;
+    add_cell(mesh.cell_types[cell], points, mesh.cell_ends[cell] - begin, faces, surface);
+    begin = mesh.cell_ends[cell];
+  }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const CornerFace& a, const CornerFace& b) { return a.key < b.key; });
+  for (auto at = faces.begin(); at != faces.end();) {
+    const auto next =
+        std::find_if(at, faces.end(), [&](const CornerFace& face) { return face.key != at->key; });
+    if (next - at == 1) add_triangles(at->corners, surface.triangles);
+    at = next;
+  }
+  return surface;
 }
 
 std::vector<int> around(const Connectivity& faces, int face) {

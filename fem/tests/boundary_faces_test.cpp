@@ -80,6 +80,55 @@ TEST(BladeFaces, FormAClosedSurface) {
   }
 }
 
+TEST(Surface, OfSolidsIsThatOfTheirBoundaryFaces) {
+  for (const SolidElement element : {SolidElement::hexahedron8, SolidElement::hexahedron20}) {
+    const SolidMesh solid = skewed_box(element).mesh;
+    const MeshSurface surface = surface_of(mesh_of(solid));
+    EXPECT_EQ(std::ssize(surface.triangles), 6 * boundary_faces(solid).cols());
+    EXPECT_TRUE(surface.segments.empty());
+    // What it encloses, by the divergence theorem, whatever the order of the faces.
+    double volume = 0.0, expected = 0.0;
+    for (std::size_t i = 0; i < surface.triangles.size(); i += 3) {
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k)
+        corners.col(k) = solid.nodes.col(surface.triangles[i + static_cast<std::size_t>(k)]);
+      volume += corners.determinant() / 6.0;
+    }
+    const Connectivity faces = boundary_faces(solid);
+    for (Eigen::Index face = 0; face < faces.cols(); ++face)
+      for (const auto& [a, b, c] : {std::tuple{0, 1, 2}, {0, 2, 3}}) {
+        Eigen::Matrix3d corners;
+        corners << solid.nodes.col(faces(a, face)), solid.nodes.col(faces(b, face)),
+            solid.nodes.col(faces(c, face));
+        expected += corners.determinant() / 6.0;
+      }
+    EXPECT_NEAR(volume, expected, 1e-12 * expected);
+  }
+}
+
+TEST(Surface, HasShellsBeamsAndTheOuterFacesOfTetrahedraAndWedges) {
+  Mesh mesh;
+  mesh.points = Eigen::Matrix3Xd::Random(3, 9);
+  const auto add = [&](int type, const std::vector<int>& points) {
+    mesh.cell_types.push_back(type);
+    mesh.connectivity.insert(mesh.connectivity.end(), points.begin(), points.end());
+    mesh.cell_ends.push_back(static_cast<int>(mesh.connectivity.size()));
+  };
+  add(10, {0, 1, 2, 3});
+  add(10, {0, 2, 1, 4});  // shares the face 0, 1, 2
+  EXPECT_EQ(surface_of(mesh).triangles.size(), 3u * 6u);
+  add(13,
+      {0, 1, 3, 5, 6, 7});  // shares the face 0, 1, 3 of the first: a triangle and three quadrangles are new
+  EXPECT_EQ(surface_of(mesh).triangles.size(), 3u * (5u + 1u + 6u));
+  add(9, {0, 1, 2, 8});
+  EXPECT_EQ(surface_of(mesh).triangles.size(), 3u * (12u + 2u));
+  add(3, {0, 1});
+  add(21, {1, 2, 8});  // ends 1 and 2, middle 8
+  EXPECT_EQ(surface_of(mesh).segments, (std::vector<int>{0, 1, 1, 8, 8, 2}));
+  add(42, {0, 1, 2});
+  EXPECT_THROW(surface_of(mesh), std::invalid_argument);
+}
+
 TEST(BoundaryFaces, OfAMeshThatIsNotValidAreRefused) {
   SolidMesh mesh = skewed_box(SolidElement::hexahedron8).mesh;
   mesh.elements(0, 0) = 1000000;

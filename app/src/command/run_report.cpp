@@ -132,6 +132,17 @@ std::string motion(const std::vector<ResultFile>& files) {
              : fmt::format("<h3>Motion</h3>\n<div class=\"motion\" data-motion=\"{}\"></div>\n", found->name);
 }
 
+/// The box in which body.js moves the structure in space, where its data are among the files.
+std::string motion_in_space(const std::vector<ResultFile>& files) {
+  std::string scripts;
+  for (const ResultFile& file : files)
+    if (file.name.ends_with(".body.js")) scripts += (scripts.empty() ? "" : " ") + file.name;
+  return scripts.empty()
+             ? ""
+             : fmt::format("<div class=\"body-motion\" data-library=\"\" data-bodies=\"{}\"></div>\n",
+                           scripts);
+}
+
 std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {
   return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>What it solves:</p>\n" +
          code_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
@@ -147,11 +158,16 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.assets = "";
   page.libraries = {Library::d3};
   page.scripts = {"motion.js"};
+  const std::string in_space = motion_in_space(files);
+  if (!in_space.empty()) {
+    page.libraries.push_back(Library::three);
+    page.scripts.push_back("body.js");
+  }
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
                                         (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
-                                        motion(files) + paragraph(rest_sentences(summary)) +
+                                        motion(files) + in_space + paragraph(rest_sentences(summary)) +
                                         folded_table(summary, "at_rest", "At rest under the static loads") +
                                         folded_table(summary, "motions",
                                                      scene.analysis.type == AnalysisType::motions

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <utility>
 
+#include "wavebalance/app/page/assets.hpp"
+#include "wavebalance/app/page/body.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/fem/vtu.hpp"
 
@@ -59,18 +61,49 @@ std::string array_text(const Eigen::MatrixXd& whole) {
   return std::move(text).str();
 }
 
+/// The body that the page moves; of many points it would be a page that no browser opens.
+std::vector<RecordFile> body_file(const fem::Mesh& mesh, std::vector<Eigen::Matrix3Xd> frames,
+                                  const std::string& name) {
+  constexpr Eigen::Index most = 1'000'000;  // points times instants
+  if (!available(Library::three) || mesh.points.cols() * std::ssize(frames) > most) return {};
+  MovingBody body{name, mesh.points, fem::surface_of(mesh), std::move(frames)};
+  body.times = exaggeration(body);
+  return {{name + ".body.js", body_script(name, body), "the moving body of report.html"}};
+}
+
+template <class Displacements>
+std::vector<Eigen::Matrix3Xd> frames_of(const Eigen::MatrixXd& whole, const Displacements& displacements) {
+  std::vector<Eigen::Matrix3Xd> frames;
+  for (Eigen::Index frame = 0; frame < whole.cols(); ++frame)
+    frames.push_back(displacements(whole.col(frame)));
+  return frames;
+}
+
+void append(std::vector<RecordFile>& files, std::vector<RecordFile> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(files));
+}
+
 }  // namespace
 
 std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
                                      const std::string& name) {
   if (coordinates.cols() == 0) return {};
   const Eigen::MatrixXd whole = model.recover(coordinates);
-  if (model.blade) return mesh_files(model.blade->model, whole, name);
-  std::vector<RecordFile> files{{name + ".mtx", array_text(whole), about_motion}};
-  if (model.mesh) {
-    std::vector<RecordFile> of_mesh = mesh_files(*model.mesh, whole, name);
-    std::move(of_mesh.begin(), of_mesh.end(), std::back_inserter(files));
+  if (model.blade) {
+    const fem::SolidModel& solid = model.blade->model;
+    std::vector<RecordFile> files = mesh_files(solid, whole, name);
+    const auto displacements = [&](const Eigen::VectorXd& unknowns) { return solid.displacements(unknowns); };
+    append(files, body_file(fem::mesh_of(solid.mesh), frames_of(whole, displacements), name));
+    return files;
   }
+  std::vector<RecordFile> files{{name + ".mtx", array_text(whole), about_motion}};
+  if (!model.mesh) return files;
+  append(files, mesh_files(*model.mesh, whole, name));
+  const auto displacements = [&](const Eigen::VectorXd& unknowns) {
+    const Eigen::VectorXd moved = model.mesh->displacements * unknowns;
+    return Eigen::Matrix3Xd(moved.reshaped(3, moved.size() / 3));
+  };
+  append(files, body_file(model.mesh->mesh, frames_of(whole, displacements), name));
   return files;
 }
 

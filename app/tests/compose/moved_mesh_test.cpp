@@ -52,6 +52,7 @@ TEST_F(MeshOfAChain, IsWrittenForParaViewBesideTheRows) {
   ASSERT_TRUE(record.converged);
   std::vector<std::string> names;
   for (const RecordFile& file : record.files) names.push_back(file.name);
+  if (names.back() == "motion.body.js") names.pop_back();  // where the library that moves bodies is there
   EXPECT_EQ(names, (std::vector<std::string>{"motion.mtx", "motion_0000.vtu", "motion_0001.vtu",
                                              "motion_0002.vtu", "motion_0003.vtu", "motion.pvd"}));
   EXPECT_NE(record.files[1].contents.find("NumberOfPoints=\"4\" NumberOfCells=\"3\""), std::string::npos);

@@ -286,7 +286,7 @@ TEST_F(Browser, TheReportsOfAComparisonAndOfAnOverlayAreSound) {
 TEST_F(BrowserOfResults, FindsTheResultsOfTheRunSound) {
   const Path results = WAVEBALANCE_RESULTS;
   if (!std::filesystem::exists(results / "index.html")) GTEST_SKIP() << "make reproduce has not been run";
-  for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "sums.js", "blade.js"})
+  for (const char* name : {"page.css", "page.js", "curves.js", "motion.js", "sums.js", "body.js"})
     if (!std::filesystem::exists(results / "assets" / name) ||
         app::read_file(results / "assets" / name) != app::asset(name))
       GTEST_SKIP() << "the results are those of another build: make reproduce";

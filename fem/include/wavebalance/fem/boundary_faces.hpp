@@ -1,4 +1,7 @@
 #pragma once
+#include <vector>
+
+#include "wavebalance/fem/mesh.hpp"
 #include "wavebalance/fem/solid.hpp"
 
 namespace wavebalance::fem {
@@ -8,6 +11,17 @@ namespace wavebalance::fem {
 /// elements of 20 nodes the midpoints of the edges 1-2, 2-3, 3-4, 4-1. O(elements log elements). Throws
 /// std::invalid_argument as SolidMesh::validate does.
 Connectivity boundary_faces(const SolidMesh& mesh);
+
+/// What of a mesh can be seen, by its corner points.
+struct MeshSurface {
+  std::vector<int>
+      triangles;              ///< three points each, of the faces that belong to one solid only and of shells
+  std::vector<int> segments;  ///< two points each, of beams
+};
+
+/// O(cells log cells). Throws std::invalid_argument as Mesh::validate does, and for a cell of a type that
+/// read_mesh() does not make.
+MeshSurface surface_of(const Mesh& mesh);
 
 /// The nodes of a face in their order around it, midpoints between their corners.
 std::vector<int> around(const Connectivity& faces, int face);

@@ -1,18 +1,12 @@
 #include "page/body_script.hpp"
 
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/fem/boundary_faces.hpp"
+#include "wavebalance/app/page/body.hpp"
 
 namespace wavebalance::report {
 namespace {
-
-constexpr double parts_of_size = 20000.0, parts_of_displacement = 2000.0;
 
 std::string from_base64(std::string_view text) {
   std::string bytes;
@@ -63,28 +57,6 @@ std::vector<Number> array(const std::string& text, const std::string& name,
   return values;
 }
 
-/// Two triangles for each face, of its corners; `number` gives each corner its number among those of the
-/// surface.
-std::vector<int> triangles(const fem::Connectivity& faces, std::map<int, int>& number) {
-  std::vector<int> list;
-  const auto corner = [&](Eigen::Index row, Eigen::Index face) {
-    return number.try_emplace(faces(row, face), static_cast<int>(number.size())).first->second;
-  };
-  for (Eigen::Index face = 0; face < faces.cols(); ++face)
-    for (const int row : {0, 1, 2, 0, 2, 3}) list.push_back(corner(row, face));
-  return list;
-}
-
-/// The columns of `values` at the corners, in units of `unit`.
-std::vector<int> in_units(const Eigen::Matrix3Xd& values, const std::map<int, int>& number, double unit) {
-  std::vector<int> list(3 * number.size());
-  for (const auto& [node, place] : number)
-    for (int row = 0; row < 3; ++row)
-      list[static_cast<std::size_t>(3 * place + row)] =
-          static_cast<int>(std::lround(values(row, node) / unit));
-  return list;
-}
-
 /// "energy 4.7" of "fig08_energy_4.7".
 std::string label_of(const std::string& stem) {
   std::string label = stem.substr(stem.find('_') + 1);
@@ -122,22 +94,11 @@ std::string body_script(const std::filesystem::path& pvd) {
     frames.push_back(parse_vtu(app::read_file(file), file));
   }
   if (frames.empty()) throw app::IoError(pvd, "names no files of a series");
-  double largest = 0.0;
-  for (const Frame& frame : frames)
-    largest = std::max(largest, frame.displacement.colwise().norm().maxCoeff());
-  const Eigen::Matrix3Xd& nodes = frames[0].mesh.nodes;
-  const double length = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).maxCoeff() / parts_of_size;
-  const double unit = largest > 0.0 ? largest / parts_of_displacement : 1.0;
-  std::map<int, int> number;
   const std::string stem = pvd.stem().string();
-  nlohmann::ordered_json data{
-      {"label", label_of(stem)}, {"length", length}, {"unit", unit}, {"largest", largest}};
-  data["triangles"] = triangles(fem::boundary_faces(frames[0].mesh), number);
-  data["points"] = in_units(nodes, number, length);
-  data["frames"] = nlohmann::ordered_json::array();
-  for (const Frame& frame : frames) data["frames"].push_back(in_units(frame.displacement, number, unit));
-  return "((window.wavebalance ?\?= {}).bodies ?\?= {})[" + nlohmann::json(stem).dump() +
-         "] = " + data.dump() + ";\n";
+  app::MovingBody body{
+      label_of(stem), frames[0].mesh.nodes, fem::surface_of(fem::mesh_of(frames[0].mesh)), {}};
+  for (const Frame& frame : frames) body.frames.push_back(frame.displacement);
+  return app::body_script(stem, body);
 }
 
 }  // namespace wavebalance::report

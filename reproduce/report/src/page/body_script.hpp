@@ -18,7 +18,7 @@ struct Frame {
 /// app::IoError naming `file` for anything else.
 Frame parse_vtu(const std::string& text, const std::filesystem::path& file);
 
-/// The motion that the series `pvd` holds, as a script that blade.js moves: wavebalance.bodies["<stem>"] with
+/// The motion that the series `pvd` holds, as a script that body.js moves: wavebalance.bodies["<stem>"] with
 /// the corners of the surface (integers of 1/20000 of the body's size), its triangles, and their
 /// displacements at each instant (integers of 1/2000 of the largest). The instants must be uniform over a
 /// period. Throws app::IoError if a file is missing or no such series.

@@ -100,7 +100,7 @@ app::PageParts parts(const std::string& title, const std::string& assets, const 
   page.libraries = {app::Library::katex, app::Library::d3};
   if (body.find("class=\"motion\"") != body.npos) page.scripts.push_back("motion.js");
   if (body.find("class=\"sums\"") != body.npos) page.scripts.push_back("sums.js");
-  if (body.find("class=\"body-motion\"") != body.npos) page.scripts.push_back("blade.js");
+  if (body.find("class=\"body-motion\"") != body.npos) page.scripts.push_back("body.js");
   return page;
 }
 

@@ -16,7 +16,7 @@ enum class Library {
 /// absent; their pictures then stay as they are and formulas remain plain text.
 bool available(Library library);
 
-/// A style or script of this project's own: "page.css", "page.js", "curves.js", "motion.js", "blade.js".
+/// A style or script of this project's own: "page.css", "page.js", "curves.js", "motion.js", "body.js".
 /// Throws std::out_of_range for any other name.
 std::string_view asset(std::string_view name);
 

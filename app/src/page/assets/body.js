@@ -11,6 +11,24 @@
     return ends[low].map((value, i) => value + (place - low) * (ends[low + 1][i] - value));
   }
 
+  // What stays: the edges of the surface at rest, and its beams.
+  function outline(geometry, data) {
+    const edges = Array.from(new THREE.EdgesGeometry(geometry, 50).attributes.position.array);
+    const rest = geometry.attributes.position.array;
+    for (const point of data.segments || []) edges.push(...rest.slice(3 * point, 3 * point + 3));
+    const lines = new THREE.BufferGeometry();
+    lines.setAttribute("position", new THREE.Float32BufferAttribute(edges, 3));
+    return lines;
+  }
+
+  // The beams, between points that the surface and they share.
+  function moving(geometry, segments) {
+    const lines = new THREE.BufferGeometry();
+    for (const name of ["position", "color"]) lines.setAttribute(name, geometry.attributes[name]);
+    lines.setIndex(segments);
+    return new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ vertexColors: true }));
+  }
+
   class Body {
     constructor(width, height) {
       this.renderer = new THREE.WebGLRenderer({ antialias: true });
@@ -27,7 +45,7 @@
       this.canvas = this.renderer.domElement;
       this.canvas.tabIndex = 0;
       this.canvas.setAttribute("role", "img");
-      this.canvas.setAttribute("aria-label", "The blade in motion; arrow keys turn it");
+      this.canvas.setAttribute("aria-label", "The body in motion; arrow keys turn it");
       this.canvas.addEventListener("pointerdown", (event) => this.canvas.setPointerCapture(event.pointerId));
       this.canvas.addEventListener("pointermove", (event) => { if (event.buttons) this.turn(event.movementX, event.movementY); });
       this.canvas.addEventListener("keydown", (event) => {
@@ -54,9 +72,10 @@
       const geometry = new THREE.BufferGeometry();
       geometry.setIndex(data.triangles);
       geometry.setAttribute("position", new THREE.Float32BufferAttribute(this.rest.slice(), 3));
-      this.outline = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 50), new THREE.LineBasicMaterial({ color: 0x777777 }));
+      this.outline = new THREE.LineSegments(outline(geometry, data), new THREE.LineBasicMaterial({ color: 0x777777 }));
       geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(this.rest.length), 3));
       this.mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+      this.mesh.add(moving(geometry, data.segments || []));
       this.scene.add(this.mesh, this.outline);
       geometry.computeBoundingSphere();
       this.sphere = geometry.boundingSphere.clone();
@@ -70,7 +89,7 @@
       const { position, color } = this.mesh.geometry.attributes;
       for (let i = 0; i < a.length; i += 3) {
         const u = [0, 1, 2].map((k) => (a[i + k] + share * (b[i + k] - a[i + k])) * this.data.unit);
-        for (let k = 0; k < 3; ++k) position.array[i + k] = this.rest[i + k] + u[k];
+        for (let k = 0; k < 3; ++k) position.array[i + k] = this.rest[i + k] + (this.data.times || 1) * u[k];
         color.array.set(colour(Math.hypot(...u) / this.largest), i);
       }
       position.needsUpdate = color.needsUpdate = true;
@@ -118,9 +137,10 @@
     play.addEventListener("click", () => run(started === null));
     slider.addEventListener("input", () => { run(false); show(Number(slider.value)); });
     list.addEventListener("change", () => { body.load(motions[list.value], largest); show(Number(slider.value)); });
-    box.replaceChildren(element("h4", {}, "The blade over a period"), element("div", { class: "tools" }, list, play, slider), body.canvas,
-      element("p", { class: "quiet" }, `Displacements as they are; white at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
-        "motions. Thin lines: the blade at rest. Drag to turn it."));
+    box.replaceChildren(element("h4", {}, "The body over a period"), element("div", { class: "tools" }, list, play, slider), body.canvas,
+      element("p", { class: "quiet" }, `Displacements ${(motions[0].times || 1) === 1 ? "as they are" :
+        `drawn ${motions[0].times} times as large`}; white at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
+        "motions. Thin lines: the body at rest. Drag to turn it."));
     body.load(motions[0], largest);
     new ResizeObserver(() => { body.resize(...size()); body.render(); }).observe(box);
     show(0);
@@ -128,11 +148,12 @@
 
   async function start(box) {
     const sources = box.dataset.bodies.split(" ");
-    for (const source of [box.dataset.library, ...sources]) await wavebalance.load(source);
+    const library = box.dataset.library ? [box.dataset.library] : [];  // a report has it in itself
+    for (const source of [...library, ...sources]) await wavebalance.load(source);
     try {
       build(box, sources.map((source) => source.slice(source.lastIndexOf("/") + 1, -".body.js".length)));
     } catch (error) {
-      box.replaceChildren(element("p", { class: "quiet" }, "This browser draws no bodies in space (WebGL), so that the blade does not move here."));
+      box.replaceChildren(element("p", { class: "quiet" }, "This browser draws no bodies in space (WebGL), so that the body does not move here."));
     }
   }
 
