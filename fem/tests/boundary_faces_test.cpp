@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <stdexcept>
+#include <tuple>
+#include <vector>
 
 #include "print.hpp"
 #include "wavebalance/fem/blade.hpp"

@@ -40,12 +40,12 @@ wavebalance.whenNear = (selector, start) => {
   check();
 };
 
-// What is folded is printed too.
+// What is folded is printed too, but for what repeats other parts of the page or does not decide.
 {
   let opened = [];
   window.addEventListener("beforeprint", () => {
     document.querySelectorAll("img[loading]").forEach((image) => { image.loading = "eager"; });
-    opened = [...document.querySelectorAll("main details:not([open], .table-of-values, .origin)")];
+    opened = [...document.querySelectorAll("main details:not([open], .table-of-values, .origin, .checks, .readings, #brief > *)")];
     opened.forEach((one) => { one.open = true; });
   });
   window.addEventListener("afterprint", () => opened.forEach((one) => { one.open = false; }));
