@@ -24,10 +24,11 @@ std::string value_text(const SummaryValue& value) {
   return fmt::format("{} rows", std::get<Table>(value).rows());
 }
 
-std::string short_text(const Cell& cell) {
+/// A number with so many digits at most; empty for one that is missing.
+std::string rounded_text(const Cell& cell, int digits) {
   const auto* number = std::get_if<double>(&cell);
   if (number == nullptr) return cell_text(cell);
-  return std::isfinite(*number) ? fmt::format("{:.3g}", *number) : "";
+  return std::isfinite(*number) ? fmt::format("{:.{}g}", *number, digits) : "";
 }
 
 }  // namespace
@@ -70,11 +71,17 @@ std::string values_table(const Summary& summary) {
   return table_html(rows);
 }
 
-std::vector<std::vector<std::string>> text_rows(const Table& table) {
-  std::vector<std::vector<std::string>> rows{table.columns()};
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    rows.emplace_back();
-    for (const Cell& cell : table.row(i)) rows.back().push_back(cell_text(cell));
+std::vector<std::vector<std::string>> shown_rows(const Table& table) {
+  std::vector<std::vector<std::string>> rows(table.rows() + 1);
+  for (const std::string& column : table.columns()) {
+    const bool place = column.find("frequency_") != column.npos || column.starts_with("amplitude_");
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < table.rows(); ++i)
+      texts.push_back(rounded_text(table.at(i, column), place ? 10 : 6));
+    if (std::all_of(texts.begin(), texts.end(), [](const std::string& text) { return text.empty(); }))
+      continue;
+    rows[0].push_back(column);
+    for (std::size_t i = 0; i < texts.size(); ++i) rows[i + 1].push_back(texts[i]);
   }
   return rows;
 }
@@ -107,7 +114,7 @@ std::string columns_html(const Table& table,
   for (const auto& [column, name] : columns) rows.front().push_back(name);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     rows.emplace_back();
-    for (const auto& [column, name] : columns) rows.back().push_back(short_text(table.at(row, column)));
+    for (const auto& [column, name] : columns) rows.back().push_back(rounded_text(table.at(row, column), 3));
   }
   return table_html(rows);
 }

@@ -44,7 +44,7 @@ std::string command_of(const RunArguments& arguments) {
 /// A table of the summary, folded below its title.
 std::string folded_table(const Summary& summary, const std::string& name, const std::string& title) {
   const Table* table = table_of(summary, name);
-  return table == nullptr ? "" : folded(title, table_html(text_rows(*table)));
+  return table == nullptr ? "" : folded(title, table_html(shown_rows(*table)));
 }
 
 /// The picture of this name, with curves that zoom where its data are among the files.

@@ -260,7 +260,8 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   record.table = points_table(comparison);
   if (!envelope(comparison.points).empty()) {
     record.pictures.push_back(
-        {"error_over_time", error_over_time(comparison), "errors over solve times with the Pareto front"});
+        {"error_over_time", error_over_time(comparison),
+         "errors over solve times of the six pairs with the most points on the front of all, which is grey"});
     record.pictures.push_back({"error_over_functions", error_over_functions(comparison),
                                "errors over functions, the best number of points of each"});
   }

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
+#include "command/report_parts.hpp"
 #include "support/chain_files.hpp"
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"
@@ -46,6 +48,17 @@ TEST(RunReport, TheMovingBarOfTheReportIsTheMotionOfTheResponse) {
       tip >> comma;
     }
   }
+}
+
+TEST(RunReport, TablesHaveTheDigitsThatAReaderNeedsAndNoColumnWithoutAValue) {
+  Table table({"type", "frequency_Hz", "multiplier_real", "error", "points"});
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  table.append_row({std::string("fold"), 3.2638993136025434, none, 5.451053181363303e-8, std::int64_t{12}});
+  table.append_row({std::string("grazing"), 2.5, none, none, std::int64_t{7}});
+  const std::vector<std::vector<std::string>> expected{{"type", "frequency_Hz", "error", "points"},
+                                                       {"fold", "3.263899314", "5.45105e-08", "12"},
+                                                       {"grazing", "2.5", "", "7"}};
+  EXPECT_EQ(shown_rows(table), expected);
 }
 
 TEST(RunReport, ReportSaysWhereContactsStandAndWhatOutputsDo) {

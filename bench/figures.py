@@ -1,0 +1,132 @@
+"""The figures that README.md and bench/README.md have of a run of `make bench`.
+
+    figures.py measure RESULTS        prints what the files of a run say: name, value
+    figures.py check MEASURED ROOT    fails where a line of a README is not that of these values
+
+measured.csv beside this script holds those of the run that the READMEs tell of. After a new run write it anew by `measure`
+and put the lines that `check` names into the READMEs.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import pathlib
+import sys
+
+
+def benchmark_ms(results: pathlib.Path) -> dict[str, float]:
+    """Least processor time of each benchmark, ms: its own counter, or the least of its repetitions."""
+    per_unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
+    found: dict[str, float] = {}
+    for one in json.loads((results / "solvers.json").read_text())["benchmarks"]:
+        if one.get("run_type") == "aggregate":
+            continue
+        name = one["run_name"]
+        time = one.get("quickest_ms", one["cpu_time"] * per_unit[one["time_unit"]])
+        found[name] = min(time, found.get(name, float("inf")))
+    return found
+
+
+def rows(file: pathlib.Path) -> list[dict[str, str]]:
+    with open(file, newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def fastest(points: list[dict[str, str]], **wanted: str) -> tuple[float, float]:
+    """Error and seconds of the fastest of the rows with these cells."""
+    chosen = [row for row in points if row["converged"] == "true" and all(row[key] == value for key, value in wanted.items())]
+    if not chosen:
+        raise SystemExit(f"figures.py: no row has {wanted}")
+    best = min(chosen, key=lambda row: float(row["seconds"]))
+    return float(best["error"]), float(best["seconds"])
+
+
+def measured(results: pathlib.Path) -> dict[str, float]:
+    times = benchmark_ms(results)
+    values = {}
+    for case in ("1", "2"):
+        point = f"case:{case}/functions:63/points:256"
+        values[f"point_{case}_ms"] = times[f"point/{point}"]
+        values[f"dense_{case}_ms"] = times[f"dense_point/{point}"]
+        for digits in ("8", "12"):
+            values[f"phases_{case}_{digits}_ms"] = times[f"phases/case:{case}/digits:{digits}"]
+    points = rows(results / "work_precision.csv")
+    fourier = {"case": "1", "trial": "fourier", "weight": "fourier"}
+    for functions in ("127", "1023"):
+        error, seconds = fastest([row for row in points if int(row["points"]) >= 4 * int(row["functions"] or 1)],
+                                 functions=functions, **fourier)
+        values[f"fourier_{functions}_error"], values[f"fourier_{functions}_ms"] = error, 1e3 * seconds
+    stepping = [row for row in points if row["method"] == "time_stepping" and row["case"] == "1" and row["converged"] == "true"]
+    finest = min(stepping, key=lambda row: float(row["error"]))
+    values["stepping_1_error"], values["stepping_1_ms"] = float(finest["error"]), 1e3 * float(finest["seconds"])
+    for name in ("tolerance", "tolerance_random"):
+        ratios = [float(row["error_over_tolerance"]) for row in rows(results / f"{name}.csv") if row["status"] == "converged"]
+        values[f"{name}_ratio"] = max(ratio for ratio in ratios if ratio == ratio)
+    return values
+
+
+def time_text(milliseconds: float) -> str:
+    if milliseconds >= 1e3:
+        return f"{milliseconds / 1e3:.2f} s"
+    return f"{milliseconds:.2g} ms" if milliseconds >= 0.1 else f"{1e3 * milliseconds:.2g} µs"
+
+
+def error_text(error: float) -> str:
+    mantissa, exponent = f"{error:.1e}".split("e")
+    return f"{mantissa}e{int(exponent)}"
+
+
+def ratio_text(ratio: float) -> str:
+    return f"{int(float(f'{ratio:.2g}')):,}".replace(",", " ")
+
+
+def lines_of(v: dict[str, float]) -> dict[str, list[str]]:
+    """The lines that stand in each README."""
+    def both(name: str) -> str:
+        return f"{time_text(v[f'{name}_1_ms'])} / {time_text(v[f'{name}_2_ms'])}"
+
+    return {
+        "README.md": [
+            f"| one frequency, 63 functions, 256 points, case 1 / case 2 of JL14 | {both('point')} | "
+            f"assembled system of all unknowns, dense LU: {both('dense')} |",
+            f"| error of the displacement, 127 / 1023 functions | {error_text(v['fourier_127_error'])} in "
+            f"{time_text(v['fourier_127_ms'])} / {error_text(v['fourier_1023_error'])} in {time_text(v['fourier_1023_ms'])} | "
+            f"time stepping: {error_text(v['stepping_1_error'])} in {time_text(v['stepping_1_ms'])} |",
+            f"| contact phases to 1e-8 / 1e-12, balance of 63 functions included, case 2 | {time_text(v['phases_2_8_ms'])} / "
+            f"{time_text(v['phases_2_12_ms'])} | case 1: {time_text(v['phases_1_8_ms'])} / {time_text(v['phases_1_12_ms'])} |",
+            f"| tolerances 1e-1 to 1e-8, 17 motions | true error at most {v['tolerance_ratio']:.2g} times the tolerance | "
+            f"200 random motions: at most {v['tolerance_random_ratio']:.2g} times |",
+        ],
+        "bench/README.md": [
+            f"| one frequency, 63 functions, 256 points, case 1 / case 2 | {both('point')} | {both('dense')} | "
+            f"{ratio_text(v['dense_1_ms'] / v['point_1_ms'])} / {ratio_text(v['dense_2_ms'] / v['point_2_ms'])} |",
+            f"| contact phases to 1e-8 / 1e-12, balance of 63 functions included, case 1 | {time_text(v['phases_1_8_ms'])} / "
+            f"{time_text(v['phases_1_12_ms'])} | | |",
+            f"| the same, case 2 | {time_text(v['phases_2_8_ms'])} / {time_text(v['phases_2_12_ms'])} | | |",
+        ],
+    }
+
+
+def check(file: pathlib.Path, root: pathlib.Path) -> int:
+    values = {row["name"]: float(row["value"]) for row in rows(file)}
+    missing = 0
+    for name, lines in lines_of(values).items():
+        text = (root / name).read_text()
+        for line in lines:
+            if line not in text:
+                print(f"{name} lacks the line of the run:\n{line}")
+                missing += 1
+    return missing
+
+
+if __name__ == "__main__":
+    if len(sys.argv) == 3 and sys.argv[1] == "measure":
+        writer = csv.writer(sys.stdout, lineterminator="\n")
+        writer.writerow(["name", "value"])
+        for name, value in measured(pathlib.Path(sys.argv[2])).items():
+            writer.writerow([name, f"{value:.6g}"])
+    elif len(sys.argv) == 4 and sys.argv[1] == "check":
+        sys.exit(check(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])))
+    else:
+        raise SystemExit(__doc__)
