@@ -50,6 +50,18 @@ def test_tables_are_those_of_pandas(curve):
     assert "displacement_1_m" in curve.response(0).to_frame(64)
 
 
+def test_a_curve_is_drawn_with_its_special_points(curve):
+    if not MATPLOTLIB:
+        pytest.skip("python3-matplotlib is not installed")
+    assert curve.special_points
+    drawn = {line.get_label(): line for line in curve.plot().lines}
+    for kind in {point["type"] for point in curve.special_points}:
+        points = curve.special(kind)
+        line = drawn[kind.replace("_", " ")]
+        np.testing.assert_array_equal(line.get_xdata(), [point["frequency"] for point in points])
+        np.testing.assert_array_equal(line.get_ydata(), [point["max_displacement"] for point in points])
+
+
 def test_curves_are_drawn_over_each_other(curve):
     if not MATPLOTLIB:
         with pytest.raises(ImportError, match="python3-matplotlib"):

@@ -18,7 +18,7 @@ def axes(ax: Any) -> Any:
         import matplotlib.pyplot as pyplot
     except ImportError as error:
         raise ImportError("plot() needs Matplotlib (Debian: python3-matplotlib)") from error
-    return pyplot.figure().add_subplot()
+    return pyplot.figure(layout="constrained").add_subplot()
 
 
 def curve(ax: Any, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], unstable: npt.NDArray[Any], label: str | None = None) -> None:
@@ -33,6 +33,19 @@ def curve(ax: Any, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], unsta
     beside[1:] |= dashed[:-1]
     ax.plot(x, np.where(beside, y, np.nan), "--", color=line.get_color(), label="unstable")
     ax.legend()
+
+
+MARKERS = {"fold": "o", "grazing": "|", "period_doubling": "s", "neimark_sacker": "^", "branch": "D", "slip": "v"}
+
+
+def special_points(ax: Any, points: list[dict[str, Any]], place: str) -> None:
+    """A symbol for each type, which the legend names."""
+    for kind in dict.fromkeys(point["type"] for point in points):
+        chosen = [point for point in points if point["type"] == kind]
+        ax.plot([point[place] for point in chosen], [point["max_displacement"] for point in chosen], MARKERS.get(kind, "x"),
+                color="black", markerfacecolor="white", markersize=5, label=kind.replace("_", " "))
+    if points:
+        ax.legend()
 
 
 def record_response(columns: dict[str, Any], ax: Any = None) -> Any:

@@ -128,9 +128,10 @@ class Sweep:
         return "Factor on the load" if self._core.over_amplitude else "Frequency (Hz)"
 
     def plot(self, ax: Any = None, label: str | None = None) -> Any:
-        """Draws the largest displacement with Matplotlib, dashed where unstable, and returns the axes."""
+        """Draws the largest displacement with Matplotlib, dashed where unstable, with its special points, and returns the axes."""
         ax = _plots.axes(ax)
         _plots.curve(ax, self._place(), self.max_displacement, self.unstable, label)
+        _plots.special_points(ax, self.special_points, "amplitude" if self._core.over_amplitude else "frequency")
         ax.set_xlabel(self._place_label())
         ax.set_ylabel("Largest displacement (m)")
         return ax
