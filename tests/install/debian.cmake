@@ -25,7 +25,10 @@ expect("${output}" "converged             true")
 # README is there, its links lead to files of the package, and an example is a scene that runs.
 set(pages ${root}/usr/share/doc/wavebalance)
 file(READ ${pages}/README.md readme)
-string(REGEX MATCHALL "\\]\\([a-zA-Z][^):#]*" links "${readme}")
+string(REPLACE "[" "<" readme "${readme}")  # brackets and semicolons have a meaning in lists
+string(REPLACE "]" ">" readme "${readme}")
+string(REPLACE ";" "," readme "${readme}")
+string(REGEX MATCHALL ">\\([a-zA-Z][^):#]*" links "${readme}")
 list(FILTER links EXCLUDE REGEX "https?$")
 list(LENGTH links count)
 if(count LESS 10)

@@ -112,7 +112,7 @@ void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
 }
 
 std::string duration_text(double seconds) {
-  if (seconds >= 600.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  if (seconds >= 120.0) return fmt::format("{:.0f} min", seconds / 60.0);
   return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
 }
 

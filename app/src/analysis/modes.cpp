@@ -225,8 +225,8 @@ ModePoint ModeStudy::linear_mode(double energy_ratio) const {
 }
 
 ModePoint ModeStudy::at_energy(double energy_ratio) const {
-  if (energy_ratio <= 1.0) return linear_mode(energy_ratio);
   if (elastic_) return elastic_->at_energy(energy_ratio, elastic_options(scene_.analysis, energy_ratio));
+  if (energy_ratio <= 1.0) return linear_mode(energy_ratio);
   const auto points = solvers::backbone(mode_, curve_options(scene_.analysis, energy_ratio));
   return solvers::at_energy(mode_, points, energy_ratio);
 }
@@ -325,7 +325,8 @@ Table backbone_table(const ModeStudy& study, const Backbone& curve) {
     append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points));
     table.append_row(std::move(row));
   };
-  for (int i = 0; i < linear_points; ++i) {
+  const bool starts_linear = !elastic || study.elastic_mode()->starts_linear();
+  for (int i = 0; starts_linear && i < linear_points; ++i) {
     const auto point = study.linear_mode(static_cast<double>(i) / (linear_points - 1));
     add(point, study.residual(point));
   }

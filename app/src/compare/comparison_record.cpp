@@ -93,7 +93,7 @@ std::string start_sentence(const Comparison& comparison) {
   return comparison.reference.reached_directly
              ? "Each solve begins with the motion of the reference.\n"
              : "Each solve begins with the motion of the reference, since Newton's method from the response "
-               "without contact does not lead to it.\n";
+               "without contact finds none with few functions.\n";
 }
 
 /// A number of what was not chosen is missing.

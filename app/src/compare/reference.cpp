@@ -63,6 +63,8 @@ class ReferenceSearch {
       }
       reference =
           found ? std::move(*found) : missing_reference(interrupted_ ? "interrupted" : "no_reference");
+      if (reference.converged && reference.kind != "linear" && start_motion_.contacts.empty())
+        reference.reached_directly = starts_directly();
     } catch (const solvers::SingularSystem&) {
       reference = missing_reference("singular");
     }
@@ -102,6 +104,14 @@ class ReferenceSearch {
     if (found) return found;
     refine_balance();
     return by_balance(guides_[model_.contacts() <= few_contacts ? coarse : first]);
+  }
+
+  /// Whether Newton's method from the response without contact finds a balance with few functions.
+  bool starts_directly() {
+    constexpr int few_functions = 7;
+    allowed_ = std::numeric_limits<double>::infinity();
+    const auto few = sized_guide(scene_, model_, few_functions, observer_);
+    return few && few->response.strategy == solvers::Strategy::newton;
   }
 
   /// A reference near the start.
@@ -211,7 +221,6 @@ class ReferenceSearch {
   Reference by_phases(PhaseReference found, Guide& guide) {
     Reference reference = found_reference("phases", "contact phases", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
-    reference.reached_directly = guide.response.strategy == solvers::Strategy::newton;
     if (scene_.analysis.stability)
       reference.stability = guide.problem.stability(guide.response, &found.motion);
     return reference;
@@ -240,7 +249,6 @@ class ReferenceSearch {
     if (scene_.analysis.stability && !interrupted_)
       reference.stability = counted.problem.stability(counted.response);
     reference.without_phases = without_phases_;
-    reference.reached_directly = last.response.strategy == solvers::Strategy::newton;
     return reference;
   }
 

@@ -78,7 +78,9 @@ TEST_F(ModeOfOneMass, HasTheFrequencyOfAClearanceOnBothSides) {
   EXPECT_GT(energies.back(), 4.9);
   for (std::size_t i = 0; i < energies.size(); i += 7) {
     if (energies[i] < 1.05) {
-      if (energies[i] < 1.0) EXPECT_NEAR(ratios[i], 1.0, 1e-6) << energies[i];
+      if (energies[i] < 1.0) {
+        EXPECT_NEAR(ratios[i], 1.0, 1e-6) << energies[i];
+      }
       continue;
     }
     // A linear oscillator between the stops, and another, w^2 = 4, beyond: a quarter of a period of each.

@@ -31,7 +31,9 @@ TEST(CompareStart, LeadsTheReferenceAndEachSolveToTheMotionGiven) {
     const double largest = start.contacts.displacement.maxCoeff();
     EXPECT_NEAR(comparison.reference.motion.displacement.maxCoeff(), largest, 0.02 * largest);
     for (const SolvePoint& point : comparison.points)
-      if (point.converged && point.functions >= 31) EXPECT_LT(point.displacement_error, 0.1 * far);
+      if (point.converged && point.functions >= 31) {
+        EXPECT_LT(point.displacement_error, 0.1 * far);
+      }
   }
 }
 
@@ -43,8 +45,9 @@ TEST(CompareStart, IsSaidInTheRecordAndRefusedWhereItDoesNotFit) {
   const ComparisonRecord record = compare_bases(response_with(), options);
   EXPECT_EQ(value_of<std::string>(record.summary, "solves_begin_with"), "reference");
   EXPECT_NE(record.text.find("Each solve begins with the motion of the reference."), std::string::npos);
-  // A tolerance has no effect in comparisons, and so does not hinder a start.
-  EXPECT_NO_THROW(check_comparison(response_with({"time.tolerance=1e-3"}), options));
+  Scene to_tolerance = response_with();
+  to_tolerance.time.tolerance = 1e-3;  // which has no effect in comparisons, and so does not hinder a start
+  EXPECT_NO_THROW(check_comparison(to_tolerance, options));
   options.start.contacts.displacement = options.start.contacts.force = Eigen::MatrixXd::Zero(3, 8);
   EXPECT_THROW(check_comparison(response_with(), options), std::invalid_argument);
 }

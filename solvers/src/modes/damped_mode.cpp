@@ -153,17 +153,20 @@ int DampedMode::unknowns() const { return problem_->unknowns(); }
 double DampedMode::linear_amplitude() const {
   constexpr int points = 64;
   constexpr double rounding = 1e-9;
-  if (problem_->laws.depend_on_velocity()) return 0.0;
   const int contacts = problem_->contacts();
   const Eigen::VectorXd shape = problem_->linear_shape();
-  Eigen::MatrixXd wave(points, contacts);
-  for (int l = 0; l < points; ++l)
-    wave.row(l) = std::cos(2.0 * std::numbers::pi * l / points) * shape.transpose();
+  Eigen::MatrixXd wave(points, contacts), rate(points, contacts);
+  for (int l = 0; l < points; ++l) {
+    const double angle = 2.0 * std::numbers::pi * l / points;
+    wave.row(l) = std::cos(angle) * shape.transpose();
+    rate.row(l) = -linear_omega() * std::sin(angle) * shape.transpose();
+  }
   const auto departs = [&](double amplitude) {
     const Eigen::MatrixXd motion = amplitude * wave;
     const Eigen::MatrixXd samples = motion.rowwise() + problem_->rest.transpose();
     ContactForces forces;
-    problem_->laws.evaluate(contacts, samples.reshaped(), {}, forces);
+    const Eigen::VectorXd velocity = amplitude * rate.reshaped();
+    problem_->laws.evaluate(contacts, samples.reshaped(), velocity, forces);
     const Eigen::MatrixXd linear = motion * problem_->rest_slope.transpose();
     const Eigen::MatrixXd rest =
         (forces.force.reshaped(points, contacts) - linear).rowwise() - problem_->rest_force.transpose();

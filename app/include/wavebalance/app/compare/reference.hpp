@@ -25,8 +25,8 @@ struct Reference {
   /// Why contact phases are not the reference, a phrase; empty where they are, and where contact never
   /// closes.
   std::string without_phases;
-  /// Whether Newton's method from the response without contact leads to it. If not, a solve from there does
-  /// other work than that of its size.
+  /// Whether Newton's method from the response without contact finds a balance with few functions. If not, a
+  /// solve from there does other work than that of its size.
   bool reached_directly = true;
   double wall_seconds = 0.0;
 

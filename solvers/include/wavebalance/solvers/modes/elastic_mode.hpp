@@ -98,6 +98,8 @@ class ElasticMode {
   double linear_omega() const;    ///< rad/s, of the linear mode continued, as the pair of bases has it
   double grazing_energy() const;  ///< J, of that mode once it just reaches a gap
 
+  /// Whether no law acts up to the energy ratio 1, below which the curve is the linear mode.
+  bool starts_linear() const;
   /// The linear mode at an energy ratio <= 1, below contact.
   ModePoint linear_mode(double energy_ratio) const;
   /// The curve from the linear mode on. Throws as the options' validate() does.
@@ -116,8 +118,6 @@ class ElasticMode {
   PeriodicStiffness contact_stiffness(const ModePoint& point) const;
 
  private:
-  bool starts_linear() const;
-
   std::shared_ptr<const ModeProblem> problem_;
   AnyTimeBasis trial_;
   ElasticModeOptions options_;
