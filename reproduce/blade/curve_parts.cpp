@@ -38,9 +38,7 @@ class Counter {
 
   PointCount operator()(const solvers::SweepPoint& point) {
     const auto response = problem_.response(curve_, point.frequency, point.unknown);
-    const auto phases = problem_.phases(response);
-    const bool known = phases && phases->motion.converged();
-    return {point.frequency, problem_.stability(response, known ? &phases->motion : nullptr).unstable};
+    return {point.frequency, problem_.stability(response).unstable};
   }
 
  private:

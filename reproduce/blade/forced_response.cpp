@@ -286,6 +286,16 @@ void note_stability(report::Artefact& artefact, const CurveParts& parts) {
       report::number(parts.folds[1].frequency, 5)));
 }
 
+/// What is dashed, as far as the counts are known.
+std::string dashes_sentence(const CurveParts& parts) {
+  const bool dashed = std::any_of(parts.points.begin(), parts.points.end(),
+                                  [](const auto& point) { return point.unstable > 0; });
+  return dashed
+             ? "The curve is dashed where it is unstable, by counts at two points of each of its three parts."
+             : "No part of the curve is dashed: counts of its unstable multipliers at two points of each of its three parts "
+               "are not all known.";
+}
+
 Study solved(report::Artefact& artefact) {
   const std::string file = "forced_response.toml";
   Study study;
@@ -371,8 +381,9 @@ void forced_response(report::Artefact& artefact) {
       "less that of Fourier. (c) and (d) show the force over the chord, mean of both faces, and (e) to (h) histories at {} Hz, "
       "each kind on one scale, in the colours of (g). In (a) curve and steps are those of Fourier: black the curve with "
       "its folds, dark blue the steps up, light blue those down. "
-      "The curve is dashed where it is unstable, by counts at two points of each of its three parts.",
-      study.scene.time.functions, study.scene.time.quadrature_points, report::number(study.frequency(), 4)));
+      "{}",
+      study.scene.time.functions, study.scene.time.quadrature_points, report::number(study.frequency(), 4),
+      dashes_sentence(study.parts)));
   claims(artefact, study);
   notes(artefact, study);
   note_stability(artefact, study.parts);
