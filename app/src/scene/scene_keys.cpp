@@ -56,6 +56,7 @@ Condition operator&&(Condition left, const Condition& right) {
 
 bool SceneKey::required_in(const Scene& scene) const {
   if (!belongs.holds(scene) || (in_pairs && !scene.contact.pairs.empty())) return false;
+  if (in_terms && !scene.forcing.terms.empty()) return false;
   if (fallback == Default::derived) return !needed.empty() && needed.holds(scene);
   return fallback == Default::required && needed.holds(scene);
 }

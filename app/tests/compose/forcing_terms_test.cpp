@@ -69,6 +69,15 @@ class ForcingTerms : public testing::Test {
 const std::vector<std::string> fine{"time.functions=127", "time.quadrature_points=1024",
                                     "analysis.output_points=512", "structure.modal_damping=0.05"};
 
+TEST_F(ForcingTerms, NeedNoAmplitudeBesideThem) {
+  const std::string without = with(with(chain_scene, "amplitude = 100.0               # 13\n", ""),
+                                   "load_dofs = [3]                 # 12\n", "");
+  EXPECT_EQ(error(without).key, "forcing.amplitude");
+  const Scene scene = load(with(without, "[time]", terms({"dofs = [3]\namplitude = 40.0"})));
+  EXPECT_EQ(scene.forcing.amplitude, 0.0);
+  expect_equal(scene, load(chain_scene, {"forcing.amplitude=40"}), 1e-12);
+}
+
 TEST_F(ForcingTerms, WithAStaticLoadHarmonicsAndPhasesGiveTheMotionOfTimeStepping) {
   const std::string text =
       chain({"harmonic = 0\namplitude = 150.0", "harmonic = 2\namplitude = 60.0\nphase = 35.0",

@@ -90,7 +90,8 @@
       for (let i = 0; i < a.length; i += 3) {
         const u = [0, 1, 2].map((k) => (a[i + k] + share * (b[i + k] - a[i + k])) * this.data.unit);
         for (let k = 0; k < 3; ++k) position.array[i + k] = this.rest[i + k] + (this.data.times || 1) * u[k];
-        color.array.set(colour(Math.hypot(...u) / this.largest), i);
+        const share = Math.hypot(...u) / this.largest;
+        color.array.set(colour(this.data.triangles.length > 0 ? share : 0.4 + 0.6 * share), i);  // white lines cannot be seen
       }
       position.needsUpdate = color.needsUpdate = true;
       this.mesh.geometry.computeVertexNormals();
@@ -139,7 +140,7 @@
     list.addEventListener("change", () => { body.load(motions[list.value], largest); show(Number(slider.value)); });
     box.replaceChildren(element("h4", {}, "The body over a period"), element("div", { class: "tools" }, list, play, slider), body.canvas,
       element("p", { class: "quiet" }, `Displacements ${(motions[0].times || 1) === 1 ? "as they are" :
-        `drawn ${motions[0].times} times as large`}; white at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
+        `drawn ${motions[0].times} times as large`}; ${motions[0].triangles.length > 0 ? "white" : "blue"} at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
         "motions. Thin lines: the body at rest. Drag to turn it."));
     body.load(motions[0], largest);
     new ResizeObserver(() => { body.resize(...size()); body.render(); }).observe(box);

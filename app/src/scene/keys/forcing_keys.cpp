@@ -6,9 +6,10 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
   const Section forcing(keys, "forcing", forcing_part);
   forcing(&Forcing::amplitude, "amplitude", "N",
           "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
-          "load or load_dofs of matrices",
+          "load or load_dofs of matrices; 0 where it is not given beside [[forcing.terms]]",
           required_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
                                      "shooting", "motions"})));
+  keys.back().in_terms = true;
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
           required_with(
               analysis_is({"forced_response", "amplitude_sweep", "time_stepping", "shooting", "motions"})));

@@ -85,6 +85,7 @@ struct SceneKey {
   std::vector<std::string_view> laws;     ///< the contact laws that take it; empty: all do
   bool dofs = false;                      ///< a list whose entries may be names such as "node 7 z"
   bool in_pairs = false;                  ///< not required where [[contact.pairs]] may each have their own
+  bool in_terms = false;                  ///< nor where there are [[forcing.terms]]
   Default fallback = Default::required;
   std::string_view derived_text;                    ///< the derived default in words
   std::function<SceneValue(const Scene&)> derived;  ///< computes it from the other keys
