@@ -19,9 +19,8 @@ class DampedStudy {
 
   const Scene& scene() const { return scene_; }
   const solvers::DampedMode& mode() const { return mode_; }
-  double slip_amplitude() const {
-    return slip_amplitude_;
-  }  ///< m, at which a contact first slips, opens or closes
+  /// m, at which a contact first slips, opens or closes
+  double slip_amplitude() const { return slip_amplitude_; }
 
   /// From half the amplitude of first slip to `largest` times it.
   solvers::DampedBackbone curve(double largest, const solvers::Observer& observer) const;

@@ -45,8 +45,8 @@ struct PairResult {
 struct Comparison {
   bool interrupted = false;
   Reference reference;
-  /// Whether each solve begins with the motion of the reference: with a start, and where Newton's method from
-  /// the response without contact does not lead to it.
+  /// Whether each solve begins with the motion of the reference: with a start, and where it is not
+  /// Reference::reached_directly.
   bool from_reference = false;
   ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
   std::string

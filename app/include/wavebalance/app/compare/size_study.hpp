@@ -61,7 +61,7 @@ Scene discretised(Scene scene, const BasisPair& pair, int functions, int points)
 /// The problem before its condensation, which is part of a solve.
 solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureModel& model);
 
-/// The samples of a start in a scene's sizes, and whether a solve stays near them; an empty motion has none.
+/// The samples of a start in a scene's sizes; none of an empty motion.
 solvers::ResponseStart response_start(const StartMotion& start, const Scene& scene);
 
 /// Relative rms errors of all contacts together; NaN where the reference is zero or missing.

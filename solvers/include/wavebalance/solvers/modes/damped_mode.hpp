@@ -88,7 +88,7 @@ class DampedMode {
   double linear_damping_ratio() const;  ///< xi / (2 omega) of it, where damping does not couple modes
   int unknowns() const;
   /// The amplitude up to which all laws are linear along the linear mode, m: that at which a contact first
-  /// slips or opens. 0 where they are not at any amplitude, infinite where they always are.
+  /// slips, opens or closes. 0 where they are not at any amplitude, infinite where they always are.
   double linear_amplitude() const;
 
   /// The curve between two amplitudes. Throws as the options' validate() does.
