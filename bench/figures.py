@@ -2,6 +2,7 @@
 
     figures.py measure RESULTS        prints what the files of a run say: name, value
     figures.py check MEASURED ROOT    fails where a line of a README is not that of these values
+    figures.py lines MEASURED         prints these lines
 
 measured.csv beside this script holds those of the run that the READMEs tell of. After a new run write it anew by `measure`
 and put the lines that `check` names into the READMEs.
@@ -13,7 +14,19 @@ import csv
 import json
 import pathlib
 import re
+import statistics
 import sys
+from typing import Any
+
+
+ERRORS = ("0.01", "0.001", "1e-4", "1e-6")
+RIGID_AND_NOT = ("case1", "case2", "case1_rigid", "case2_rigid")
+TOLERANCES = ("0.1", "0.01", "0.001", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8")
+BASES = {"fourier": "Fourier", "haar": "Haar", "bspline": "B-spline"}
+
+
+def benchmarks(results: pathlib.Path) -> list[dict[str, Any]]:
+    return [one for one in json.loads((results / "solvers.json").read_text())["benchmarks"] if one.get("run_type") != "aggregate"]
 
 
 def benchmark_ms(results: pathlib.Path) -> dict[str, float]:
@@ -21,9 +34,7 @@ def benchmark_ms(results: pathlib.Path) -> dict[str, float]:
     parts."""
     per_unit = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
     found: dict[str, float] = {}
-    for one in json.loads((results / "solvers.json").read_text())["benchmarks"]:
-        if one.get("run_type") == "aggregate":
-            continue
+    for one in benchmarks(results):
         name = re.sub(r"(/iterations:\d+)?(/repeats:\d+)?$", "", one["run_name"])
         time = one.get("quickest_ms", one["cpu_time"] * per_unit[one["time_unit"]])
         found[name] = min(time * one.get("parts", 1.0), found.get(name, float("inf")))
@@ -44,7 +55,39 @@ def fastest(points: list[dict[str, str]], **wanted: str) -> tuple[float, float]:
     return float(best["error"]), float(best["seconds"])
 
 
-def measured(results: pathlib.Path) -> dict[str, float]:
+def in_points(results: pathlib.Path) -> dict[str, float]:
+    """What the stability of a response costs in points of its curve, and its determinants: the least of the repetitions."""
+    found: dict[str, float] = {}
+    for one in benchmarks(results):
+        if "sweep_points" in one:
+            name = one["run_name"].replace("/", "_")
+            found[name] = min(one["sweep_points"], found.get(name, float("inf")))
+            found[f"{name}_determinants"] = one.get("evaluations", 0)
+    return found
+
+
+def cheapest_text(row: dict[str, str]) -> str:
+    """Time of Fourier:Fourier over that of the cheapest pair, and this."""
+    if not row["trial"]:
+        return "none"
+    names = [BASES.get(row[key], row[key].replace("daubechies", "DB")) for key in ("trial", "weight")]
+    ratio = float(row["fourier_time_ratio"])
+    times = "alone" if ratio != ratio else f"{ratio:.2g}" if ratio < 99 else ratio_text(ratio)
+    return f"{times} ({':'.join(names)}, {time_text(1e3 * float(row['seconds']))})"
+
+
+def tolerance_values(results: pathlib.Path) -> dict[str, float]:
+    values = {}
+    for tolerance in TOLERANCES:
+        ended = [row for row in rows(results / "tolerance.csv") if row["tolerance"] == tolerance and row["status"] == "converged"]
+        costs = sorted(float(row["cost_ratio"]) for row in ended)
+        values[f"to_{tolerance}_error"] = max(float(row["error_over_tolerance"]) for row in ended)
+        values[f"to_{tolerance}_median"] = statistics.median(costs)
+        values[f"to_{tolerance}_cost"] = costs[-1]
+    return values
+
+
+def measured(results: pathlib.Path) -> dict[str, float | str]:
     times = benchmark_ms(results)
     values = {}
     for case in ("1", "2"):
@@ -72,6 +115,9 @@ def measured(results: pathlib.Path) -> dict[str, float]:
     for name in ("tolerance", "tolerance_random"):
         ratios = [float(row["error_over_tolerance"]) for row in rows(results / f"{name}.csv") if row["status"] == "converged"]
         values[f"{name}_ratio"] = max(ratio for ratio in ratios if ratio == ratio)
+    values |= in_points(results) | tolerance_values(results)
+    for row in rows(results / "cheapest_pairs.csv"):
+        values[f"cheapest_{row['case']}_{row['error']}"] = cheapest_text(row)
     return values
 
 
@@ -92,7 +138,27 @@ def ratio_text(ratio: float) -> str:
     return f"{int(float(f'{ratio:.2g}')):,}".replace(",", " ")
 
 
-def lines_of(v: dict[str, float]) -> dict[str, list[str]]:
+def tables_of(v: dict[str, Any]) -> list[str]:
+    """The tables of stability, of the cheapest pairs and of tolerances."""
+    def points(name: str) -> str:
+        count = int(v[f"{name}_determinants"])
+        return f"{v[name]:.2g}" + (f" ({count} determinants)" if count > 0 else "")
+
+    names = [("unstable_multipliers", "`unstable_multipliers`"), ("stability_signs", "`stability_signs`"),
+             ("follow_exponents", "`floquet_exponents`, two of them from the point before")]
+    lines = [f"| {text} | {points(f'{name}_bar')} | {points(f'{name}_blade')} |" for name, text in names]
+    lines.append(f"With 63 functions a count of the blade takes {points('unstable_multipliers_blade_63_functions')}."
+                 .replace(" (", " points ("))
+    for error in ERRORS:
+        cells = " | ".join(v[f"cheapest_{case}_{error}"] for case in RIGID_AND_NOT)
+        lines.append(f"| {float(error):.0e} | {cells} |".replace("e-0", "e-"))
+    for text, part in (("largest true error / tolerance", "error"), ("cost over the cheapest, median", "median"),
+                       ("cost over the cheapest, largest", "cost")):
+        lines.append(f"| {text} | " + " | ".join(f"{v[f'to_{tolerance}_{part}']:.2g}" for tolerance in TOLERANCES) + " |")
+    return lines
+
+
+def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
     """The lines that stand in each README."""
     def both(name: str) -> str:
         return f"{time_text(v[f'{name}_1_ms'])} / {time_text(v[f'{name}_2_ms'])}"
@@ -132,14 +198,19 @@ def lines_of(v: dict[str, float]) -> dict[str, list[str]]:
             f"| backbone of the blade, N = 5, m = 20, 102 points | {time_text(v['mode_blade_ms'])} | "
             f"{time_text(v['dense_mode_blade_ms'])} (augmented Lagrangian, one point, scaled) | "
             f"{ratio_text(v['dense_mode_blade_ms'] / v['mode_blade_ms'])} |",
+            *tables_of(v),
         ],
     }
 
 
+def values_in(file: pathlib.Path) -> dict[str, Any]:
+    """Numbers, and the texts of cells."""
+    return {row["name"]: row["value"] if row["name"].startswith("cheapest_") else float(row["value"]) for row in rows(file)}
+
+
 def check(file: pathlib.Path, root: pathlib.Path) -> int:
-    values = {row["name"]: float(row["value"]) for row in rows(file)}
     missing = 0
-    for name, lines in lines_of(values).items():
+    for name, lines in lines_of(values_in(file)).items():
         text = (root / name).read_text()
         for line in lines:
             if line not in text:
@@ -153,8 +224,11 @@ if __name__ == "__main__":
         writer = csv.writer(sys.stdout, lineterminator="\n")
         writer.writerow(["name", "value"])
         for name, value in measured(pathlib.Path(sys.argv[2])).items():
-            writer.writerow([name, f"{value:.6g}"])
+            writer.writerow([name, value if isinstance(value, str) else f"{value:.6g}"])
     elif len(sys.argv) == 4 and sys.argv[1] == "check":
         sys.exit(check(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])))
+    elif len(sys.argv) == 3 and sys.argv[1] == "lines":
+        for name, lines in lines_of(values_in(pathlib.Path(sys.argv[2]))).items():
+            print(f"{name}:", *lines, sep="\n")
     else:
         raise SystemExit(__doc__)
