@@ -8,26 +8,27 @@
 #include <stdexcept>
 
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
-
-using app::Colour;
 
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem) {
   return {"jones_legrand_2014", "JL14 " + number, title, stem};
 }
 
 const std::vector<Pair>& pairs() {
-  static const std::vector<Pair> all{
-      {"fourier", "fourier", "Fourier:Fourier", Colour::blue, 1},
-      {"bspline", "bspline", "B-spline:B-spline", Colour::vermillion, 2},
-      {"daubechies6", "daubechies6", "DB6:DB6", Colour::green, 3},
-      {"haar", "fourier", "Haar:Fourier", Colour::purple, 4},
-      {"daubechies6", "fourier", "DB6:Fourier", Colour::orange, 5},
-      {"haar", "bspline", "Haar:B-spline", Colour::sky_blue, 6},
-  };
+  static const std::vector<Pair> all = [] {
+    std::vector<Pair> found;
+    for (const app::BasisPair& pair :
+         app::parse_pairs("fourier:fourier,bspline:bspline,daubechies6:daubechies6,"
+                          "haar:fourier,daubechies6:fourier,haar:bspline")) {
+      const app::PairStyle style = app::style_of(pair);
+      found.push_back({pair.trial, pair.weight, app::label_of(pair), style.colour, style.marker});
+    }
+    return found;
+  }();
   return all;
 }
 

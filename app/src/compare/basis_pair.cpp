@@ -19,25 +19,35 @@ std::string basis_label(const std::string& basis) {
   return "DB" + std::to_string(daubechies_coefficients(basis));
 }
 
-struct BasisStyle {
-  const char* basis;
-  Colour colour;
-  int marker;
+/// The pairs of JL14's Table 2, solid.
+struct NamedStyle {
+  const char *trial, *weight;
+  PairStyle style;
 };
+constexpr std::array<NamedStyle, 6> pairs_of_table_2{{{"fourier", "fourier", {Colour::blue, 1}},
+                                                      {"bspline", "bspline", {Colour::vermillion, 2}},
+                                                      {"daubechies6", "daubechies6", {Colour::green, 3}},
+                                                      {"haar", "fourier", {Colour::purple, 4}},
+                                                      {"daubechies6", "fourier", {Colour::orange, 5}},
+                                                      {"haar", "bspline", {Colour::sky_blue, 6}}}};
 
-constexpr std::array<BasisStyle, 7> basis_styles{{{"fourier", Colour::blue, 1},
-                                                  {"bspline", Colour::vermillion, 2},
-                                                  {"daubechies6", Colour::green, 3},
-                                                  {"haar", Colour::purple, 4},
-                                                  {"daubechies8", Colour::sky_blue, 5},
-                                                  {"daubechies10", Colour::orange, 6},
-                                                  {"daubechies20", Colour::black, 7}}};
+/// Those of other pairs by their trial functions, never solid.
+struct BasisStyle {
+  const char* trial;
+  PairStyle style;
+};
+constexpr std::array<BasisStyle, 7> other_pairs{{{"fourier", {Colour::blue, 1}},
+                                                 {"bspline", {Colour::vermillion, 2}},
+                                                 {"daubechies6", {Colour::green, 3}},
+                                                 {"haar", {Colour::purple, 4}},
+                                                 {"daubechies8", {Colour::sky_blue, 5}},
+                                                 {"daubechies10", {Colour::black, 6}},
+                                                 {"daubechies20", {Colour::grey, 7}}}};
 
 Dash dash_of(const BasisPair& pair) {
-  if (pair.trial == pair.weight) return Dash::solid;
-  return pair.weight == "fourier"   ? Dash::dashed
+  return pair.weight == "fourier"   ? Dash::dash_dotted
          : pair.weight == "bspline" ? Dash::dotted
-                                    : Dash::dash_dotted;
+                                    : Dash::dashed;
 }
 
 [[noreturn]] void refuse(std::string_view text, const std::string& why) {
@@ -112,21 +122,22 @@ solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scen
   return pair_admissibility(tried);
 }
 
+PairStyle style_of(const BasisPair& pair) {
+  if (pair.is_phases()) return {Colour::black, 7};
+  for (const NamedStyle& one : pairs_of_table_2)
+    if (pair == BasisPair{one.trial, one.weight}) return one.style;
+  PairStyle style{Colour::grey, 8, dash_of(pair)};
+  for (const BasisStyle& one : other_pairs)
+    if (pair.trial == one.trial) style = {one.style.colour, one.style.marker, dash_of(pair)};
+  return style;
+}
+
 Series styled(Series series, const BasisPair& pair) {
-  if (pair.is_phases()) {
-    series.colour = Colour::black;
-    series.marker = 7;
-    series.width = 2.4;
-    return series;
-  }
-  series.colour = Colour::grey;
-  series.marker = 8;
-  series.dash = dash_of(pair);
-  for (const BasisStyle& style : basis_styles)
-    if (pair.trial == style.basis) {
-      series.colour = style.colour;
-      series.marker = style.marker;
-    }
+  const PairStyle style = style_of(pair);
+  series.colour = style.colour;
+  series.marker = style.marker;
+  series.dash = style.dash;
+  if (pair.is_phases()) series.width = 2.4;
   return series;
 }
 

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "support/bar_scene.hpp"
 #include "support/brief_comparison.hpp"
@@ -238,6 +240,19 @@ TEST(PairResults, CountFailuresByStatusAndFitTheOrderAboveTheErrorOfTheReference
   EXPECT_NEAR(found.force_order, 1.0, 1e-9);
   EXPECT_EQ(found.order_points_per_function, 2);
   EXPECT_EQ(found.failures, "1 stalled (8 functions)");
+}
+
+TEST(BasisPairs, AreDrawnEachInAWayOfItsOwnAndThoseOfThePaperSolid) {
+  std::set<std::pair<Colour, Dash>> looks;
+  int solid = 0;
+  for (const BasisPair& pair : common_pairs()) {
+    if (!admissibility_of(pair, scene_of()).admissible) continue;
+    const PairStyle style = style_of(pair);
+    EXPECT_TRUE(looks.emplace(style.colour, style.dash).second) << name_of(pair);
+    solid += style.dash == Dash::solid;
+  }
+  EXPECT_EQ(solid, 6);
+  EXPECT_TRUE(looks.emplace(style_of(BasisPair::phases()).colour, style_of(BasisPair::phases()).dash).second);
 }
 
 TEST(BasisPairs, AreReadFromTextAndErrorsNameWhatIsWrong) {

@@ -35,8 +35,18 @@ std::vector<BasisPair> common_pairs();
 /// Whether the pair can be taken with the scene's formulation and inner products, and if not, the reason.
 solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scene);
 
-/// `series` in the colour and symbol of the trial functions and the dash of the weights, which are solid
-/// where both are the same; that of contact phases is black and wider.
+/// How a pair is drawn, in every picture.
+struct PairStyle {
+  Colour colour = Colour::grey;
+  int marker = 8;
+  Dash dash = Dash::solid;
+};
+
+/// The six pairs of JL14's Table 2 have a colour each and are solid; others have that of their trial
+/// functions and dashes by their weights.
+PairStyle style_of(const BasisPair& pair);
+
+/// `series` so; that of contact phases is black and wider.
 Series styled(Series series, const BasisPair& pair);
 
 }  // namespace wavebalance::app
