@@ -17,7 +17,7 @@ constexpr std::array<std::array<int, 8>, 6> faces_of_hexahedron{{{0, 3, 2, 1, 11
                                                                  {3, 0, 4, 7, 11, 16, 15, 19}}};
 
 struct Face {
-  std::array<int, 4> corners;  // ascending: the same from either side
+  std::array<int, 4> ascending;  // corners, the same from either side
   int element;
   int side;
   auto key() const { return std::pair(element, side); }
@@ -30,29 +30,31 @@ std::vector<Face> all_faces(const SolidMesh& mesh) {
     for (int side = 0; side < 6; ++side) {
       Face face{{}, element, side};
       for (std::size_t i = 0; i < 4; ++i)
-        face.corners[i] = mesh.elements(faces_of_hexahedron[static_cast<std::size_t>(side)][i], element);
-      std::sort(face.corners.begin(), face.corners.end());
+        face.ascending[i] = mesh.elements(faces_of_hexahedron[static_cast<std::size_t>(side)][i], element);
+      std::sort(face.ascending.begin(), face.ascending.end());
       faces.push_back(face);
     }
   return faces;
 }
 
-std::vector<Face> single(std::vector<Face> faces) {
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.corners < b.corners; });
-  std::vector<Face> found;
+/// Those that belong to one solid only, by their corners.
+template <class AnyFace>
+std::vector<AnyFace> single(std::vector<AnyFace> faces) {
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const AnyFace& a, const AnyFace& b) { return a.ascending < b.ascending; });
+  std::vector<AnyFace> found;
   for (auto at = faces.begin(); at != faces.end();) {
     const auto next =
-        std::find_if(at, faces.end(), [&](const Face& face) { return face.corners != at->corners; });
+        std::find_if(at, faces.end(), [&](const AnyFace& face) { return face.ascending != at->ascending; });
     if (next - at == 1) found.push_back(*at);
     at = next;
   }
-  std::sort(found.begin(), found.end(), [](const Face& a, const Face& b) { return a.key() < b.key(); });
   return found;
 }
 
 /// A face of a solid by its corners, in their order around it and ascending.
 struct CornerFace {
-  std::vector<int> corners, key;
+  std::vector<int> corners, ascending;
 };
 
 void add_triangles(const std::vector<int>& corners, std::vector<int>& triangles) {
@@ -72,14 +74,36 @@ void add_faces(const int* points, int corners, std::vector<CornerFace>& faces) {
   for (const std::vector<int>& places : faces_of_corners(corners)) {
     CornerFace face;
     for (const int place : places) face.corners.push_back(points[place]);
-    face.key = face.corners;
-    std::sort(face.key.begin(), face.key.end());
+    face.ascending = face.corners;
+    std::sort(face.ascending.begin(), face.ascending.end());
     faces.push_back(std::move(face));
   }
 }
 
+/// The points of a cell of VTK's type; 0 for types that read_mesh() does not make.
+int points_of(int type) {
+  constexpr std::array<std::array<int, 2>, 12> known{{{3, 2},
+                                                      {5, 3},
+                                                      {9, 4},
+                                                      {10, 4},
+                                                      {12, 8},
+                                                      {13, 6},
+                                                      {21, 3},
+                                                      {22, 6},
+                                                      {23, 8},
+                                                      {24, 10},
+                                                      {25, 20},
+                                                      {26, 15}}};
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one[0] == type; });
+  return found == known.end() ? 0 : (*found)[1];
+}
+
 /// A cell of VTK's type with `count` points.
 void add_cell(int type, const int* points, int count, std::vector<CornerFace>& faces, MeshSurface& surface) {
+  if (count == 0 || count != points_of(type))
+    throw std::invalid_argument("surface_of: a cell of " + std::to_string(count) + " points has the type " +
+                                std::to_string(type) + "; it must be one that read_mesh() makes");
   switch (type) {
     case 3:
       surface.segments.insert(surface.segments.end(), {points[0], points[1]});
@@ -99,12 +123,8 @@ void add_cell(int type, const int* points, int count, std::vector<CornerFace>& f
     case 13:
     case 26:
       return add_faces(points, 6, faces);
-    case 12:
-    case 25:
-      return add_faces(points, 8, faces);
     default:
-      throw std::invalid_argument("surface_of: a cell of " + std::to_string(count) + " points has the type " +
-                                  std::to_string(type) + "; it must be one that read_mesh() makes");
+      return add_faces(points, 8, faces);
   }
 }
 
@@ -112,7 +132,8 @@ void add_cell(int type, const int* points, int count, std::vector<CornerFace>& f
 
 Connectivity boundary_faces(const SolidMesh& mesh) {
   mesh.validate();
-  const std::vector<Face> found = single(all_faces(mesh));
+  std::vector<Face> found = single(all_faces(mesh));
+  std::sort(found.begin(), found.end(), [](const Face& a, const Face& b) { return a.key() < b.key(); });
   Connectivity faces(nodes_per_element(mesh.element) == 20 ? 8 : 4, static_cast<Eigen::Index>(found.size()));
   for (Eigen::Index column = 0; column < faces.cols(); ++column) {
     const Face& face = found[static_cast<std::size_t>(column)];
@@ -133,14 +154,7 @@ MeshSurface surface_of(const Mesh& mesh) {
     add_cell(mesh.cell_types[cell], points, mesh.cell_ends[cell] - begin, faces, surface);
     begin = mesh.cell_ends[cell];
   }
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const CornerFace& a, const CornerFace& b) { return a.key < b.key; });
-  for (auto at = faces.begin(); at != faces.end();) {
-    const auto next =
-        std::find_if(at, faces.end(), [&](const CornerFace& face) { return face.key != at->key; });
-    if (next - at == 1) add_triangles(at->corners, surface.triangles);
-    at = next;
-  }
+  for (const CornerFace& face : single(std::move(faces))) add_triangles(face.corners, surface.triangles);
   return surface;
 }
 

@@ -127,7 +127,11 @@ TEST(Surface, HasShellsBeamsAndTheOuterFacesOfTetrahedraAndWedges) {
   add(3, {0, 1});
   add(21, {1, 2, 8});  // ends 1 and 2, middle 8
   EXPECT_EQ(surface_of(mesh).segments, (std::vector<int>{0, 1, 1, 8, 8, 2}));
+  const Mesh before = mesh;
   add(42, {0, 1, 2});
+  EXPECT_THROW(surface_of(mesh), std::invalid_argument);
+  mesh = before;
+  add(12, {0, 1, 2});  // a hexahedron of three points
   EXPECT_THROW(surface_of(mesh), std::invalid_argument);
 }
 

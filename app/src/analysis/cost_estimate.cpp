@@ -106,7 +106,7 @@ double responses(const Analysis& analysis) {
 void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
   if (!is_sweep(scene.analysis) || !scene.analysis.stability) return;
   constexpr double least = 0.1, most = 10.0;         // of the curve
-  constexpr double longest_structure_curve = 300.0;  // s, what StructurePointsOptions::max_operations take
+  constexpr double longest_structure_curve = 300.0;  // s, estimated of StructurePointsOptions::max_operations
   cost.least_stability_seconds = least * cost.seconds;
   cost.most_stability_seconds = most * cost.seconds + (sizes.contacts > 1.0 ? longest_structure_curve : 0.0);
 }

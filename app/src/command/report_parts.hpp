@@ -24,8 +24,8 @@ std::string code_html(const std::string& text);
 /// An argument as a shell takes it.
 std::string shell_word(const std::string& text);
 
-/// The cells of a table as text below the names of its columns: frequencies and amplitudes with ten digits, other
-/// numbers with six; columns without a value are left out.
+/// The cells of a table as text below the names of its columns: frequencies and amplitudes with ten digits,
+/// other numbers with six; columns without a value are left out.
 std::vector<std::vector<std::string>> shown_rows(const Table& table);
 /// The table `name` of a summary; null if there is none or it is empty.
 const Table* table_of(const Summary& summary, const std::string& name);

@@ -107,11 +107,13 @@ class ReferenceSearch {
   }
 
   /// Whether Newton's method from the response without contact finds a balance with few functions.
-  bool starts_directly() {
+  bool starts_directly() try {
     constexpr int few_functions = 7;
     allowed_ = std::numeric_limits<double>::infinity();
     const auto few = sized_guide(scene_, model_, few_functions, observer_);
     return few && few->response.strategy == solvers::Strategy::newton;
+  } catch (const solvers::SingularSystem&) {
+    return false;  // with few functions alone, as the reference is known
   }
 
   /// A reference near the start.

@@ -5,8 +5,7 @@
 namespace wavebalance::app {
 
 bool is_damped_mode(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::nonlinear_mode &&
-         (names_friction(scene.contact) || names_damper(scene.contact));
+  return scene.analysis.type == AnalysisType::nonlinear_mode && takes_energy(scene.contact);
 }
 
 bool is_elastic_mode(const Scene& scene) {

@@ -32,8 +32,9 @@ std::string status_of(const DampedStudy& study, const solvers::DampedBackbone& c
   if (curve.status == DampedBackboneStatus::reached_amplitude) return "converged";
   const std::string reason(to_string(curve.status));
   if (curve.points.empty()) return reason;
-  return fmt::format("ended at {:.4g} times the amplitude at which a contact first acts, before the {:.4g} asked for: {}",
-                     curve.points.back().amplitude / study.slip_amplitude(), largest, reason);
+  return fmt::format(
+      "ended at {:.4g} times the amplitude at which a contact first acts, before the {:.4g} asked for: {}",
+      curve.points.back().amplitude / study.slip_amplitude(), largest, reason);
 }
 
 void append_setting(Summary& summary, const DampedStudy& study, const StructureModel& model) {

@@ -376,14 +376,6 @@ Record composed_record(const Scene& scene, const AnalysisOptions& how) {
   return record_of(scene, model, how);
 }
 
-/// The time of everything, before that of the solution.
-void insert_wall_seconds(Summary& summary, double seconds) {
-  const auto place = std::find_if(summary.begin(), summary.end(), [](const Entry& entry) {
-    return entry.name == quantities::solve_seconds.name;
-  });
-  summary.insert(place, Entry(quantities::wall_seconds, seconds));
-}
-
 }  // namespace
 
 Record analyse(const Scene& scene, const Observer& observer) {

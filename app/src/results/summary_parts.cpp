@@ -25,6 +25,13 @@ Summary solution_entries(bool converged, const std::string& status, double resid
           {quantities::solve_seconds, solve_seconds}};
 }
 
+void insert_wall_seconds(Summary& summary, double seconds) {
+  const auto place = std::find_if(summary.begin(), summary.end(), [](const Entry& entry) {
+    return entry.name == quantities::solve_seconds.name;
+  });
+  summary.insert(place, Entry(quantities::wall_seconds, seconds));
+}
+
 void append_discretisation(Summary& summary, const Time& time) {
   summary.emplace_back(quantities::trial, time.trial);
   summary.emplace_back(quantities::weight, time.weight);

@@ -9,6 +9,8 @@ namespace wavebalance::app {
 /// The first entries of every summary.
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
                          int unknowns, double solve_seconds);
+/// Puts the time of everything before that of the solution.
+void insert_wall_seconds(Summary& summary, double seconds);
 
 /// Pair of bases, its formulation and its sizes.
 void append_discretisation(Summary& summary, const Time& time);

@@ -43,9 +43,10 @@ bool names_friction(const Contact& contact) {
                      [](const ContactPair& pair) { return has_friction(pair.law); });
 }
 
-bool names_damper(const Contact& contact) {
-  return is_damped(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                                               [](const ContactPair& pair) { return is_damped(pair.law); });
+bool takes_energy(const Contact& contact) {
+  return names_friction(contact) || is_damped(contact.law) ||
+         std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                     [](const ContactPair& pair) { return is_damped(pair.law); });
 }
 
 bool names_rigid_friction(const Contact& contact) {

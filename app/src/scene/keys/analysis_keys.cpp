@@ -130,17 +130,15 @@ void add_mode(std::vector<SceneKey>& keys) {
        optional);
   mode(&Analysis::harmonics, "harmonics", "", "harmonics N of the Fourier series in time", within(1, 4096),
        optional);
-  mode(
-      &Analysis::samples, "samples", "",
-      "uniform times of one period at which contact is enforced, at least 2 x harmonics; with an exponential "
-      "or linear law those of its force, and with friction too",
-      within(2, 1 << 16),
-      derived("2 x harmonics, 8 x with an exponential or linear law, 32 x with friction",
-              [](const Scene& scene) {
-                const bool loses = names_friction(scene.contact) || names_damper(scene.contact);
-                const int each = loses ? 32 : is_rigid(scene.contact.law) ? 2 : 8;
-                return each * scene.analysis.harmonics;
-              }));
+  mode(&Analysis::samples, "samples", "",
+       "uniform times of one period at which contact is enforced, at least 2 x harmonics; with an elastic "
+       "law those of its force, and with friction or dampers too",
+       within(2, 1 << 16),
+       derived("2 x harmonics, 8 x with an elastic law, 32 x with friction or dampers",
+               [](const Scene& scene) {
+                 const int each = takes_energy(scene.contact) ? 32 : is_rigid(scene.contact.law) ? 2 : 8;
+                 return each * scene.analysis.harmonics;
+               }));
   mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
   mode(
       &Analysis::reference_length, "reference_length", "m",
@@ -176,8 +174,7 @@ SceneValue stability_by_default(const Scene& scene) {
   const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
                      scene.analysis.type == AnalysisType::amplitude_sweep;
   if (!sweep && !mode) return true;
-  const bool loses = names_friction(scene.contact) || names_damper(scene.contact);
-  if (mode && (is_rigid(scene.contact.law) || loses)) return true;  // not known
+  if (mode && (is_rigid(scene.contact.law) || takes_energy(scene.contact))) return true;  // not known
   constexpr int few = 6;
   constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
   const int contacts = contact_count(scene);

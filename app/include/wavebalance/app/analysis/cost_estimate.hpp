@@ -27,12 +27,13 @@ struct CostEstimate {
 /// structure takes 1500 n bytes, and where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction
 /// 4e-4 s per degree of freedom before it. In six scenes from 1 to 24 contacts, up to 2^16 functions and 2^20
 /// points, memory was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Stability
-/// with the structure's own curve took 0.1 to 9 times the time of the curve in ten sweeps of one contact, and
-/// 0.2 to 170 times in four of 3 to 24, as that curve has few phases or many; it is bounded by the operations
-/// that it may take. Responses that Newton's method does not find take more time. Sizes that a tolerance
-/// chooses, periods of time stepping and points of a mode are not known: the time is NaN, and memory that of
-/// the structure and the output. With laws of the velocity at 10 to 200 contacts memory was within a factor
-/// of 1.5, too. O(1), but matrices that have not been read are read.
+/// with the structure's own curve took 0.1 to 9 times the time of the curve in ten sweeps of one contact. Of
+/// three contacts it had taken 170 times when it was stopped, as that curve may have many phases; it is
+/// bounded by the operations that it may take, here estimated at 300 s. Responses that Newton's method does
+/// not find take more time. Sizes that a tolerance chooses, periods of time stepping and points of a mode are
+/// not known: the time is NaN, and memory that of the structure and the output. With laws of the velocity at
+/// 10 to 200 contacts memory was within a factor of 1.5, too. O(1), but matrices that have not been read are
+/// read.
 CostEstimate estimate_cost(const Scene& scene);
 
 /// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes

@@ -173,8 +173,8 @@ bool is_rigid(std::string_view law);
 bool has_friction(std::string_view law);
 /// Whether a law of [contact] or of a pair has it.
 bool names_friction(const Contact& contact);
-/// Whether the force of a law of [contact] or of a pair depends on the velocity.
-bool names_damper(const Contact& contact);
+/// Whether a law of [contact] or of a pair takes energy from a motion: friction, or a force of the velocity.
+bool takes_energy(const Contact& contact);
 /// Whether one of these has friction without tangential_stiffness, which is rigid.
 bool names_rigid_friction(const Contact& contact);
 /// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
