@@ -55,6 +55,81 @@ def fastest(points: list[dict[str, str]], **wanted: str) -> tuple[float, float]:
     return float(best["error"]), float(best["seconds"])
 
 
+def accurate(points: list[dict[str, str]], error: float, **wanted: str) -> tuple[float, float]:
+    """Error and seconds of the fastest of the rows with these cells whose error is not larger."""
+    return fastest([row for row in points if row["error"] and float(row["error"]) <= error], **wanted)
+
+
+def phases_lead_below(points: list[dict[str, str]], case: str) -> float:
+    """The largest error below which contact phases are faster than every pair of bases, at every error."""
+    def steps(method: str) -> list[tuple[float, float]]:
+        found = [(float(row["error"]), float(row["seconds"])) for row in points
+                 if row["case"] == case and row["method"] == method and row["converged"] == "true"]
+        return sorted(found)
+
+    def time_to(error: float, reached: list[tuple[float, float]]) -> float:
+        return min((seconds for at, seconds in reached if at <= error), default=float("inf"))
+
+    phases, pairs = steps("phases"), steps("weighted_residual")
+    leads = 0.0
+    for error in sorted(at for at, _ in phases + pairs):
+        if time_to(error, phases) == float("inf"):
+            continue
+        if time_to(error, phases) >= time_to(error, pairs):
+            break
+        leads = error
+    return leads
+
+
+def work_values(points: list[dict[str, str]]) -> dict[str, float]:
+    """What the table "From one run" of bench/README.md says."""
+    rigid = {"trial": "daubechies10", "weight": "daubechies10"}
+    fourier = {"trial": "fourier", "weight": "fourier"}
+    found = {
+        "phases_case1_few": accurate(points, 1e-7, case="case1", method="phases"),
+        "phases_case1_many": accurate(points, 1e-10, case="case1", method="phases"),
+        "dense_case1": fastest(points, case="case1", method="dense", functions="63"),
+        "phases_case2_few": accurate(points, 1e-8, case="case2", method="phases"),
+        "phases_case2_many": accurate(points, 1e-12, case="case2", method="phases"),
+        "no_kink": accurate(points, 1e-11, case="always_in_contact", **fourier),
+        "no_kink_phases": accurate(points, 1e-8, case="always_in_contact", method="phases"),
+        "rigid2_256": fastest(points, case="case2_rigid", functions="256", points="256", **rigid),
+        "rigid2_512": fastest(points, case="case2_rigid", functions="512", points="1024", **rigid),
+        "rigid2_phases": accurate(points, 1e-7, case="case2_rigid", method="phases"),
+        "rigid1_phases_few": accurate(points, 1e-8, case="case1_rigid", method="phases"),
+        "rigid1_phases_many": accurate(points, 1e-12, case="case1_rigid", method="phases"),
+    }
+    values: dict[str, float] = {}
+    for name, (error, seconds) in found.items():
+        values[f"work_{name}_error"], values[f"work_{name}_ms"] = error, 1e3 * seconds
+    for case in RIGID_AND_NOT:
+        values[f"phases_lead_{case}"] = phases_lead_below(points, case)
+    return values
+
+
+def growth_values(results: pathlib.Path) -> dict[str, float]:
+    """Times of the largest sizes and slopes of times over the upper half of each series, least and largest."""
+    values: dict[str, float] = {}
+    for variable in ("functions", "elements"):
+        sizes = [row for row in rows(results / "growth.csv") if row["variable"] == variable and row["converged"] == "true"]
+        largest = max(int(row[variable]) for row in sizes)
+        times = [1e3 * float(row["seconds"]) for row in sizes if int(row[variable]) == largest]
+        slopes = [float(row["slope"]) for row in rows(results / "growth_slopes.csv")
+                  if row["variable"] == variable and row["quantity"] == "seconds"]
+        for name, found in (("ms", times), ("slope", slopes)):
+            values[f"growth_{variable}_least_{name}"], values[f"growth_{variable}_most_{name}"] = min(found), max(found)
+    return values
+
+
+def random_values(results: pathlib.Path) -> dict[str, float]:
+    all_rows = rows(results / "tolerance_random.csv")
+    converged = [row for row in all_rows if row["status"] == "converged"]
+    without = [row for row in converged if float(row["true_error"]) != float(row["true_error"])]
+    at = lambda tolerance: sum(float(row["tolerance"]) == tolerance for row in without)
+    return {"random_rows": len(all_rows), "random_converged": len(converged), "random_without": len(without),
+            "random_without_1e-2": at(1e-2), "random_without_1e-6": at(1e-6)}
+
+
 def in_points(results: pathlib.Path) -> dict[str, float]:
     """What the stability of a response costs in points of its curve, and its determinants: the least of the repetitions."""
     found: dict[str, float] = {}
@@ -115,7 +190,8 @@ def measured(results: pathlib.Path) -> dict[str, float | str]:
     for name in ("tolerance", "tolerance_random"):
         ratios = [float(row["error_over_tolerance"]) for row in rows(results / f"{name}.csv") if row["status"] == "converged"]
         values[f"{name}_ratio"] = max(ratio for ratio in ratios if ratio == ratio)
-    values |= in_points(results) | tolerance_values(results)
+    values |= in_points(results) | tolerance_values(results) | work_values(points) | growth_values(results)
+    values |= random_values(results)
     for row in rows(results / "cheapest_pairs.csv"):
         values[f"cheapest_{row['case']}_{row['error']}"] = cheapest_text(row)
     return values
@@ -156,6 +232,51 @@ def tables_of(v: dict[str, Any]) -> list[str]:
                        ("cost over the cheapest, largest", "cost")):
         lines.append(f"| {text} | " + " | ".join(f"{v[f'to_{tolerance}_{part}']:.2g}" for tolerance in TOLERANCES) + " |")
     return lines
+
+
+def work_lines(v: dict[str, Any]) -> list[str]:
+    """The table "From one run", and where contact phases lead."""
+    def at(name: str) -> str:
+        error = v[f"{name}_error"]
+        return f"{error_text(error) if error >= 1e-13 else 'below 1e-13'} in {time_text(v[f'{name}_ms'])}"
+
+    lead = {case: f"{v[f'phases_lead_{case}']:.0e}".replace("e-0", "e-") for case in RIGID_AND_NOT}
+    return [
+        f"| case 1 | {at('fourier_127')} (Fourier, 127 functions); {at('fourier_1023')} (1023) |",
+        f"| case 1, other methods | contact phases {at('work_phases_case1_few')}, {at('work_phases_case1_many')}; time stepping "
+        f"{at('stepping')}; assembled system {at('work_dense_case1')} |",
+        f"| case 2, contact phases | {at('work_phases_case2_few')}, {at('work_phases_case2_many')} |",
+        f"| motion without kinks | {at('work_no_kink')} (Fourier); contact phases {at('work_no_kink_phases')} |",
+        f"| case 2, rigid obstacle | {at('work_rigid2_256')} (DB10, 256 functions and points); {at('work_rigid2_512')} (512 and "
+        f"1024); contact phases {at('work_rigid2_phases')} |",
+        f"| case 1, rigid obstacle, contact phases | {at('work_rigid1_phases_few')}, {at('work_rigid1_phases_many')} |",
+        f"In this run contact phases are faster than every pair below an error of {lead['case1']} in case 1, {lead['case2']} in "
+        f"case 2,",
+        f"{lead['case1_rigid']} in case 1 with a rigid obstacle and {lead['case2_rigid']} in case 2 with one.",
+    ]
+
+
+def growth_lines(v: dict[str, Any]) -> list[str]:
+    def between(name: str, text: Any) -> str:
+        least, most = text(v[f"growth_{name[0]}_least_{name[1]}"]), text(v[f"growth_{name[0]}_most_{name[1]}"])
+        return least if least == most else f"{least} to {most}"
+
+    slope = "{:.2f}".format
+    return [
+        f"The largest size takes {between(('functions', 'ms'), time_text)} over functions (slopes "
+        f"{between(('functions', 'slope'), slope)}) and",
+        f"{between(('elements', 'ms'), time_text)} over elements (slopes {between(('elements', 'slope'), slope)}).",
+    ]
+
+
+def random_lines(v: dict[str, Any]) -> list[str]:
+    counts = {name: int(v[f"random_{name}"]) for name in ("rows", "converged", "without", "without_1e-2", "without_1e-6")}
+    return [
+        f"In this run {counts['converged']} of {counts['rows']} converged. {counts['converged'] - counts['without']} of these have "
+        f"contact phases near them, and the largest",
+        f"true error was {v['tolerance_random_ratio']:.2g} times the tolerance. Of the {counts['without']} without, "
+        f"{counts['without_1e-2']} have the tolerance 1e-2 and {counts['without_1e-6']} have 1e-6.",
+    ]
 
 
 def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
@@ -199,6 +320,9 @@ def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
             f"{time_text(v['dense_mode_blade_ms'])} (augmented Lagrangian, one point, scaled) | "
             f"{ratio_text(v['dense_mode_blade_ms'] / v['mode_blade_ms'])} |",
             *tables_of(v),
+            *work_lines(v),
+            *growth_lines(v),
+            *random_lines(v),
         ],
     }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "analysis/curve_events.hpp"
+#include "analysis/exact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -73,6 +74,7 @@ void copy_events(const ExactCurve& curve, const Measure& measure, bool stability
 
 void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
   sweep.curve.status = curve.status;
+  sweep.curve.closed_at_start = curve.status == solvers::SweepStatus::closed;
   sweep.curve.parameter = measure.parameter;
   SweepPhases& phases = sweep.phases.emplace_back();
   for (const ExactPoint& point : curve.points) {
@@ -91,6 +93,20 @@ void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability,
 
 }  // namespace
 
+Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::ContactProblem& problem) {
+  const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
+  const auto parameter =
+      over_amplitude ? solvers::SweepParameter::load_scale : solvers::SweepParameter::frequency;
+  Sweep sweep;
+  copy_curve(curve,
+             {parameter, scene.forcing.frequency, problem.laws().unilateral(),
+              time_fractions(scene.analysis.output_points)},
+             scene.analysis.stability, sweep);
+  for (const ExactPoint& point : curve.points) sweep.exact_motions.push_back(point.motion);
+  if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
+  return sweep;
+}
+
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                   const StartMotion& start) {
   require_start_fits(start, scene);
@@ -107,14 +123,7 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
   const ExactCurve curve = over_amplitude
                                ? problem.exact_amplitude_sweep(scene.forcing.frequency, options, how, at)
                                : problem.exact_sweep(options, how, at);
-  Sweep sweep;
-  const auto parameter =
-      over_amplitude ? solvers::SweepParameter::load_scale : solvers::SweepParameter::frequency;
-  copy_curve(curve,
-             {parameter, scene.forcing.frequency, problem.laws().unilateral(),
-              time_fractions(scene.analysis.output_points)},
-             scene.analysis.stability, sweep);
-  if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
+  Sweep sweep = sweep_of(curve, scene, problem);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }

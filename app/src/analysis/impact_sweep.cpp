@@ -95,9 +95,15 @@ solvers::BranchEnd end_of(solvers::SweepStatus status) {
   }
 }
 
+std::vector<ImpactMotion> motions_of(const ImpactCurve& curve) {
+  std::vector<ImpactMotion> motions;
+  for (const ImpactPoint& point : curve.points) motions.push_back(point.motion);
+  return motions;
+}
+
 // One from each period doubling, in their order.
 void copy_branches(const std::vector<ImpactCurve>& curves, const ImpactMeasure& measure, int periods,
-                   Sweep& sweep) {
+                   bool outputs, Sweep& sweep) {
   const std::vector<solvers::SpecialPoint>& points = sweep.stability.special_points;
   std::size_t next = 0;
   for (const ImpactCurve& curve : curves) {
@@ -109,6 +115,7 @@ void copy_branches(const std::vector<ImpactCurve>& curves, const ImpactMeasure& 
     std::vector<PointImpacts>& impacts = sweep.impacts.emplace_back();
     copy_impacts(curve, measure, 2 * periods, true, branch.curve, branch.stability, impacts);
     sweep.branches.push_back(std::move(branch));
+    if (outputs) sweep.impact_motions.push_back(motions_of(curve));
   }
 }
 
@@ -140,10 +147,12 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
   sweep.periods = sweep.motion_periods = options.periods = first.load_periods;
   copy_impacts(curve, measure, first.load_periods, scene.analysis.stability, sweep.curve, sweep.stability,
                sweep.impacts.front());
+  const bool outputs = scene.analysis.has_outputs();
+  if (outputs) sweep.impact_motions.push_back(motions_of(curve));
   if (scene.analysis.branches && curve.status != solvers::SweepStatus::cancelled)
     copy_branches(problem.impact_branches(curve, sweep.curve.parameter,
                                           over_amplitude ? scene.forcing.frequency : options.from, options),
-                  measure, first.load_periods, sweep);
+                  measure, first.load_periods, outputs, sweep);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }

@@ -15,8 +15,7 @@ namespace {
 
 bool keeps_unknowns(const Scene& scene) {
   return scene.analysis.stability || scene.analysis.phases || !scene.analysis.motion_at.empty() ||
-         scene.analysis.isolas || !scene.analysis.outputs.empty() || scene.analysis.contact_outputs ||
-         has_friction(scene);
+         scene.analysis.isolas || scene.analysis.has_outputs() || has_friction(scene);
 }
 
 /// The first point of a sweep that starts near a motion, or that has several periods of the load.

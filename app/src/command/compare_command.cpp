@@ -31,12 +31,16 @@ ComparisonOptions options_of(const CompareArguments& arguments) {
   return options;
 }
 
-/// All files but the summary; with `report` first the report, still without contents.
-std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& record, bool report) {
-  std::vector<ResultFile> files;
+/// All files but the summary; with a report first this, still without contents.
+std::vector<ResultFile> files_of(const RunArguments& arguments, const Scene& scene,
+                                 const ComparisonRecord& record) {
+  const bool report = arguments.report;
+  std::vector<ResultFile> files, inputs;
   if (report)
     files.push_back({"report.html", "", "what to take and how each pair did, to read in a browser"});
-  files.push_back({"scene.toml", write_scene(scene), "the scene that was compared"});
+  const Scene written = scene_of_record(arguments, scene, inputs);
+  files.push_back({"scene.toml", write_scene(written), "the scene that was compared"});
+  for (ResultFile& input : inputs) files.push_back(std::move(input));
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
   files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
@@ -46,8 +50,9 @@ std::vector<ResultFile> files_of(const Scene& scene, const ComparisonRecord& rec
 }
 
 /// Whether a comparison may write a file of this name.
-bool may_write(const std::string& name, bool report) {
-  if (name == "report.html") return report;
+bool may_write(const RunArguments& arguments, const std::string& name) {
+  if (name == "report.html") return arguments.report;
+  if (is_copy(name)) return arguments.copy_inputs;
   for (const char* one : {"summary.json", "scene.toml", "comparison.csv", "comparison.md"})
     if (name == one) return true;
   for (const char* stem : {"error_over_time", "error_over_functions", "sweeps"})
@@ -116,13 +121,12 @@ int compare_scene(const CompareArguments& arguments) {
   check_comparison(scene, options);
   const InputFiles inputs = inputs_of(arguments.run.scene, scene, arguments.run.start_from);
   require_replaceable(
-      arguments.run.output, [&](const std::string& name) { return may_write(name, arguments.run.report); },
-      inputs);
+      arguments.run.output, [&](const std::string& name) { return may_write(arguments.run, name); }, inputs);
   OutputFiles output(arguments.run.output);
   InterruptGuard guard(true);
   const ComparisonRecord record = compare_until_signal(scene, options, guard, arguments.run.quiet);
   if (record.interrupted && record.table.empty()) guard.end_program();
-  std::vector<ResultFile> files = files_of(scene, record, arguments.run.report);
+  std::vector<ResultFile> files = files_of(arguments.run, scene, record);
   const Summary summary = whole_summary(arguments, record, files);
   if (arguments.run.report)
     files.front().contents = comparison_report(arguments, scene, record, summary, files);

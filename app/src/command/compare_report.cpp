@@ -123,11 +123,13 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
                             : paragraph({"Nothing was compared to the end: " + record.status + "."});
   if (sweep) outcome += paragraph({record.text.substr(0, record.text.find("\n\n"))});
   PageParts page;
-  page.title = "Which basis? Wavebalance";
+  const std::string name = arguments.run.scene.stem().string();
+  const std::string heading = "Which basis for " + (name.empty() ? "this scene" : name) + "?";
+  page.title = heading + " Wavebalance";
   page.assets = "";
   page.libraries = {Library::d3};
   page.body =
-      "<main>\n<h1>Which basis for this scene?</h1>\n" + section_html("What to take", outcome) +
+      "<main>\n<h1>" + escaped(heading) + "</h1>\n" + section_html("What to take", outcome) +
       section_html("Pictures", pictures_html(record.pictures, files)) +
       section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
       section_html("The reference", reference_html(record.reference)) +

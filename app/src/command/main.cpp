@@ -100,6 +100,12 @@ void add_start(CLI::App& command, RunArguments& arguments) {
       ->type_name("DIR");
 }
 
+void add_copy_inputs(CLI::App& command, RunArguments& arguments) {
+  command.add_flag(
+      "--copy-inputs", arguments.copy_inputs,
+      "copy matrices and other files that the scene names into the results, which can then be moved");
+}
+
 void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_scene(command, arguments.run);
   add_start(command, arguments.run);
@@ -117,6 +123,7 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
       ->type_name("NAME");
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
   add_threads(command, arguments.run.threads, "pairs that are solved side by side; one per core without it");
+  add_copy_inputs(command, arguments.run);
   command.add_flag("!--no-report", arguments.run.report, "write no report.html");
   command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
 }
@@ -218,9 +225,7 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   add_threads(run, arguments.threads,
               "harmonics that are condensed side by side, with the same digits; one per core without it");
-  run.add_flag(
-      "--copy-inputs", arguments.copy_inputs,
-      "copy matrices and other files that the scene names into the results, which can then be moved");
+  add_copy_inputs(run, arguments);
   run.add_flag("!--no-report", arguments.report, "write no report.html");
   run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");

@@ -35,27 +35,6 @@ void append_record_pictures(RunFiles& run, const Record& record, bool report) {
 
 constexpr std::string_view copied = "input_";  // how the names of copies begin
 
-/// The scene as the record holds it: its files are copies beside it, or have names relative to it where they
-/// lie beside or below the scene that was given.
-Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files) {
-  if (!arguments.copy_inputs)
-    return relative_to(scene, arguments.output, std::filesystem::absolute(arguments.scene).parent_path());
-  std::map<std::string, std::string> names;
-  return with_files(scene, [&](const std::string& file) {
-    std::string& name = names[file];
-    if (!name.empty()) return name;
-    const std::string base = std::filesystem::path(file).filename().string();
-    const auto taken = [&](const std::string& one) {
-      return std::any_of(files.begin(), files.end(),
-                         [&](const ResultFile& other) { return other.name == one; });
-    };
-    name = std::string(copied) + base;
-    for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
-    files.push_back({name, read_file(file), "copy of " + base + ", which the scene names"});
-    return name;
-  });
-}
-
 /// All files but the summary; with arguments.report first the report, still without contents. `scene` is that
 /// of the record, of which `inputs` are copies.
 RunFiles result_files(const RunArguments& arguments, const Scene& scene, const Record& record,
@@ -84,7 +63,7 @@ RunFiles result_files(const RunArguments& arguments, const Scene& scene, const R
 /// Whether a run of the scene may write a file of this name.
 bool may_write(const RunArguments& arguments, const Scene& scene, const std::string& name) {
   const bool report = arguments.report;
-  if (name.starts_with(copied)) return arguments.copy_inputs;
+  if (is_copy(name)) return arguments.copy_inputs;
   if (name == "summary.json" || name == "scene.toml") return true;
   if (name == report_name) return report;
   const AnalysisType type = scene.analysis.type;
@@ -94,8 +73,7 @@ bool may_write(const RunArguments& arguments, const Scene& scene, const std::str
   for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
     if (name == stem + end) return true;
   if (name == "contacts.csv") return !curve;
-  const bool outputs = !scene.analysis.outputs.empty() || scene.analysis.contact_outputs;
-  if (name.starts_with("outputs.")) return outputs;
+  if (name.starts_with("outputs.")) return scene.analysis.has_outputs();
   const bool motions =
       scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty() || type == AnalysisType::motions;
   return motions && (name.starts_with("motion.") || name.starts_with("motion_"));
@@ -116,6 +94,27 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
 }
 
 }  // namespace
+
+bool is_copy(std::string_view name) { return name.starts_with(copied); }
+
+Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files) {
+  if (!arguments.copy_inputs)
+    return relative_to(scene, arguments.output, std::filesystem::absolute(arguments.scene).parent_path());
+  std::map<std::string, std::string> names;
+  return with_files(scene, [&](const std::string& file) {
+    std::string& name = names[file];
+    if (!name.empty()) return name;
+    const std::string base = std::filesystem::path(file).filename().string();
+    const auto taken = [&](const std::string& one) {
+      return std::any_of(files.begin(), files.end(),
+                         [&](const ResultFile& other) { return other.name == one; });
+    };
+    name = std::string(copied) + base;
+    for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
+    files.push_back({name, read_file(file), "copy of " + base + ", which the scene names"});
+    return name;
+  });
+}
 
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record) {
   std::vector<ResultFile> inputs;

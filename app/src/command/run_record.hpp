@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "command/commands.hpp"
@@ -18,6 +19,14 @@ struct RunFiles {
 
 /// The files of a record. The picture takes gnuplot, without which it is left out.
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record);
+
+/// Whether a file of a record is a copy that scene_of_record() makes, by its name.
+bool is_copy(std::string_view name);
+
+/// The scene as a record in arguments.output holds it: its files are copies, which are appended to `files`,
+/// or have names relative to the record where they lie beside or below the scene that was given. Throws
+/// IoError where a file cannot be read.
+Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files);
 
 /// Appends pictures as SVG and, with `curves`, the data of those that a page can zoom. Returns why there are
 /// none, if gnuplot was not found; else an empty text.

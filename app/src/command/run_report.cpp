@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "command/report_parts.hpp"
 #include "command/run_words.hpp"
@@ -16,7 +17,7 @@
 namespace wavebalance::app {
 namespace {
 
-std::string heading_of(const Scene& scene) {
+std::string heading_of(const RunArguments& arguments, const Scene& scene) {
   static const std::vector<std::pair<AnalysisType, const char*>> kinds{
       {AnalysisType::forced_response, "Forced response"},
       {AnalysisType::frequency_sweep, "Frequency response"},
@@ -30,7 +31,8 @@ std::string heading_of(const Scene& scene) {
   const std::string structure = scene.structure.type == StructureType::matrices
                                     ? "of a structure of matrices"
                                     : "of a " + name_of(scene.structure.type);
-  return std::string(kind->second) + " " + structure;
+  const std::string name = arguments.scene.stem().string();
+  return (name.empty() ? "" : name + ": ") + kind->second + " " + structure;
 }
 
 std::string command_of(const RunArguments& arguments) {
@@ -143,16 +145,29 @@ std::string motion_in_space(const std::vector<ResultFile>& files) {
                            scripts);
 }
 
+/// The lines of a description, "name       what", as a list of names and what they are.
+std::string facts_html(const std::string& description) {
+  std::string html = "<dl>\n";
+  std::istringstream lines(description);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = std::min(line.find(' '), line.size());
+    const std::size_t begin = std::min(line.find_first_not_of(' ', end), line.size());
+    html +=
+        fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.substr(0, end)), escaped(line.substr(begin)));
+  }
+  return html + "</dl>\n";
+}
+
 std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {
   return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>What it solves:</p>\n" +
-         code_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
+         facts_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
 }
 
 }  // namespace
 
 std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
                         const Record& record, const Summary& summary, const std::vector<ResultFile>& files) {
-  const std::string heading = heading_of(scene);
+  const std::string heading = heading_of(arguments, scene);
   PageParts page;
   page.title = heading + ", Wavebalance";
   page.assets = "";

@@ -107,14 +107,25 @@ std::string asked(const StudyArguments& arguments, const Study& study) {
          folded("The scene", code_html(study.scene_text));
 }
 
+/// "pipe over contact.gap and forcing.amplitude"; of many parameters their number.
+std::string heading_of(const Study& study) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> keys;
+  for (const StudyParameter& one : study.parameters) keys.push_back(one.key);
+  const std::string over = keys.size() > most ? fmt::format("{} parameters", keys.size())
+                                              : fmt::format("{}", fmt::join(keys, " and "));
+  return study.scene.stem().string() + " over " + over;
+}
+
 std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
                          const Summary& summary, const std::vector<ResultFile>& files) {
   PageParts page;
-  page.title = "Study, Wavebalance";
+  const std::string heading = heading_of(study);
+  page.title = heading + ", Wavebalance";
   page.assets = "";
   page.libraries = {Library::d3};
   page.body =
-      "<main>\n<h1>A scene over its parameters</h1>\n" +
+      "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", code_html(study_outcome(record))) +
       section_html("Pictures", pictures_html(record.pictures, files)) +
       section_html("Quantiles", quantiles_html(summary)) +

@@ -25,7 +25,10 @@ struct NamedDof {
 };
 
 bool is_list_of_dofs(const DocumentEntry& entry) {
-  if (is_pair_section(entry.section) || is_term_section(entry.section)) return entry.key == "dofs";
+  if (is_term_section(entry.section)) return entry.key == "dofs";
+  if (is_pair_section(entry.section))
+    return std::ranges::any_of(pair_keys(0),
+                               [&](const SceneKey& key) { return key.dofs && key.name == entry.key; });
   const SceneKey* key = find_scene_key(entry.full_name());
   return key != nullptr && key->dofs;
 }

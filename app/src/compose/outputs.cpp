@@ -115,17 +115,9 @@ void check_outputs(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.outputs.empty()) check_output_dofs(document, scene);
   check_peak(document, scene);
-  if (analysis.outputs.empty() && !analysis.contact_outputs) return;
-  const char* key = analysis.outputs.empty() ? "analysis.contact_outputs" : "analysis.outputs";
-  if (analysis.exact)
-    fail_rule(document, {key, "analysis.exact"},
-              "not with analysis.exact yet; expected analysis.exact = false, or no outputs");
+  if (!analysis.has_outputs()) return;
   const bool response =
       analysis.type == AnalysisType::forced_response || analysis.type == AnalysisType::time_stepping;
-  if (has_impacts(scene.contact) && !response)
-    fail_rule(
-        document, {key, "contact.restitution"},
-        "not with impacts along a curve yet; expected analysis.type = \"forced_response\", or no outputs");
   if (response && analysis.motion_points > 0 && analysis.output_points % analysis.motion_points != 0)
     fail_rule(document, {"analysis.motion_points"},
               "expected a divisor of analysis.output_points = " + std::to_string(analysis.output_points) +

@@ -124,8 +124,6 @@ void check_isolas(const Document& document, const Scene& scene) {
   const auto refuse = [&](bool given, const char* key, const std::string& why) {
     if (given) fail_rule(document, {"analysis.isolas", key}, why);
   };
-  refuse(analysis.exact, "analysis.exact",
-         "not with analysis.exact, whose closed curves are not followed; expected one or the other");
   refuse(analysis.subharmonic > 1, "analysis.subharmonic",
          "not with motions of several periods of the load; expected analysis.subharmonic = 1");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",

@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
+#include "analysis/impact_parts.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
+#include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::app {
@@ -45,19 +49,128 @@ class PointMeasurer {
   Eigen::MatrixXd rows_;
 };
 
-/// Sets `cancelled` where the observer stops it.
-std::vector<MeasuredPoint> along(const Scene& scene, const StructureModel& model,
-                                 const std::vector<Output>& outputs, const solvers::FrequencySweep& curve,
-                                 const Observer& observer, bool& cancelled) {
-  std::vector<MeasuredPoint> measured(curve.points.size());
-  if (curve.points.empty() || cancelled) return measured;
-  PointMeasurer measurer(scene, model, outputs);
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+/// Measures motions of exact curves and of curves with impacts, over `periods` periods of the load.
+class MotionMeasurer {
+ public:
+  MotionMeasurer(const Scene& scene, const StructureModel& model, const std::vector<Output>& outputs,
+                 solvers::ContactProblem problem, int periods)
+      : outputs_(outputs),
+        harmonics_(scene.analysis.output_harmonics),
+        points_(scene.analysis.output_points),
+        periods_(periods),
+        over_amplitude_(scene.analysis.type == AnalysisType::amplitude_sweep),
+        problem_(std::move(problem)),
+        times_(time_fractions(points_)),
+        rows_(rows_of_outputs(outputs, scene, model)) {}
+
+  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
+    return measured(motion.displacement(times_), motion.force(times_), [&] {
+      return solvers::structure_phases(held_at(point), motion, points_, {.tolerance = phases_left_out});
+    });
+  }
+
+  /// The force of an impact is not known, that of a contact that lasts is.
+  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ImpactMotion& motion) {
+    const solvers::ContactSource source{
+        [&](int count) { return motion.force_harmonics(count); },
+        [&](const Eigen::VectorXd& times) { return motion.displacement(times); }};
+    const Eigen::MatrixXd force = motion.lasting.empty() ? Eigen::MatrixXd() : motion.force(times_);
+    return measured(motion.displacement(times_), force, [&] {
+      return solvers::structure_motion_of(
+          held_at(point), source, points_,
+          {.tolerance = impacts_left_out, .max_harmonics = most_impact_harmonics});
+    });
+  }
+
+ private:
+  // Relative errors of the displacements of contacts by the harmonics left out, below what a picture shows.
+  // Harmonics fall like 1 / n^4 with elastic contacts and like 1 / n^2 with impacts.
+  static constexpr double phases_left_out = 1e-6, impacts_left_out = 1e-4;
+  static constexpr int most_impact_harmonics = 2048;
+
+  solvers::CondensedProblem& held_at(const solvers::SweepPoint& point) {
+    solvers::CondensedProblem& problem = problem_.condensed();
+    problem.set_load_scale(over_amplitude_ ? point.load_scale : problem.full_load());
+    problem.set_load_frequency(point.frequency);
+    return problem;
+  }
+
+  template <class Structure>
+  MeasuredPoint measured(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& force,
+                         const Structure& structure) {
+    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rows_.rows(), points_);
+    if (!rows_.isZero(0.0)) motion = rows_ * structure().motion.displacement;
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (outputs_[i].is_contact()) motion.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
+    return measure(outputs_, motion, force, harmonics_, periods_);
+  }
+
+  const std::vector<Output>& outputs_;
+  int harmonics_, points_, periods_;
+  bool over_amplitude_;
+  solvers::ContactProblem problem_;
+  Eigen::VectorXd times_;
+  Eigen::MatrixXd rows_;
+};
+
+/// What `measure` finds of each of so many points. Sets `cancelled` where the observer stops it.
+template <class Measure>
+std::vector<MeasuredPoint> along(std::size_t points, const Observer& observer, bool& cancelled,
+                                 const Measure& measure) {
+  std::vector<MeasuredPoint> measured(points);
+  for (std::size_t i = 0; i < points && !cancelled; ++i) {
     cancelled = !goes_on(observer, {"outputs", int(i)});
-    if (cancelled) break;
-    if (curve.points[i].unknown.size() > 0) measured[i] = measurer(curve, curve.points[i]);
+    if (!cancelled) measured[i] = measure(i);
   }
   return measured;
+}
+
+/// Of a curve of balances.
+std::vector<MeasuredPoint> along_balances(const Scene& scene, const StructureModel& model,
+                                          const std::vector<Output>& outputs,
+                                          const solvers::FrequencySweep& curve, const Observer& observer,
+                                          bool& cancelled) {
+  if (curve.points.empty()) return {};
+  PointMeasurer measurer(scene, model, outputs);
+  return along(curve.points.size(), observer, cancelled, [&](std::size_t i) {
+    return curve.points[i].unknown.size() > 0 ? measurer(curve, curve.points[i]) : MeasuredPoint();
+  });
+}
+
+/// Of a curve whose points have these motions.
+template <class Motion>
+std::vector<MeasuredPoint> along_motions(MotionMeasurer&& measurer, const std::vector<Motion>& motions,
+                                         const solvers::FrequencySweep& curve, const Observer& observer,
+                                         bool& cancelled) {
+  return along(motions.size(), observer, cancelled,
+               [&](std::size_t i) { return measurer(curve.points[i], motions[i]); });
+}
+
+/// Of the curve, then of each branch.
+std::vector<std::vector<MeasuredPoint>> along_curves(const Scene& scene, const StructureModel& model,
+                                                     const std::vector<Output>& outputs, const Sweep& sweep,
+                                                     const Observer& observer, bool& cancelled) {
+  const auto curve_of = [&](std::size_t i) -> const solvers::FrequencySweep& {
+    return i == 0 ? sweep.curve : sweep.branches[i - 1].curve;
+  };
+  const auto periods_of = [&](std::size_t i) { return i == 0 ? 1 : sweep.branches[i - 1].periods; };
+  std::vector<std::vector<MeasuredPoint>> curves;
+  for (std::size_t i = 0; i <= sweep.branches.size(); ++i)
+    if (!sweep.impact_motions.empty()) {
+      const int periods = sweep.periods * periods_of(i);
+      MotionMeasurer measurer(scene, model, outputs, impacts_problem(scene, model).over_periods(periods),
+                              periods);
+      curves.push_back(
+          along_motions(std::move(measurer), sweep.impact_motions[i], curve_of(i), observer, cancelled));
+    } else if (!sweep.exact_motions.empty()) {
+      MotionMeasurer measurer(scene, model, outputs, compose_problem(scene, model), 1);
+      curves.push_back(
+          along_motions(std::move(measurer), sweep.exact_motions, curve_of(i), observer, cancelled));
+    } else {
+      curves.push_back(along_balances(i == 0 ? scene : with_longer_period(scene, periods_of(i)), model,
+                                      outputs, curve_of(i), observer, cancelled));
+    }
+  return curves;
 }
 
 /// The point with the largest vibration of an output; nothing where none was measured.
@@ -74,18 +187,13 @@ std::optional<std::size_t> highest(const std::vector<MeasuredPoint>& points, std
 SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sweep& sweep,
                              const Observer& observer) {
   SweepOutputs found;
-  const bool balance = sweep.impacts.empty() && !scene.analysis.exact;
-  if (!balance || sweep.curve.points.empty()) return found;
+  if (sweep.curve.points.empty()) return found;
   found.outputs = outputs_of(scene);
   if (found.empty()) return found;
   bool& cancelled = sweep.outputs_cancelled;
-  const auto measured = [&](const Scene& of, const solvers::FrequencySweep& curve) {
-    return along(of, model, found.outputs, curve, observer, cancelled);
-  };
-  found.curves.push_back(measured(scene, sweep.curve));
-  for (const solvers::Branch& branch : sweep.branches)
-    found.curves.push_back(measured(with_longer_period(scene, branch.periods), branch.curve));
-  for (const Sweep& isola : sweep.isolas) found.isolas.push_back(measured(scene, isola.curve));
+  found.curves = along_curves(scene, model, found.outputs, sweep, observer, cancelled);
+  for (const Sweep& isola : sweep.isolas)
+    found.isolas.push_back(along_curves(scene, model, found.outputs, isola, observer, cancelled).front());
   for (std::size_t i = 0; i < found.outputs.size(); ++i)
     if (found.outputs[i].name == scene.analysis.peak_of) sweep.peak_of_output = highest(found.curves[0], i);
   return found;

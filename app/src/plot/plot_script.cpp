@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "files/number_text.hpp"
+#include "plot/axis_ticks.hpp"
 #include "plot/figure_layout.hpp"
 #include "plot/plot_text.hpp"
 #include "wavebalance/app/plot/plot.hpp"
@@ -95,35 +96,13 @@ std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
   text += "set " + name + "tics ";
   if (axis.ticks.empty()) return text + "autofreq\n";
   for (std::size_t i = 0; i < axis.ticks.size(); ++i)
-    text += (i == 0 ? "(" : ", ") + number_text(axis.ticks[i]);
+    text += (i == 0 ? "(" : ", ") + (axis.tick_texts.empty() ? "" : quoted(axis.tick_texts[i]) + " ") +
+            number_text(axis.ticks[i]);
   return text + ")\n";
 }
 
-/// A number of a logarithmic axis, "0.5", "20" or "2·10^{5}".
-std::string tick_text(double value) {
-  const double exponent = std::floor(std::log10(value) + 1e-9), mantissa = value / std::pow(10.0, exponent);
-  if (std::abs(exponent) < 4.0) return fmt::format("{:.3g}", value);
-  const std::string power = fmt::format("10^{{{}}}", exponent);
-  return std::abs(mantissa - 1.0) < 1e-9 ? power : fmt::format("{:.3g}·{}", mantissa, power);
-}
-
-/// Numbers of a logarithmic axis from `lower` to `upper` on which fewer than three powers of ten lie: 1, 2
-/// and 5 of each decade, or more where these are too few. Empty where gnuplot's own do.
-std::vector<double> ticks_of_short_axis(double lower, double upper) {
-  for (const std::vector<double>& digits :
-       {std::vector{1.0}, std::vector{1.0, 2.0, 5.0}, std::vector{1.0, 2.0, 3.0, 5.0, 7.0},
-        std::vector{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}}) {
-    std::vector<double> ticks;
-    for (double decade = std::pow(10.0, std::floor(std::log10(lower))); decade <= upper; decade *= 10.0)
-      for (const double digit : digits)
-        if (digit * decade >= lower * (1.0 - 1e-9) && digit * decade <= upper * (1.0 + 1e-9))
-          ticks.push_back(digit * decade);
-    if (ticks.size() >= 3) return digits.size() == 1 ? std::vector<double>() : ticks;
-  }
-  return {};
-}
-
-/// Commands that number a logarithmic axis of the panel whose values are `member`s of its series.
+/// Commands that number a logarithmic axis of the panel whose values are `member`s of its series, where
+/// gnuplot's own powers of ten are too few.
 std::string short_axis_text(const std::string& name, const Axis& axis, const Panel& panel,
                             std::vector<double> Series::*member) {
   if (!axis.logarithmic || !axis.ticks.empty()) return "";
@@ -138,7 +117,13 @@ std::string short_axis_text(const std::string& name, const Axis& axis, const Pan
   upper = axis.upper.value_or(upper);
   if (!(lower < upper)) return "";
   std::string text;
-  for (const double tick : ticks_of_short_axis(lower, upper))
+  const std::vector<double> ticks = logarithmic_ticks(lower, upper);
+  const bool by_decades = std::all_of(ticks.begin(), ticks.end(), [](double tick) {
+    const double exponent = std::log10(tick);
+    return std::abs(exponent - std::round(exponent)) < 1e-9;
+  });
+  if (by_decades) return "";
+  for (const double tick : ticks)
     text += (text.empty() ? "" : ", ") + quoted(tick_text(tick)) + " " + number_text(tick);
   return text.empty() ? "" : "set " + name + "tics (" + text + ")\n";
 }

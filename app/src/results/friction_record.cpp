@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
@@ -123,6 +124,20 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   warn_of_history(record, contacts);
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});
+}
+
+void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
+                               const Response& response) {
+  if (!has_friction(scene)) return;
+  const auto* work = value_in<double>(record.summary, quantities::friction_work.name);
+  const Eigen::MatrixXd& velocity = response.structure.velocity;
+  double ratio = missing;
+  if (work != nullptr && velocity.size() > 0) {
+    const Eigen::MatrixXd momentum = model.structure.mass * velocity;
+    const double energy = 0.5 * momentum.cwiseProduct(velocity).colwise().sum().maxCoeff();
+    if (energy > 0.0) ratio = *work / response.periods / (4.0 * std::numbers::pi * energy);
+  }
+  record.summary.emplace_back(quantities::equivalent_damping_ratio, ratio);
 }
 
 }  // namespace wavebalance::app

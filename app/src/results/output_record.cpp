@@ -104,14 +104,16 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
   const Eigen::MatrixXd motion =
       motion_of_outputs(outputs, scene, model, response.contacts, response.structure.displacement);
   const int harmonics = scene.analysis.output_harmonics;
+  // Of impacts only the force of contacts that last is known.
+  const bool forces = !response.impacts || !response.impacts->motion.lasting.empty();
+  const Eigen::MatrixXd force = forces ? response.contacts.force : Eigen::MatrixXd();
   record.outputs.add_column("time_fraction", time_fractions(int(motion.cols())));
   for (std::size_t i = 0; i < outputs.size(); ++i)
     record.outputs.add_column(outputs[i].column + "_" + outputs[i].unit,
                               Eigen::VectorXd(motion.row(Eigen::Index(i)).transpose()));
   record.summary.emplace_back(
       quantities::outputs,
-      measures_table(outputs, measure(outputs, motion, response.contacts.force, harmonics, response.periods),
-                     harmonics));
+      measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods), harmonics));
   record.output_pictures.push_back(
       {"outputs", outputs_figure(outputs, motion, response.periods), "the motion of each output"});
 }

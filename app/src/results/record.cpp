@@ -66,11 +66,12 @@ Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, c
   return motion;
 }
 
-/// The instants at which the motion of the whole structure is computed: those that the scene writes, or those
-/// of a bar's report.
+/// The instants at which the motion of the whole structure is computed: those that the scene writes, those of
+/// its outputs or its energy beside friction, or those of a bar's report.
 int structure_points(const Scene& scene) {
   const int written = std::max(0, scene.analysis.motion_points);
-  if (!scene.analysis.outputs.empty()) return scene.analysis.output_points;
+  if (!scene.analysis.outputs.empty() || (has_friction(scene) && written == 0))
+    return scene.analysis.output_points;
   if (written > 0 || scene.structure.type != StructureType::bar) return written;
   return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
 }
@@ -122,6 +123,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
   append_dissipation(record.summary, scene, response);
   append_friction(record, scene, response, scene.forcing.frequency);
+  append_equivalent_damping(record, scene, model, response);
   append_impacts(record, scene, response);
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
@@ -287,7 +289,11 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
                    const StartMotion& start) {
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
   if (has_impacts(scene.contact)) return impact_sweep(scene, model, observer);
-  if (scene.analysis.exact) return exact_sweep(scene, model, observer, start);
+  if (scene.analysis.exact) {
+    Sweep sweep = exact_sweep(scene, model, observer, start);
+    add_isolas(scene, model, sweep, observer);
+    return sweep;
+  }
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "files/missing.hpp"
+#include "plot/axis_ticks.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
@@ -79,14 +80,28 @@ void add_marks(Panel& panel, const std::vector<double>& x, const std::vector<dou
   panel.add(std::move(series));
 }
 
-/// A parameter that varies: its numbers in all rows, and its distinct ones in order.
+/// A parameter that varies, in the unit of its label: its numbers in all rows, and its distinct ones in
+/// order.
 struct Varying {
   std::string key;
   bool numeric = true;
   bool logarithmic = false;
   std::vector<double> numbers;
   std::vector<double> distinct;
+  std::string label = {};
 };
+
+/// Takes a parameter's values to a readable multiple of its unit, and labels it.
+void set_unit(Varying& one) {
+  const SceneKey* known = find_scene_key(one.key);
+  const std::string unit(known == nullptr ? "" : known->unit);
+  const bool scales = one.numeric && (unit == "m" || unit == "N");
+  const double largest = std::fmax(std::abs(one.distinct.front()), std::abs(one.distinct.back()));
+  const Scale scale = scales ? axis_scale(largest) : Scale();
+  for (auto* values : {&one.numbers, &one.distinct})
+    for (double& value : *values) value *= scale.factor;
+  one.label = plain(one.key) + (unit.empty() ? "" : fmt::format(" ({}{})", scale.prefix, unit));
+}
 
 std::vector<Varying> varying_parameters(const Study& study, const Table& table) {
   std::vector<Varying> found;
@@ -103,6 +118,7 @@ std::vector<Varying> varying_parameters(const Study& study, const Table& table) 
     one.distinct = one.numbers;
     std::sort(one.distinct.begin(), one.distinct.end());
     one.distinct.erase(std::unique(one.distinct.begin(), one.distinct.end()), one.distinct.end());
+    set_unit(one);
     found.push_back(std::move(one));
   }
   return found;
@@ -122,43 +138,27 @@ std::vector<double> in_decades(std::vector<double> values) {
   return values;
 }
 
-/// An axis of a map: the parameter's values, or their decadic logarithms where only those are uniform.
-struct MapAxis {
-  std::vector<double> values;
-  std::string label;
-};
-
-/// At most six round numbers of a linear axis, so that long ones stand apart.
-std::vector<double> few_ticks(double lower, double upper) {
-  const double least = (upper - lower) / 5.0, decade = std::pow(10.0, std::floor(std::log10(least)));
-  double step = 10.0 * decade;
-  for (const double factor : {5.0, 2.0, 1.0})
-    if (factor * decade >= least) step = factor * decade;
-  std::vector<double> ticks;
-  for (double i = std::ceil(lower / step); i * step <= upper; ++i) ticks.push_back(i * step);
-  return ticks;
-}
-
-/// A parameter with its unit.
-std::string labelled(const std::string& key) {
-  const SceneKey* known = find_scene_key(key);
-  const bool unit = known != nullptr && !known->unit.empty();
-  return plain(key) + (unit ? fmt::format(" ({})", known->unit) : "");
-}
-
-MapAxis map_axis(const Varying& one) {
-  if (is_uniform(one.distinct)) return {one.distinct, labelled(one.key)};
-  return {in_decades(one.distinct), "log_{10} " + labelled(one.key)};
+/// Where a map has the values of a parameter: at their decadic logarithms where only those are uniform.
+std::vector<double> places_in_map(const Varying& one, const std::vector<double>& values) {
+  return is_uniform(one.distinct) ? values : in_decades(values);
 }
 
 /// Half a step beyond its first and last value.
-Axis axis_of_map(const MapAxis& axis) {
-  const double half = 0.5 * (axis.values[1] - axis.values[0]);
+Axis axis_of_map(const Varying& one) {
+  const std::vector<double> places = places_in_map(one, one.distinct);
+  const double half = 0.5 * (places[1] - places[0]);
   Axis result;
-  result.label = axis.label;
-  result.lower = axis.values.front() - half;
-  result.upper = axis.values.back() + half;
-  result.ticks = few_ticks(*result.lower, *result.upper);
+  result.label = one.label;
+  result.lower = places.front() - half;
+  result.upper = places.back() + half;
+  if (is_uniform(one.distinct)) {
+    result.ticks = few_ticks(*result.lower, *result.upper);
+    return result;
+  }
+  for (const double value : logarithmic_ticks(std::pow(10.0, *result.lower), std::pow(10.0, *result.upper))) {
+    result.ticks.push_back(std::log10(value));
+    result.tick_texts.push_back(tick_text(value));
+  }
   return result;
 }
 
@@ -178,9 +178,8 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
              const std::vector<Outcome>& outcomes, const std::string& quantity) {
   const Varying &x = varying[0], &y = varying[1];
   HeatMap map;
-  const MapAxis across = map_axis(x), up = map_axis(y);
-  map.x = across.values;
-  map.y = up.values;
+  map.x = places_in_map(x, x.distinct);
+  map.y = places_in_map(y, y.distinct);
   map.values.assign(map.x.size() * map.y.size(), missing);
   double least = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -194,14 +193,11 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   map.from_zero = least >= 0.0;
   map.label = shown_as(quantity).label;
   Panel& panel = figure.add_panel();
-  panel.x = axis_of_map(across);
-  panel.y = axis_of_map(up);
+  panel.x = axis_of_map(x);
+  panel.y = axis_of_map(y);
   panel.heat_map = std::move(map);
-  const auto places = [](const Varying& one) {
-    return is_uniform(one.distinct) ? one.numbers : in_decades(one.numbers);
-  };
   for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
-    add_marks(panel, places(x), places(y), outcomes, outcome);
+    add_marks(panel, places_in_map(x, x.numbers), places_in_map(y, y.numbers), outcomes, outcome);
 }
 
 /// Over one parameter, what the other ones make of each of its values.
@@ -240,7 +236,7 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   const Varying& x = *std::max_element(varying.begin(), varying.end(), most);
   if (!x.numeric) return;
   Panel& panel = figure.add_panel();
-  panel.x.label = labelled(x.key);
+  panel.x.label = x.label;
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
   panel.y.label = shown_as(quantity).label;
   panel.legend = varying.size() > 1;
@@ -321,7 +317,7 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     series.marker = 1;
     series.colour = Colour::blue;
     Panel& panel = figure.add_panel("Over " + plain(one.key));
-    panel.x.label = labelled(one.key);
+    panel.x.label = one.label;
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
     set_limits(panel.x, one.distinct.front(), one.distinct.back());
     panel.y.label = shown_as(quantity).label;

@@ -61,6 +61,17 @@ TEST_F(Project, GivesARecordWithCopiesThatStandsAlone) {
   EXPECT_EQ(again.exit_code, 0) << again.errors;
 }
 
+TEST_F(Project, GivesAComparisonThatStandsAlone) {
+  const Outcome outcome =
+      run(folder_, {"compare", (project_ / "case.toml").string(), "--output", (project_ / "c").string(),
+                    "--quiet", "--budget", "0.2", "--pairs", "fourier:fourier", "--copy-inputs"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
+  fs::rename(project_ / "c", folder_ / "sent");
+  fs::remove_all(project_);
+  EXPECT_EQ(load_scene(folder_ / "sent/scene.toml").structure.matrices.stiffness,
+            (folder_ / "sent/input_k.mtx").string());
+}
+
 TEST_F(Project, KeepsCopiesOfOneNameApart) {
   fs::create_directories(project_ / "other");
   write("other/m.mtx", chain_stiffness);

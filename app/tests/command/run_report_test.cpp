@@ -24,9 +24,9 @@ TEST(RunReport, ReportTellsWhatWasAskedAndWhatCameOut) {
       run(folder, {"run", scene, "--output", folder / "out", "--set", "contact.gap=1.1e-3", "--quiet"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const std::string report = read_file(folder / "out" / "report.html");
-  for (const char* words :
-       {"<h1>Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm", "--set contact.gap=1.1e-3",
-        "The motion is stable", "href=\"response.csv\"", "src=\"response.svg\"", "alt=\""})
+  for (const char* words : {"<h1>case: Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm",
+                            "--set contact.gap=1.1e-3", "The motion is stable", "href=\"response.csv\"",
+                            "src=\"response.svg\"", "alt=\""})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_EQ(report.find("<h2>Warnings"), std::string::npos);
 }
@@ -115,7 +115,7 @@ TEST(RunReport, ReportSaysThatNothingWasFound) {
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   const std::string report = read_file(folder / "out" / "report.html");
   EXPECT_NE(report.find("was not solved (point limit)"), std::string::npos);
-  EXPECT_NE(report.find("<h1>Frequency response of a bar</h1>"), std::string::npos);
+  EXPECT_NE(report.find("<h1>case2_sweep: Frequency response of a bar</h1>"), std::string::npos);
 }
 
 TEST(RunReport, NoReportLeavesItOutAndRemovesThatOfAnEarlierRun) {

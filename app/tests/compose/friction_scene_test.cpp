@@ -7,13 +7,16 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "support/scene_error.hpp"
 #include "support/summary_value.hpp"
+#include "temporary_folder.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -52,6 +55,46 @@ TEST(FrictionScene, OfASliderHasTheWorkAndTheSharesOfTheExactMotion) {
   EXPECT_EQ(friction.numbers("open_fraction")[0], 0.0);
   EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "unstable_multipliers"), 0);
+  // All of the structure is the mass of 1 kg at the contact.
+  double energy = 0.0;
+  for (const double velocity : record.response.numbers("velocity_m_per_s"))
+    energy = std::max(energy, 0.5 * velocity * velocity);
+  EXPECT_NEAR(value_of<double>(record.summary, "equivalent_damping_ratio"),
+              16.12103657 / (4.0 * std::numbers::pi * energy), 1e-4);
+}
+
+// As published for the damped mode of one mass, k = kt = limit = 1: the damping ratio 0.0464 at a turning
+// point of 1.2. Friction takes 4 (1.2 - 1) in a cycle.
+TEST(FrictionScene, HasTheDampingRatioThatItsModeHasNearby) {
+  const Record record =
+      analyse(changed("slider.toml", {"structure.stiffness_damping=1e-9", "forcing.frequency=0.2188006",
+                                      "forcing.amplitude=0.2122", "analysis.output_points=4096"}));
+  ASSERT_TRUE(record.converged) << record.status;
+  EXPECT_NEAR(value_of<double>(record.summary, "max_displacement_m"), 1.2, 0.05);
+  EXPECT_NEAR(value_of<double>(record.summary, "equivalent_damping_ratio"), 0.0464, 0.003);
+}
+
+TEST(FrictionScene, TakesItsDirectionsByTheNamesOfNodes) {
+  const TemporaryFolder folder;
+  const std::string map = folder.write("two.dof", "7.1\n7.2\n").string();
+  std::string text = read_file(scenes / "lift_off.toml");
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"dofs = [2]                          #",
+                                            "dofs = [\"node 7 y\"] #"},
+        {"tangent = [1]", "tangent = [\"node 7 x\"]"},
+        {"damping = \"two_dampers.mtx\"", "damping = \"two_dampers.mtx\"\ndof_map = \"" + map + "\""}})
+    text.replace(text.find(from), from.size(), to);
+  const Scene scene = parse_scene(text, (scenes / "lift_off.toml").string());
+  EXPECT_EQ(scene.contact.pairs.front().dofs, std::vector<int>{2});
+  EXPECT_EQ(scene.contact.pairs.front().tangent, std::vector<int>{1});
+  text.replace(text.find("tangent = [\"node 7 x\"]"), 22, "tangent = [\"node 8 x\"]");
+  try {
+    parse_scene(text, (scenes / "lift_off.toml").string());
+    ADD_FAILURE() << "node 8 was not refused";
+  } catch (const SceneError& found) {
+    EXPECT_NE(found.details().key.find("tangent"), std::string::npos);
+    EXPECT_NE(found.details().allowed.find("node 8 is not in"), std::string::npos);
+  }
 }
 
 TEST(FrictionScene, OfAContactThatLiftsOffHasTheMotionOfTheExactOne) {

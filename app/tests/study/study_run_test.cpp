@@ -336,4 +336,32 @@ TEST(StudyRun, QuantilesAreThoseOfTheConvergedRuns) {
   EXPECT_EQ(record.pictures.size(), 1u);
 }
 
+// A gap over decades, and a load of 100 kN.
+TEST(StudyFigure, NumbersTheAxesOfAMapByWhatTheParametersAreInReadableUnits) {
+  const Study study = parse_study(
+      "[[parameters]]\nkey = \"contact.gap\"\nfrom = 1e-4\nto = 1e-2\ncount = 5\nspacing = \"logarithmic\"\n"
+      "[[parameters]]\nkey = \"forcing.amplitude\"\nfrom = 5e4\nto = 1e5\ncount = 3\n",
+      "study.toml", bar_scene);
+  const StudyRuns runs(study);
+  std::vector<StudyRow> rows;
+  for (std::int64_t run = 0; run < runs.size(); ++run)
+    rows.push_back({.run = run,
+                    .status = "converged",
+                    .converged = true,
+                    .seconds = 0.0,
+                    .message = "",
+                    .values = {Entry("max_displacement_m", 1e-3 * double(run))}});
+  const Figure figure = study_figure(study, runs, study_table(study, runs, rows), "max_displacement_m");
+  ASSERT_EQ(figure.panels.size(), 1u);
+  const Panel& map = figure.panels.front();
+  EXPECT_EQ(map.x.label, "contact.gap (mm)");
+  EXPECT_EQ(map.x.tick_texts, (std::vector<std::string>{"0.1", "1", "10"}));
+  ASSERT_EQ(map.x.ticks.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(map.x.ticks[std::size_t(i)], i - 1.0, 1e-12);
+  EXPECT_EQ(map.y.label, "forcing.amplitude (kN)");
+  EXPECT_NEAR(map.heat_map->y.back(), 100.0, 1e-9);
+  EXPECT_NE(gnuplot_script(figure).find("set xtics ('0.1' -1"), std::string::npos)
+      << gnuplot_script(figure);
+}
+
 }  // namespace

@@ -1,6 +1,7 @@
 // What is measured of the blade's motions, and its figures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -161,6 +162,20 @@ TEST(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
                                       "haar_fourier", "fourier_fourier_downwards"}));
   EXPECT_EQ(app::read_csv(folder.path() / "forced_response_histories.csv").rows(), 64u);
   EXPECT_TRUE(fs::is_regular_file(folder.path() / "forced_response.png"));
+  // Whoever draws the curve again finds its folds beside its turns, and where it is known to be stable.
+  const auto curve = app::read_csv(folder.path() / "forced_response_curve.csv");
+  const auto frequency = curve.numbers("frequency_Hz"), unstable = curve.numbers("unstable");
+  std::vector<double> turns;
+  for (std::size_t i = 1; i + 1 < frequency.size(); ++i)
+    if ((frequency[i] - frequency[i - 1]) * (frequency[i + 1] - frequency[i]) < 0.0)
+      turns.push_back(frequency[i]);
+  const auto folds = app::read_csv(folder.path() / "forced_response_special_points.csv");
+  ASSERT_GE(folds.rows(), 2u);
+  for (const double fold : folds.numbers("frequency_Hz"))
+    EXPECT_TRUE(std::any_of(turns.begin(), turns.end(), [&](double turn) {
+      return std::abs(turn - fold) < 3.0;
+    })) << fold;
+  EXPECT_TRUE(std::any_of(unstable.begin(), unstable.end(), [](double count) { return count == 0.0; }));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "phases/phase_motion_parts.hpp"
+#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -20,11 +21,15 @@ using detail::Held, detail::PathModel, detail::PathPoint, detail::Prediction, de
 // Follows one curve: `points_` are the last ones with the same phases.
 class Tracer {
  public:
-  Tracer(const PathModel& model, ExactCurve& curve)
-      : model_(model), options_(model.options()), curve_(curve), step_(options_.first_step) {}
+  Tracer(const PathModel& model, ExactCurve& curve, PathPoint first)
+      : model_(model),
+        options_(model.options()),
+        curve_(curve),
+        step_(options_.first_step),
+        first_(std::move(first)) {}
 
-  void run(PathPoint first) {
-    accept(std::move(first));
+  void run() {
+    accept(first_);
     while (curve_.status == SweepStatus::no_start) {
       if (static_cast<int>(curve_.points.size()) >= options_.max_points ||
           operations_ > options_.max_operations)
@@ -39,13 +44,14 @@ class Tracer {
   }
 
  private:
-  // A curve that ends ahead turns an even number of times, one that returns an odd one. Else a fold is
-  // missing.
+  // A curve that ends ahead or is closed turns an even number of times, one that returns an odd one. Else a
+  // fold is missing.
   bool turns_as_it_ends() const {
     const auto folds = std::count_if(curve_.events.begin(), curve_.events.end(), [](const ExactEvent& event) {
       return event.type == SpecialPointType::fold;
     });
-    if (curve_.status == SweepStatus::reached_end) return folds % 2 == 0;
+    if (curve_.status == SweepStatus::reached_end || curve_.status == SweepStatus::closed)
+      return folds % 2 == 0;
     return curve_.status != SweepStatus::returned || folds % 2 == 1;
   }
 
@@ -170,8 +176,34 @@ class Tracer {
   }
 
   void go_to(PathPoint next) {
+    if (curve_.status == SweepStatus::closed) return;
+    if (std::optional<PathPoint> again = first_between(next)) {
+      next = std::move(*again);
+      curve_.status = SweepStatus::closed;
+    }
     note_events(next);
     accept(std::move(next));
+  }
+
+  // The first point, where the curve comes back to it between its last point and the next one, which has the
+  // same phases.
+  std::optional<PathPoint> first_between(const PathPoint& next) const {
+    constexpr double same = 1e-6;  // of the vibration; steps are longer
+    constexpr std::size_t shortest = 4;
+    const PathPoint& last = points_.back();
+    const double before = last.value - first_.value, behind = next.value - first_.value;
+    if (curve_.points.size() < shortest || before * behind > 0.0 || behind * first_.slope() < 0.0 ||
+        last.passages() != first_.passages())
+      return std::nullopt;
+    const auto away = [&](const PathPoint& point) {
+      return detail::rms_of(point.displacement - first_.displacement);
+    };
+    if (away(last) > 2.0 * detail::rms_of(next.displacement - last.displacement)) return std::nullopt;
+    std::optional<PathPoint> again =
+        detail::zero_between(model_, last, next, model_.fastest(last, true),
+                             [this](const PathPoint& point) { return point.value - first_.value; });
+    if (!again || away(*again) > same * first_.vibration) return std::nullopt;
+    return again;
   }
 
   void note(SpecialPointType type, const PathPoint& at) {
@@ -222,6 +254,7 @@ class Tracer {
   const ExactCurveOptions& options_;
   ExactCurve& curve_;
   double step_, growth_ = 1.5, arc_ = 0.0, operations_ = 0.0;
+  const PathPoint first_;
   std::deque<PathPoint> points_;
 };
 
@@ -260,7 +293,7 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
   const PathModel model(family, first, options);
   std::optional<PathPoint> start =
       model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
-  if (start && start->agrees) Tracer(model, curve).run(std::move(*start));
+  if (start && start->agrees) Tracer(model, curve, std::move(*start)).run();
   return curve;
 }
 

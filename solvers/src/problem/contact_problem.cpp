@@ -236,6 +236,14 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
   return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, *first, options);
 }
 
+ExactCurve ContactProblem::exact_curve_from(double frequency, const PhaseMotion& motion,
+                                            const ExactCurveOptions& options) {
+  if (!dynamics()) return {};
+  load_fully(frequency);
+  return exact_curve_through({condensed_, laws_, *dynamics(), SweepParameter::frequency}, frequency, motion,
+                             options);
+}
+
 CurveStability ContactProblem::stability(const FrequencySweep& curve, int output_points,
                                          const Observer& observer) {
   if (!dynamics() || curve.points.empty()) return {};

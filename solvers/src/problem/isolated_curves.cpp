@@ -10,6 +10,7 @@
 
 #include "linalg/option_checks.hpp"
 #include "problem/state_box.hpp"
+#include "response/both_ways.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 
 namespace wavebalance::solvers {
@@ -46,20 +47,9 @@ bool agree_at_some_period(const Eigen::MatrixXd& one, const Eigen::MatrixXd& oth
   return false;
 }
 
-bool left_interval(SweepStatus status) {
-  return status == SweepStatus::reached_end || status == SweepStatus::returned;
-}
-
-// Of a curve that was followed both ways from one point: ahead to `to`, and behind to `from`.
-SweepStatus status_of_both(SweepStatus ahead, SweepStatus behind) {
-  if (!left_interval(ahead)) return ahead;
-  if (!left_interval(behind)) return behind;
-  return ahead == behind ? SweepStatus::reached_end : SweepStatus::returned;
-}
-
 FrequencySweep joined(FrequencySweep ahead, FrequencySweep behind) {
   FrequencySweep whole = std::move(behind);
-  whole.status = status_of_both(ahead.status, whole.status);
+  whole.status = detail::status_of_both(ahead.status, whole.status);
   std::reverse(whole.points.begin(), whole.points.end());
   std::reverse(whole.turning_points.begin(), whole.turning_points.end());
   if (!whole.points.empty() && !ahead.points.empty()) whole.points.pop_back();  // the first of both
@@ -203,7 +193,7 @@ class IsolatedCurvesSearch {
 
   // Whether an end of the last curve found, which left the interval there, is a motion of those before.
   bool meets_known(const FrequencySweep& curve) {
-    if (!left_interval(curve.status)) return false;
+    if (!detail::left_interval(curve.status)) return false;
     const std::size_t before = known_.size() + result_.curves.size() - 1;
     for (const SweepPoint* end : {&curve.points.front(), &curve.points.back()})
       if (is_among(end->frequency, problem_.response(curve, end->frequency, end->unknown), before))

@@ -336,7 +336,7 @@
       if (show) reset = drawFigure(box, wavebalance.figures[name]);
     });
     picture.after(box, element("div", { class: "tools" }, button, again, hint), valuesOf(source, name));
-    figure.redrawCurves = () => { if (!box.hidden) reset = drawFigure(box, wavebalance.figures[name]); };
+    figure.redrawCurves = () => { if (box.clientWidth > 0) reset = drawFigure(box, wavebalance.figures[name]); };
   }
 
   // The points of a curve as a table, at most so many of them.

@@ -25,6 +25,15 @@
     return `M${tip},${y - 3}h${head - length}v-4l${-head},7l${head},7v-4h${length - head}z`;
   }
 
+  // Round numbers between two, at most five.
+  function roundValues(low, high) {
+    const least = (high - low) / 4, decade = 10 ** Math.floor(Math.log10(least));
+    const step = decade * [1, 2, 5, 10].find((factor) => factor * decade >= least * (1 - 1e-9));
+    const values = [];
+    for (let i = Math.ceil(low / step); i * step <= high; ++i) values.push(i * step);
+    return values;
+  }
+
   // The order in which instants are shown: contact, about t = 0, stands in the middle of a diagram.
   function ordered(times) {
     const shown = times.map((time, index) => ({ index, time: time >= 0.5 ? time - 1 : time }));
@@ -57,7 +66,8 @@
       const curves = [this.data.reference, pair].map((motion) => this.pick(motion).map((value) => value * this.scale));
       const every = [this.data.reference, ...this.data.pairs].flatMap((motion) => this.pick(motion)).map((v) => v * this.scale);
       [this.low, this.high] = [Math.min(...every), Math.max(...every)];
-      for (const value of [this.low, (this.low + this.high) / 2, this.high]) {
+      if (this.high === this.low) this.high = this.low + 1;
+      for (const value of roundValues(this.low, this.high)) {
         svg("line", { x1: this.left, x2: this.width - 10, y1: this.y(value), y2: this.y(value), class: "grid" }, this.svg);
         text(this.svg, this.left - 6, this.y(value) + 4, number(value, 2), "end");
       }

@@ -77,8 +77,7 @@ SceneValue contact_outputs_by_default(const Scene& scene) {
                      scene.analysis.type == AnalysisType::amplitude_sweep;
   constexpr int most = 6;
   const int contacts = contact_count(scene);
-  return sweep && scene.contact.law != no_law && !scene.analysis.exact && !has_impacts(scene.contact) &&
-         contacts > 1 && contacts <= most;
+  return sweep && scene.contact.law != no_law && contacts > 1 && contacts <= most;
 }
 
 void add_outputs(std::vector<SceneKey>& keys) {

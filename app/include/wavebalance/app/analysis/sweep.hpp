@@ -11,6 +11,8 @@
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/impacts/impact_motion.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/branches.hpp"
@@ -61,6 +63,10 @@ struct Sweep {
   std::vector<std::vector<PointImpacts>> impacts = {};
   /// Of scenes with friction: of each point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
+  /// The motions of the points of an exact curve; with impacts, where the scene has outputs, of each point of
+  /// the curve, then of each branch.
+  std::vector<solvers::PhaseMotion> exact_motions = {};
+  std::vector<std::vector<solvers::ImpactMotion>> impact_motions = {};
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
   /// Set by add_phases() with analysis.stability: the special points of the structure.
   std::optional<solvers::StructurePoints> structure_points = {};
@@ -142,7 +148,8 @@ void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, c
 
 /// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,
 /// its branches of one period among them: solvers::isolated_curves(), with the stability and phases of each.
-/// An observer that stops it leaves the curves so far.
+/// Beside an exact curve they are sought beside the sweep of the scene's balance, and followed exactly from
+/// there. An observer that stops it leaves the curves so far.
 void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability

@@ -64,8 +64,9 @@ struct Axis {
   std::optional<double> lower;
   std::optional<double> upper;
   bool logarithmic = false;
-  std::vector<double> ticks;  ///< chosen by gnuplot when empty
-  std::string tick_format;    ///< a format of gnuplot, "%.1f"; empty for its default
+  std::vector<double> ticks;            ///< chosen by gnuplot when empty
+  std::vector<std::string> tick_texts;  ///< one for each tick, or none where they show their number
+  std::string tick_format;              ///< a format of gnuplot, "%.1f"; empty for its default
 };
 
 /// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest. Values

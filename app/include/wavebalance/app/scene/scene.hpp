@@ -278,6 +278,7 @@ struct Analysis {
 
   std::vector<int> outputs = {};  ///< rows of matrices or nodes of a bar, from 1; -i: row i, downwards
   bool contact_outputs = false;   ///< whether each contact is an output, too
+  bool has_outputs() const { return !outputs.empty() || contact_outputs; }
   int output_harmonics = 3;       ///< of the load, whose amplitudes and phases are written of each output
   std::string peak_of = {};       ///< sweeps: the output whose vibration is largest at the peak; or empty
 

@@ -63,7 +63,7 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 
 /// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
 /// that has converged at options.from until it leaves the interval, of which options.behind may be the end on
-/// the side of its start: predicted by polynomials in the arc
+/// the side of its start, or comes back to its first point (`closed`): predicted by polynomials in the arc
 /// length, corrected by Newton's method with the unknown that changes fastest held, so that folds are points
 /// as any other. Where a phase appears or vanishes the grazing motion is solved for, and the curve goes on
 /// with the other phases.
@@ -75,5 +75,12 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 /// rigid contact begins or ends, and where phases change by forces that vanish. O(n^3 + n^2 poles) for each
 /// Newton step of n unknowns, O(s^3) for the multipliers of s states.
 ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+
+/// The curve through a motion at a value within the interval, from one of its ends to the other, or once
+/// around: followed to options.to, and unless it is closed to options.from. Its status is `reached_end` where
+/// its ends lie on both ends of the interval, `returned` where they lie on one, and otherwise what stopped
+/// it. options.behind has no meaning. Throws as exact_curve() does, and for a value that is not within.
+ExactCurve exact_curve_through(const PhaseFamily& family, double value, const PhaseMotion& motion,
+                               const ExactCurveOptions& options);
 
 }  // namespace wavebalance::solvers

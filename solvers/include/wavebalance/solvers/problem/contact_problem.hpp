@@ -107,6 +107,9 @@ class ContactProblem {
                          const ResponseStart& start = {});
   ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
                                    const ForcedResponseOptions& how = {}, const ResponseStart& start = {});
+  /// exact_curve_through() over the frequency, from a motion that has converged at a frequency within the
+  /// interval; without points without modes.
+  ExactCurve exact_curve_from(double frequency, const PhaseMotion& motion, const ExactCurveOptions& options);
   /// The stability along a curve that was traced with keep_unknowns, and its slip_points(); without points
   /// where the structure has no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
