@@ -46,7 +46,7 @@ def rows(file: pathlib.Path) -> list[dict[str, str]]:
         return list(csv.DictReader(stream))
 
 
-def fastest(points: list[dict[str, str]], **wanted: str) -> tuple[float, float]:
+def fastest(points: list[dict[str, str]], /, **wanted: str) -> tuple[float, float]:
     """Error and seconds of the fastest of the rows with these cells."""
     chosen = [row for row in points if row["converged"] == "true" and all(row[key] == value for key, value in wanted.items())]
     if not chosen:
@@ -55,13 +55,13 @@ def fastest(points: list[dict[str, str]], **wanted: str) -> tuple[float, float]:
     return float(best["error"]), float(best["seconds"])
 
 
-def accurate(points: list[dict[str, str]], error: float, **wanted: str) -> tuple[float, float]:
+def accurate(points: list[dict[str, str]], error: float, /, **wanted: str) -> tuple[float, float]:
     """Error and seconds of the fastest of the rows with these cells whose error is not larger."""
     return fastest([row for row in points if row["error"] and float(row["error"]) <= error], **wanted)
 
 
 def phases_lead_below(points: list[dict[str, str]], case: str) -> float:
-    """The largest error below which contact phases are faster than every pair of bases, at every error."""
+    """The least error at which a pair of bases is as fast as contact phases: below it these lead."""
     def steps(method: str) -> list[tuple[float, float]]:
         found = [(float(row["error"]), float(row["seconds"])) for row in points
                  if row["case"] == case and row["method"] == method and row["converged"] == "true"]
@@ -71,14 +71,7 @@ def phases_lead_below(points: list[dict[str, str]], case: str) -> float:
         return min((seconds for at, seconds in reached if at <= error), default=float("inf"))
 
     phases, pairs = steps("phases"), steps("weighted_residual")
-    leads = 0.0
-    for error in sorted(at for at, _ in phases + pairs):
-        if time_to(error, phases) == float("inf"):
-            continue
-        if time_to(error, phases) >= time_to(error, pairs):
-            break
-        leads = error
-    return leads
+    return min(error for error, _ in phases + pairs if time_to(error, pairs) <= time_to(error, phases) < float("inf"))
 
 
 def work_values(points: list[dict[str, str]]) -> dict[str, float]:
@@ -202,7 +195,7 @@ def time_text(milliseconds: float) -> str:
         return f"{milliseconds / 1e3:.0f} s"
     if milliseconds >= 1e3:
         return f"{milliseconds / 1e3:.3g} s"
-    return f"{milliseconds:.2g} ms" if milliseconds >= 0.1 else f"{1e3 * milliseconds:.2g} µs"
+    return f"{float(f'{milliseconds:.2g}'):g} ms" if milliseconds >= 0.1 else f"{1e3 * milliseconds:.2g} µs"
 
 
 def error_text(error: float) -> str:
