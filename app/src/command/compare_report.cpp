@@ -91,6 +91,7 @@ std::string curves(const ComparisonRecord& record, const Summary& summary) {
                                      {record.peak_column, "at (" + record.peak_unit + ")"},
                                      {"turning_points", "turns"},
                                      {"distance_from_finest", "distance from the finest"},
+                                     {"distance_from_exact", "distance from the exact one"},
                                      {"status", "status"}});
 }
 

@@ -1,5 +1,7 @@
 #include "wavebalance/app/compare/comparison_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,19 +46,21 @@ Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure
   return panel;
 }
 
-/// How fast the curves of each pair come to the finest one.
+/// How fast the curves of each pair come to the exact one, or to the finest one where there is none.
 void add_distances(Figure& figure, const SweepComparison& comparison) {
   Panel& panel = figure.add_panel();
   panel.x.label = "Functions";
-  panel.y.label = "Distance from the finest curve";
+  const bool exact = comparison.exact.has_value();
+  panel.y.label = fmt::format("Distance from the {} curve", exact ? "exact" : "finest");
   panel.x.logarithmic = panel.y.logarithmic = true;
   std::map<std::string, Series> pairs;
   for (const ComparedCurve& curve : comparison.curves) {
-    if (!(curve.distance > 0.0)) continue;
+    const double distance = exact ? curve.distance_from_exact : curve.distance;
+    if (!(distance > 0.0)) continue;
     const Series empty("", std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
     Series& series = pairs.try_emplace(name_of(curve.pair), styled(empty, curve.pair)).first->second;
     series.x.push_back(curve.functions);
-    series.y.push_back(curve.distance);
+    series.y.push_back(distance);
   }
   for (auto& [name, series] : pairs) panel.add(std::move(series));
   if (pairs.empty()) figure.panels.pop_back();

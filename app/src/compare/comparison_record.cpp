@@ -231,12 +231,13 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations) 
 
 Table curves_table(const SweepComparison& comparison) {
   Table table({"trial", "weight", "functions", "points", "seconds", "curve_points", "max_displacement_m",
-               comparison.peak_column, "turning_points", "distance_from_finest", "status"});
+               comparison.peak_column, "turning_points", "distance_from_finest", "distance_from_exact",
+               "status"});
   for (const ComparedCurve& curve : comparison.curves)
-    table.append_row({curve.pair.trial, curve.pair.weight, std::int64_t{curve.functions},
-                      std::int64_t{curve.points}, curve.seconds,
-                      static_cast<std::int64_t>(curve.varied.size()), curve.peak, curve.peak_at,
-                      std::int64_t{curve.turning_points}, curve.distance, curve.status});
+    table.append_row(
+        {curve.pair.trial, curve.pair.weight, std::int64_t{curve.functions}, std::int64_t{curve.points},
+         curve.seconds, static_cast<std::int64_t>(curve.varied.size()), curve.peak, curve.peak_at,
+         std::int64_t{curve.turning_points}, curve.distance, curve.distance_from_exact, curve.status});
   return table;
 }
 
@@ -293,6 +294,13 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
   record.summary.emplace_back("curves", record.table);
   record.text =
       fmt::format("{} curves, {:.1f} s in all.\n", comparison.curves.size(), comparison.wall_seconds);
+  if (comparison.exact) {
+    const ComparedCurve& exact = *comparison.exact;
+    record.text += fmt::format(
+        "The exact curve, by contact phases, took {:.2g} s: its peak is {:.6g} m at {:.6g} {}, and it turns {} "
+        "times.\n",
+        exact.seconds, exact.peak, exact.peak_at, comparison.unit, exact.turning_points);
+  }
   if (comparison.finest) {
     const ComparedCurve& finest = comparison.curves[*comparison.finest];
     record.text += fmt::format(
@@ -311,6 +319,7 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
                                        comparison.peak_column,
                                        "turning_points",
                                        "distance_from_finest",
+                                       "distance_from_exact",
                                        "status"};
   const std::string table = markdown_table(shown, record.table);
   record.markdown = title + record.text + "\n" + table + inadmissible_text(comparison.inadmissible);

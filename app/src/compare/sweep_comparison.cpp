@@ -16,6 +16,7 @@
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::app {
@@ -97,6 +98,7 @@ class CurveComparison {
   }
 
   SweepComparison compare() {
+    follow_exact();
     make_chains();
     const int workers = std::min(solvers::thread_count(options_.threads), static_cast<int>(chains_.size()));
     solvers::parallel_for(
@@ -111,6 +113,7 @@ class CurveComparison {
 
  private:
   static constexpr double longest_share = 0.4;  // of the budget: a single curve
+  static constexpr double exact_share = 0.2;    // the exact curve
 
   bool over_amplitude() const { return scene_.analysis.type == AnalysisType::amplitude_sweep; }
 
@@ -125,6 +128,33 @@ class CurveComparison {
     found_.unit = axis.unit;
     found_.axis = axis.label();
     found_.peak_column = axis.quantity + "_at_max_displacement_" + axis.suffix;
+  }
+
+  /// Laws whose phases change at kinks, of structures with an equation in time.
+  bool may_be_exact() const {
+    return !is_rigid(scene_.contact.law) && !has_friction(scene_) && scene_.structure.loss_factor == 0.0 &&
+           scene_.analysis.subharmonic == 1;
+  }
+
+  /// With steps so short that chords are no part of the distances.
+  void follow_exact() {
+    constexpr double shorter = 0.25;
+    if (!may_be_exact()) return;
+    Scene exact = scene_;
+    exact.analysis.exact = true;
+    exact.analysis.first_step *= shorter;
+    exact.analysis.largest_step *= shorter;
+    const double start = processor_seconds();
+    const auto in_time = [&](const solvers::Progress&) {
+      return goes_on("exact curve") && elapsed() < exact_share * options_.budget;
+    };
+    try {
+      ComparedCurve curve = curve_of(exact, {}, exact_sweep(exact, model_, in_time, options_.start), 0.0);
+      curve.seconds = processor_seconds() - start;
+      if (curve.converged()) found_.exact = std::move(curve);
+    } catch (const solvers::SingularSystem&) {
+      return;  // the balance that would lead to it
+    }
   }
 
   double elapsed() const {
@@ -224,8 +254,11 @@ class CurveComparison {
     const Analysis& analysis = scene_.analysis;
     const double interval = over_amplitude() ? std::abs(analysis.amplitude_to - analysis.amplitude_from)
                                              : std::abs(analysis.frequency_to - analysis.frequency_from);
-    for (ComparedCurve& one : found_.curves)
-      if (one.converged()) one.distance = curve_distance(one, finest, interval);
+    for (ComparedCurve& one : found_.curves) {
+      if (!one.converged()) continue;
+      one.distance = curve_distance(one, finest, interval);
+      if (found_.exact) one.distance_from_exact = curve_distance(one, *found_.exact, interval);
+    }
   }
 
   int size_of_finest() const {

@@ -184,10 +184,11 @@ TEST(Scenes, AllOfTheRepositoryLoad) {
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(WAVEBALANCE_SCENES)) {
     if (entry.path().extension() != ".toml") continue;
-    const auto beside = [&](const char* ending) {
-      return fs::exists(fs::path(entry.path()).replace_extension(ending));
+    const fs::path folder = entry.path().parent_path();
+    const auto holds = [&](const char* ending) {
+      return fs::exists(folder / (folder.filename().string() + ending));
     };
-    if (beside(".inp") && !beside(".sti")) continue;  // CalculiX makes its matrices, PipePage tests it
+    if (holds(".inp") && !holds(".sti")) continue;  // CalculiX makes its matrices, PipePage tests it
     ++count;
     EXPECT_NO_THROW(load_scene(entry.path())) << entry.path();
   }

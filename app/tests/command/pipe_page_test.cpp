@@ -1,6 +1,7 @@
 // The page of a pipe on supports, whose commands are run as they stand there.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -24,7 +25,8 @@ TEST(PipePage, HasCommandsThatRun) {
   if (std::system("command -v ccx > /dev/null 2>&1") != 0) GTEST_SKIP() << "CalculiX is not installed";
   const TemporaryFolder folder;
   const fs::path page = fs::path(WAVEBALANCE_SCENES) / "matrices" / "pipe";
-  for (const char* name : {"pipe.inp", "pipe.toml"}) fs::copy_file(page / name, folder / name);
+  for (const char* name : {"pipe.inp", "pipe.toml", "rubbing.toml"})
+    fs::copy_file(page / name, folder / name);
   folder.write("commands.sh", commands_of(read_file(page / "README.md")));
   const std::string path = fs::path(WAVEBALANCE_COMMAND).parent_path().string();
   const std::string line =
@@ -36,6 +38,9 @@ TEST(PipePage, HasCommandsThatRun) {
     EXPECT_NE(log.find(words), std::string::npos) << words << " is not in\n" << log;
   EXPECT_TRUE(read_csv(folder / "curve" / "sweep.csv").has_column("node_19_z_1_half_peak_to_peak_m"));
   EXPECT_TRUE(fs::exists(folder / "at_20" / "input_pipe.mas"));
+  const std::vector<double> rubs =
+      read_csv(folder / "rubbing" / "sweep.csv").numbers("node_19_y_1_half_peak_to_peak_m");
+  EXPECT_NEAR(*std::max_element(rubs.begin(), rubs.end()), 0.79e-3, 0.01e-3);
 }
 
 }  // namespace

@@ -43,6 +43,12 @@ TEST(SweepComparison, LaysCurvesOfSeveralPairsOverTheFinest) {
   EXPECT_GT(coarse.distance, 0.0);
   EXPECT_LT(coarse.distance, 0.1);
   EXPECT_NEAR(coarse.peak, finest.peak, 0.1 * finest.peak);
+  // The exact curve has the errors of all, which fall with the size.
+  ASSERT_TRUE(found.exact);
+  EXPECT_NEAR(found.exact->peak, finest.peak, 0.01 * finest.peak);
+  EXPECT_GT(coarse.distance_from_exact, finest.distance_from_exact);
+  EXPECT_GT(finest.distance_from_exact, 0.0);
+  EXPECT_LT(finest.distance_from_exact, 0.02);
   EXPECT_GE(finest.peak_at, 100.0);
   EXPECT_LE(finest.peak_at, 160.0);
 }

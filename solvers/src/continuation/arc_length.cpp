@@ -189,6 +189,49 @@ bool ArcLength::is_beyond_corner(const CurvePoint& candidate) const {
   return length <= longest_chord * step_ && inner(point_, way) > 0.0 && inner(candidate, way) > 0.0;
 }
 
+// A point of the curve from a corner on that lies straight along its tangent, and not straight back: with the
+// orientation of point_, or else `other`, ahead of it. A tangent is that of a piece which begins at the
+// corner where a point along it lies in this piece, which a few substitutions find.
+std::optional<CurvePoint> ArcLength::point_from_corner(double length, bool backwards,
+                                                       std::optional<CurvePoint>& other) {
+  constexpr int substitutions = 6;
+  constexpr double straight = 0.98, longest = 5.0;  // cosine, over the length
+  CurvePoint way = point_;
+  for (int k = 0; k < substitutions; ++k) {
+    CurvePoint next = ahead(way, length), candidate;
+    if (!std::isfinite(curve().evaluate(next, nullptr)) || !tangent_at(next, way)) break;
+    const double sign = backwards && k == 0 ? -1.0 : 1.0;
+    way.displacement_tangent = sign * next.displacement_tangent;
+    way.parameter_tangent = sign * next.parameter_tangent;
+    int corrections = 0;
+    if (!correct(way, length, nullptr, candidate, corrections)) continue;
+    const CurvePoint chord_to = chord(point_, candidate);
+    const double far = std::sqrt(inner(chord_to, chord_to));
+    const bool back = inner(point_, chord_to) < -straight * far;
+    if (back || far > longest * length || inner(candidate, chord_to) < straight * far) continue;
+    if (candidate.orientation * point_.orientation >= 0) return candidate;
+    if (!other && inner(point_, candidate) > 0.0) other = std::move(candidate);
+  }
+  return std::nullopt;
+}
+
+// Where friction begins to act otherwise a curve may turn by more than a right angle, and no point lies
+// ahead. Steps within the piece have led to the corner. The way back has the other orientation; but so has a
+// way ahead where samples of symmetric contacts change together.
+bool ArcLength::turn_corner() {
+  if (!system_.laws().act_over_period()) return false;
+  std::optional<CurvePoint> next, other;
+  const double longest = 10.0 * options_.min_step, shortest = 1e-3 * options_.min_step;
+  for (double length = longest; !next && length >= shortest; length *= 0.1)
+    for (const bool backwards : {false, true})
+      if (!next) next = point_from_corner(length, backwards, other);
+  if (!next) next = std::move(other);
+  if (!next) return false;
+  accept(std::move(*next), LawPieces());
+  step_ = options_.min_step;
+  return true;
+}
+
 // The tangents of a curve with many kinks vary about its direction, which the chord shows.
 double ArcLength::max_turn() const {
   return curve().many_samples ? 2.0 * options_.max_angle : options_.max_angle;
@@ -220,7 +263,8 @@ ArcLength::Status ArcLength::advance() {
   const bool far =
       (curve().many_samples || !orientation_unknown_) && options_.grazing_events != GrazingEvents::all;
   if (far && !events_first_ && piecewise_arc_length_ <= 0.0 && step_far()) return Status::advanced;
-  if (!step_in_piece()) return far && events_first_ && step_far() ? Status::advanced : Status::no_point;
+  if (!step_in_piece())
+    return (far && events_first_ && step_far()) || turn_corner() ? Status::advanced : Status::no_point;
   const bool turned = previous_.parameter_tangent * point_.parameter_tangent <= 0.0;
   piecewise_arc_length_ = turned ? reversal_step_ : piecewise_arc_length_ - last_step_;
   return Status::advanced;
@@ -280,6 +324,10 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
   constexpr int max_steps = 60;
   detail::Bracket bracket{0.0, 1.0, value(previous_), value(point_)};
   if (!bracket.has_sign_change() || last_step_ == 0.0) return false;
+  if (last_step_ < 0.0) {  // behind a corner, which is the previous point
+    point = previous_;
+    return true;
+  }
   int corrections = 0;
   const LawPieces* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
   const Eigen::VectorXd scales = std::exchange(curve().scales, previous_scales_);

@@ -42,7 +42,7 @@ Table pairs_table(const Comparison& comparison);
 /// faster than the choice.
 Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// trial, weight, functions, points, seconds, curve_points, max_displacement_m,
-/// comparison.peak_column, turning_points, distance_from_finest, status.
+/// comparison.peak_column, turning_points, distance_from_finest, distance_from_exact, status.
 Table curves_table(const SweepComparison& comparison);
 
 /// Compares the scene's responses or sweeps, as its analysis says, and returns the record. Throws as

@@ -20,6 +20,7 @@ struct ComparedCurve {
   double peak = solvers::missing;      ///< m, the largest displacement
   double peak_at = solvers::missing;   ///< frequency (Hz) or amplitude there
   double distance = solvers::missing;  ///< from the finest curve, see curve_distance(); NaN without it
+  double distance_from_exact = solvers::missing;  ///< NaN without SweepComparison::exact
 
   bool converged() const { return status == "reached_end"; }
 };
@@ -29,6 +30,7 @@ struct SweepComparison {
   bool interrupted = false;
   std::vector<ComparedCurve> curves;     ///< by rising functions, all pairs of each
   std::optional<std::size_t> finest;     ///< the first of most functions that reached the end
+  std::optional<ComparedCurve> exact;    ///< that of the structure itself, exact_sweep(), without a pair
   std::vector<PairResult> inadmissible;  ///< of common_pairs()
   std::string quantity = "frequency";    ///< that varies, or "amplitude"
   std::string unit = "Hz";               ///< of it; of an amplitude "N", "m" or "m/s^2"
@@ -43,8 +45,10 @@ struct SweepComparison {
 
 /// Follows the curve of the scene's sweep in each pair with 8, 16, ... functions, a pair of Fourier functions
 /// with one less, and the points per function of the scene, to largest_functions or 16384 or until the budget
-/// is used. Pairs are followed side by side, one in each thread; a curve and its digits do not depend on the
-/// others. The observer is called by one thread at a time. Throws as check_comparison().
+/// is used. Before them, for a fifth of the budget at most, the curve of the structure itself, where phases
+/// of contact follow it from one end to the other. Pairs are followed side by side, one in each thread; a
+/// curve and its digits do not depend on the others. The observer is called by one thread at a time. Throws
+/// as check_comparison().
 SweepComparison compare_sweeps(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer = {});
 

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_system.hpp"
@@ -122,6 +123,10 @@ struct ResponseEquations {
 /// sample keeps its side of the gap the curve is smooth; the first sample that would change sides is placed
 /// at its gap, and the next piece starts with that sample on the other side.
 ///
+/// Of laws over a period, such as friction, no kinks are known beforehand. Where they begin to act otherwise
+/// the curve has a corner. Short steps lead up to it, and the next piece is the one whose tangent leads into
+/// it.
+///
 /// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one
 /// sample. A long step to a point with the other sign is refused. The sign changes only where two curves
 /// cross. That happens in symmetric structures, where several samples reach their gaps together: all of them
@@ -163,6 +168,9 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
   using Plane = CurvePlane;
 
   bool is_beyond_corner(const CurvePoint& candidate) const;
+  std::optional<CurvePoint> point_from_corner(double length, bool backwards,
+                                              std::optional<CurvePoint>& other);
+  bool turn_corner();
   bool is_ahead(const CurvePoint& candidate, double max_turn) const;
   double max_turn() const;
   double growth(int corrections, double turn) const;
