@@ -12,7 +12,8 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
 
 /// The damping ratio of an oscillator with the same largest kinetic energy that loses as much in a cycle as
 /// the friction takes in a period of the load: work / (4 pi energy), relative to a moving base. Missing
-/// without Response::structure and its velocities. Nothing without friction. O(entries of the mass, instants).
+/// without Response::structure and its velocities. Nothing without friction. O(entries of the mass,
+/// instants).
 void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
                                const Response& response);
 

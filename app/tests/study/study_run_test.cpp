@@ -360,8 +360,7 @@ TEST(StudyFigure, NumbersTheAxesOfAMapByWhatTheParametersAreInReadableUnits) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(map.x.ticks[std::size_t(i)], i - 1.0, 1e-12);
   EXPECT_EQ(map.y.label, "forcing.amplitude (kN)");
   EXPECT_NEAR(map.heat_map->y.back(), 100.0, 1e-9);
-  EXPECT_NE(gnuplot_script(figure).find("set xtics ('0.1' -1"), std::string::npos)
-      << gnuplot_script(figure);
+  EXPECT_NE(gnuplot_script(figure).find("set xtics ('0.1' -1"), std::string::npos) << gnuplot_script(figure);
 }
 
 }  // namespace

@@ -279,8 +279,8 @@ struct Analysis {
   std::vector<int> outputs = {};  ///< rows of matrices or nodes of a bar, from 1; -i: row i, downwards
   bool contact_outputs = false;   ///< whether each contact is an output, too
   bool has_outputs() const { return !outputs.empty() || contact_outputs; }
-  int output_harmonics = 3;       ///< of the load, whose amplitudes and phases are written of each output
-  std::string peak_of = {};       ///< sweeps: the output whose vibration is largest at the peak; or empty
+  int output_harmonics = 3;  ///< of the load, whose amplitudes and phases are written of each output
+  std::string peak_of = {};  ///< sweeps: the output whose vibration is largest at the peak; or empty
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping: given up after so many periods
