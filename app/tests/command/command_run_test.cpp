@@ -257,7 +257,8 @@ TEST(CommandRun, FolderUsedTwiceHoldsTheSecondRecordAndForeignFiles) {
   std::ofstream(folder / "out" / "backbone.csv") << "not of this record\n";
   const Outcome outcome =
       run(folder, {"run", scene, "--output", folder / "out", "--set", "analysis.type=frequency_sweep",
-                   "--set", "analysis.frequency_from=100", "--set", "analysis.frequency_to=105"});
+                   "--set", "analysis.frequency_from=100", "--set", "analysis.frequency_to=105", "--set",
+                   "analysis.stability=false"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   for (const char* name :
        {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv", "report.html"})
@@ -310,9 +311,10 @@ TEST(CommandRun, NoFileThatNoRecordListsIsReplaced) {
 
 TEST(CommandRun, SweepSaysWithWhatItWasSolvedAndWhereItsPeakIs) {
   const TemporaryFolder folder;
-  const Outcome outcome = run(folder, {"run", folder.write("case.toml", bar_scene), "--output",
-                                       folder / "out", "--set", "analysis.type=frequency_sweep", "--set",
-                                       "analysis.frequency_from=100", "--set", "analysis.frequency_to=105"});
+  const Outcome outcome =
+      run(folder, {"run", folder.write("case.toml", bar_scene), "--output", folder / "out", "--set",
+                   "analysis.type=frequency_sweep", "--set", "analysis.frequency_from=100", "--set",
+                   "analysis.frequency_to=105", "--set", "analysis.stability=false"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const std::string summary = read_file(folder / "out" / "summary.json");
   for (const char* part : {"\"trial\": \"fourier\"", "\"weight\": \"fourier\"", "\"functions\": 64",
