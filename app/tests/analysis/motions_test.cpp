@@ -69,19 +69,26 @@ TEST(Motions, BelowTheFoldsThereIsOne) {
   EXPECT_EQ(cell_text(motions.at(0, "found_by")), "rest");
 }
 
+/// The record of eight random starts.
+Record eight_starts(const std::string& seed) {
+  return analyse(motions_with({"analysis.seed=" + seed, "analysis.random_starts=8"}));
+}
+
+const Record& first_seed() {
+  static const Record record = eight_starts("1");
+  return record;
+}
+
 TEST(Motions, OfOneSeedAreTheSameTable) {
-  const auto table = [](const char* seed) {
-    return csv_text(value_of<Table>(
-        analyse(motions_with({std::string("analysis.seed=") + seed, "analysis.random_starts=8"})).summary,
-        "motions"));
+  const auto table = [](const Record& record) {
+    return csv_text(value_of<Table>(record.summary, "motions"));
   };
-  const std::string first = table("1");
-  EXPECT_EQ(table("1"), first);
-  EXPECT_NE(table("4"), first);
+  EXPECT_EQ(table(eight_starts("1")), table(first_seed()));
+  EXPECT_NE(table(eight_starts("4")), table(first_seed()));
 }
 
 TEST(Motions, AreStartsOfResponsesAlsoTheUnstableOne) {
-  const Record record = analyse(motions_with({"analysis.random_starts=8"}));
+  const Record& record = first_seed();
   const auto motions = value_of<Table>(record.summary, "motions");
   ASSERT_EQ(motions.rows(), 3u);
   for (std::size_t i = 0; i < motions.rows(); ++i) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "support/bar_scene.hpp"
+#include "support/curve_record.hpp"
 #include "support/summary_value.hpp"
 #include "support/two_masses.hpp"
 #include "temporary_folder.hpp"
@@ -41,22 +42,28 @@ TEST(PhasesOfAResponse, HaveTheStabilityThatTheRecordNames) {
 TEST(PhasesOfAResponse, HaveTheStabilityOfTheStructureWhereThatOfTheBalanceIsAnother) {
   const TemporaryFolder folder;
   const auto place = two_masses_in(folder);
-  const auto record_of = [&](const char* functions, const char* points, const char* phases) {
+  const auto record_of = [&](const char* functions, const char* points, const char* phases,
+                             const StartMotion& start = {}) {
     return analyse(load_scene(place, std::vector<std::string>{"time.functions=" + std::string(functions),
                                                               "time.quadrature_points=" + std::string(points),
                                                               "analysis.phases=" + std::string(phases)}),
-                   Observer());
+                   {.start = start});
   };
-  const Record coarse = record_of("63", "512", "false"), fine = record_of("1023", "8192", "false");
+  // One motion is settled to, and the others start from it.
+  const Record settled = record_of("127", "512", "true");
+  const StartMotion start = start_of(settled);
+  const Record near = record_of("63", "512", "true", start), coarse = record_of("63", "512", "false", start),
+               fine = record_of("1023", "8192", "false", start);
+  ASSERT_TRUE(fine.converged) << fine.status;
   EXPECT_EQ(value_of<std::string>(coarse.summary, "stability"), "unstable");
-  for (const char* functions : {"63", "127"}) {
-    const Record record = record_of(functions, "512", "true");
-    ASSERT_TRUE(record.converged) << record.status;
-    EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "converged");
-    EXPECT_EQ(value_of<Table>(record.summary, "phases").rows(), 5u);
-    EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
+  for (const Record* record : {&near, &settled}) {
+    ASSERT_TRUE(record->converged) << record->status;
+    const Summary& found = record->summary;
+    EXPECT_EQ(value_of<std::string>(found, "phases_status"), "converged");
+    EXPECT_EQ(value_of<Table>(found, "phases").rows(), 5u);
+    EXPECT_EQ(value_of<std::string>(found, "stability"), "stable");
     for (const char* part : {"leading_multiplier_real", "leading_multiplier_imag"})
-      EXPECT_NEAR(value_of<double>(record.summary, part), value_of<double>(fine.summary, part), 1e-4) << part;
+      EXPECT_NEAR(value_of<double>(found, part), value_of<double>(fine.summary, part), 1e-4) << part;
   }
 }
 

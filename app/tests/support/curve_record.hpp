@@ -61,6 +61,12 @@ inline StartMotion start_of(const Record& record, const std::string& name) {
   return file == nullptr ? StartMotion{} : read_start_motion(folder.write(name, file->contents));
 }
 
+/// The motion of all contacts of a forced response.
+inline StartMotion start_of(const Record& response) {
+  const TemporaryFolder folder;
+  return read_start_motion(folder.write("contacts.csv", csv_text(response.contacts)));
+}
+
 /// Shooting at 0.18 Hz from the state with which a motion's file begins, without settling.
 inline auto shot_from(const Scene& scene, const StructureModel& model, const Table& motion) {
   oracle::ShootingOptions options;

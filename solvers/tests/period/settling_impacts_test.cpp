@@ -114,10 +114,15 @@ TimeSteppingResult stepped(const ImpactCase& one) {
   return integrate_to_periodic(one.structure, one.laws, one.frequency, options);
 }
 
-void expect_one_period(const ImpactCase& one) {
+/// Of exponential_oscillator().
+const TimeSteppingResult& stepped_exponential() {
+  static const TimeSteppingResult result = stepped(exponential_oscillator());
+  return result;
+}
+
+void expect_one_period(const ImpactCase& one, const TimeSteppingResult& reference) {
   const SettledMotion motion = settle(problem_of(one, 63, 512), one.laws);
   EXPECT_EQ(motion.attractor_periods, 1);
-  const TimeSteppingResult reference = stepped(one);
   ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
   const Eigen::MatrixXd& u = reference.contacts.displacement;
   const double size = u.cwiseAbs().maxCoeff();
@@ -125,8 +130,10 @@ void expect_one_period(const ImpactCase& one) {
   EXPECT_LE((motion.last.displacement - u).cwiseAbs().maxCoeff(), 1e-4 * size);
 }
 
+void expect_one_period(const ImpactCase& one) { expect_one_period(one, stepped(one)); }
+
 TEST(SettlingImpacts, BriefOnesAreResolved) {
-  expect_one_period(exponential_oscillator());
+  expect_one_period(exponential_oscillator(), stepped_exponential());
   expect_one_period(lightly_damped_oscillator());
 }
 
@@ -151,7 +158,7 @@ TEST(SettlingImpacts, TheSettledMotionStartsTheBalance) {
   ASSERT_TRUE(response.converged());
   EXPECT_EQ(response.strategy, Strategy::settling);
   EXPECT_EQ(response.attractor_periods, 1);
-  EXPECT_NEAR(response.displacement.maxCoeff(), stepped(one).contacts.displacement.maxCoeff(),
+  EXPECT_NEAR(response.displacement.maxCoeff(), stepped_exponential().contacts.displacement.maxCoeff(),
               1e-3 * response.displacement.cwiseAbs().maxCoeff());
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 
@@ -37,10 +38,20 @@ int arrivals(const CoexistingMotions& all) {
                          [](int sum, const auto& one) { return sum + one.arrivals; });
 }
 
+/// Those between the folds, found once.
+const CoexistingMotions& between_folds(double frequency) {
+  static std::map<double, CoexistingMotions> known;
+  const auto [one, is_new] = known.try_emplace(frequency);
+  if (is_new) {
+    ContactProblem problem = folded();
+    one->second = coexisting_motions(problem, frequency, {.random_starts = 12});
+  }
+  return one->second;
+}
+
 TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
   for (const double frequency : {0.1705, 0.18, 0.195}) {
-    ContactProblem problem = folded();
-    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 12});
+    const CoexistingMotions& all = between_folds(frequency);
     EXPECT_EQ(all.status, MotionsStatus::converged);
     ASSERT_EQ(all.motions.size(), 3u) << frequency;
     EXPECT_EQ(stable_ones(all), 2);
@@ -73,10 +84,9 @@ TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
 
 TEST(CoexistingMotions, AreTheSameForTheSameSeed) {
   ContactProblem problem = folded();
-  const MotionsOptions some{.random_starts = 8}, other{.random_starts = 8, .seed = 3};
-  const CoexistingMotions first = coexisting_motions(problem, 0.18, some),
-                          again = coexisting_motions(problem, 0.18, some),
-                          others = coexisting_motions(problem, 0.18, other);
+  const CoexistingMotions& first = between_folds(0.18);
+  const CoexistingMotions again = coexisting_motions(problem, 0.18, {.random_starts = 12}),
+                          others = coexisting_motions(problem, 0.18, {.random_starts = 12, .seed = 3});
   ASSERT_EQ(first.motions.size(), again.motions.size());
   for (std::size_t i = 0; i < first.motions.size(); ++i) {
     EXPECT_EQ(first.motions[i].arrivals, again.motions[i].arrivals);
@@ -89,16 +99,14 @@ TEST(CoexistingMotions, AreTheSameForTheSameSeed) {
 // A static load moves the oscillator and its stop: all else is that of the one without.
 TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
   constexpr double deflection = 40.0;
-  const MotionsOptions some{.random_starts = 12};
-  ContactProblem without = folded();
   LinearStructure loaded = testing::unit_oscillator(0.05, 0.15);
   PeriodicForce weight;
   weight.shape = Eigen::VectorXd::Constant(1, deflection);
   weight.harmonics = Eigen::VectorXcd::Ones(1);
   loaded.forces.push_back(weight);
   ContactProblem under(testing::fourier_pair(63, 256), loaded, LinearContact{4.0, 1.0 + deflection});
-  const CoexistingMotions light = coexisting_motions(without, 0.195, some),
-                          heavy = coexisting_motions(under, 0.195, some);
+  const CoexistingMotions& light = between_folds(0.195);
+  const CoexistingMotions heavy = coexisting_motions(under, 0.195, {.random_starts = 12});
   ASSERT_EQ(heavy.motions.size(), light.motions.size());
   EXPECT_GT(light.motions[1].arrivals, 0);
   for (std::size_t i = 0; i < light.motions.size(); ++i) {
