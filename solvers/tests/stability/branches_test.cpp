@@ -162,7 +162,7 @@ TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
   testing::ExponentialLaw law = testing::jl14_case_2.law;
   law.start = 1e-4;
   const auto problems = problems_of(bar, 63, 512);
-  const TracedBranches traced = trace_branches(problems, bar, law, 2550.0, 3300.0, 2);
+  const TracedBranches traced = trace_branches(problems, bar, law, 2550.0, 2900.0, 2);
   const auto from_grazing = std::find_if(
       traced.branches.begin(), traced.branches.end(),
       [](const Branch& branch) { return std::abs(branch.curve.points.front().frequency - 2734.17) < 0.5; });
