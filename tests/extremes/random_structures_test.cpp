@@ -51,7 +51,7 @@ bool is_answered(const solvers::PeriodicResponse& response) {
 }
 
 TEST(RandomStructures, MostAreAnsweredAndEveryAnswerHolds) {
-  const int count = campaign_seeds(12, 150);
+  const int count = campaign_seeds(5, 150);
   int answered = 0, converged = 0;
   for (int seed = 1; seed <= count; ++seed) {
     const extremes::RandomStructure drawn = extremes::random_structure(static_cast<std::uint64_t>(seed));
@@ -65,7 +65,7 @@ TEST(RandomStructures, MostAreAnsweredAndEveryAnswerHolds) {
     EXPECT_LE(misses.motion, 1e-8) << seed;
   }
   std::printf("%d structures, %d answered, %d converged\n", count, answered, converged);
-  // 105 of 150 seeds are answered and 91 converge; 11 and 9 of the first 12. The aim is 0.98.
+  // 105 of 150 seeds are answered and 91 converge; 5 and 4 of the first 5. The aim is 0.98.
   EXPECT_GE(answered, 0.65 * count) << answered << " of " << count;
   EXPECT_GE(converged, 0.55 * count) << converged << " of " << count;
 }

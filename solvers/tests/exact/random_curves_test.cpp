@@ -44,7 +44,7 @@ bool are_equal(const ExactCurve& one, const ExactCurve& other) {
 }
 
 TEST(RandomCurves, HaveTheSameEndsAndFoldsByStepsTenTimesSmaller) {
-  const int count = campaign_seeds(15, 100);
+  const int count = campaign_seeds(8, 100);
   int same = 0, folds = 0;
   for (int seed = 1; seed <= count; ++seed) {
     const testing::RandomCurve drawn = testing::random_curve(static_cast<unsigned>(seed));
@@ -55,7 +55,7 @@ TEST(RandomCurves, HaveTheSameEndsAndFoldsByStepsTenTimesSmaller) {
     folds += static_cast<int>(folds_of(usual).size());
   }
   std::printf("%d of %d curves the same, %d folds\n", same, count, folds);
-  // 97 of 100, and all of the first 15; seeds 16, 28 and 73 are lost or do not end.
+  // 97 of 100, and all of the first 8; seeds 16, 28 and 73 are lost or do not end.
   EXPECT_GE(100 * same, 95 * count);
   EXPECT_GT(folds, count);
 }
