@@ -34,7 +34,7 @@ def bar():
     return {section: dict(keys) for section, keys in BAR.items()}
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def oscillator():
     """Makes a mass of 1 kg on a spring of 1 N/m with a contact, of which a test may change each number."""
 
