@@ -31,15 +31,15 @@ function tooWide(page) {
     .slice(-3).map((one) => `${one.tagName} ${one.className} ${one.textContent.slice(0, 60)}`);
 }
 
-// Everything is unfolded and all curves are drawn, one after the other.
+// Everything is unfolded and all curves are drawn.
 async function unfold(page) {
   page.querySelectorAll("details").forEach((one) => { one.open = true; });
   const figures = [...page.querySelectorAll("figure[data-curves]")];
   for (const figure of figures) {
     const button = figure.querySelector(".tools button");
     if (button?.getAttribute("aria-pressed") === "false") button.click();
-    await until(() => figure.querySelector(".plot .curve, .plot path"));
   }
+  await until(() => figures.every((figure) => figure.querySelector(".plot .curve, .plot path")));
   return figures.length;
 }
 
