@@ -28,7 +28,8 @@ const std::vector<report::Step>& figures() {
       {"impact_oscillator",
        identity("Impacts", "the oscillator with restitution of Recipes for Continuation",
                 "impact_oscillator"),
-       impact_oscillator}};
+       impact_oscillator},
+      {"slider", identity("Friction", "a mass on an elastic slider, driven and free", "slider"), slider}};
   return all;
 }
 

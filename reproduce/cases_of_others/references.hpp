@@ -74,6 +74,21 @@ inline const std::vector<KnownMotion> oscillator_motions{{2.0, {-0.25616405, 0.8
                                                          {2.5, {-2.55458961, 0.0}, 0.1863299386},
                                                          {2.8, {-2.56680525, 0.0}, 0.1330697175}};
 
+/// The mass on an elastic slider: motions at a frequency (rad/s), with the work of friction in a period and
+/// the modulus of the leading multiplier, and the motion of its mode, without damper, that turns at 2.
+struct KnownSlip {
+  double frequency, displacement, harmonic, work, multiplier;
+};
+inline const std::vector<KnownSlip> slider_motions{
+    {1.2, 5.030259141, 5.002826509, 16.12103657, 0.64754840},
+    {1.0, 15.30050151, 15.24880669, 57.20200604, 0.85325385},
+    {0.45, 1.118791905, 1.097855263, 0.4751676217, 0.34209596}};
+struct KnownMode {
+  double amplitude;  ///< of the first harmonic, over that of first slip
+  double omega, damping_ratio;
+};
+inline constexpr KnownMode slider_mode{2.000767809, 1.225867690198, 0.105752880426};
+
 /// Recipes for Continuation [H. Dankowicz, F. Schilder, SIAM 2013], example 15.2, and where a motion without
 /// contact reaches a gap.
 inline constexpr const char* coco = "Recipes for Continuation, example 15.2";

@@ -24,8 +24,9 @@ using references::Type;
 using testing::EventShooting;
 using testing::SpringSystem;
 
-const std::vector<std::string> names{"pyharm_onedofgap", "nlvib_example03",    "oscillator_with_stop",
-                                     "small_gap_bar",    "lightly_damped_bar", "impact_oscillator"};
+const std::vector<std::string> names{
+    "pyharm_onedofgap",  "nlvib_example03", "oscillator_with_stop", "small_gap_bar", "lightly_damped_bar",
+    "impact_oscillator", "slider"};
 
 report::PaperResults& results() {
   static report::PaperResults all(figures());
