@@ -58,11 +58,6 @@ Scene sweep_with(std::vector<std::string> overrides) {
   return scene_with(overrides);
 }
 
-bool warns(const Record& record, const std::string& part) {
-  return std::any_of(record.warnings.begin(), record.warnings.end(),
-                     [&](const std::string& text) { return text.find(part) != std::string::npos; });
-}
-
 // At 2.7 rad/s. Of both halves of the time one load period is the other's but for the doubling.
 TEST(SubharmonicScene, HasAMotionOfTwoPeriodsOfTheLoad) {
   const Record record = analyse(scene_with({"analysis.subharmonic=2", "analysis.output_points=2048"}));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -15,6 +16,12 @@ Type value_of(const Summary& summary, const std::string& name) {
   if (const Entry* entry = find_entry(summary, name)) return std::get<Type>(entry->value);
   ADD_FAILURE() << "no " << name;
   return {};
+}
+
+/// Whether a warning of the record contains `part`.
+inline bool warns(const Record& record, const std::string& part) {
+  return std::any_of(record.warnings.begin(), record.warnings.end(),
+                     [&](const std::string& text) { return text.find(part) != std::string::npos; });
 }
 
 }  // namespace wavebalance::app

@@ -107,6 +107,11 @@ class Refinement {
     return end.has_value();
   }
 
+  /// Whether the structure is known to settle to a motion of the problem's period.
+  static bool settles(const CondensedProblem& problem, const PeriodicResponse& response) {
+    return response.attractor_periods > 0 && load_periods(problem) % response.attractor_periods == 0;
+  }
+
   Progress progress(const RefinementLevel& level) const {
     const double done = std::log(level.estimated_error) / std::log(options_.tolerance);
     return {"refinement", static_cast<int>(result_.levels.size()), level.estimated_error, "estimated error",
@@ -138,11 +143,12 @@ class Refinement {
     return u;
   }
 
-  PeriodicResponse from_contact_free(CondensedProblem& problem, RefinementLevel& level, bool paths) const {
+  PeriodicResponse from_contact_free(CondensedProblem& problem, RefinementLevel& level, bool paths) {
     ForcedResponseOptions solver = options_.solver;
     solver.fallbacks = paths && solver.fallbacks && level.points >= screening_points;
     PeriodicResponse response = forced_response(problem, laws_, solver);
     level.iterations += response.iterations;
+    settles_ = settles_ || settles(problem, response);
     return response;
   }
 
@@ -270,7 +276,9 @@ class Refinement {
   /// The status if the refinement ends with its last level. Otherwise nothing, and size_ is the next size.
   std::optional<RefinementStatus> ending(bool cancelled) {
     const RefinementLevel& level = result_.levels.back();
-    constexpr int max_failures = 2;  // a small problem may have no solution although the motion exists
+    // A small problem may have no solution although the motion exists, as it does where the structure settles
+    // to it.
+    const int max_failures = settles_ ? 4 : 2;
     if (failures_ == max_failures) return RefinementStatus::not_converged;
     if (level.estimated_error <= wanted(level)) return RefinementStatus::converged;
     if (cancelled) return RefinementStatus::cancelled;
@@ -337,6 +345,7 @@ class Refinement {
   double quadrature_error_ = 0.0;          // estimated error of the sums over its points
   bool found_ = false;                     // whether the level just solved has a response
   int failures_ = 0;                       // levels without a response since `solved_`
+  bool settles_ = false;                   // whether a failed level found where the structure settles to
 };
 
 }  // namespace

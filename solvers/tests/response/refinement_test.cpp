@@ -234,6 +234,23 @@ TEST(Refinement, ReportsThatLevelsHaveNoResponse) {
   EXPECT_TRUE(std::isnan(found.estimated_error));
 }
 
+// No level has a response within one step of Newton's method, whatever it starts from. Of those that may have
+// a fallback, four are tried where the structure is known to settle to a motion, and two otherwise.
+TEST(Refinement, TriesMoreLevelsWhereTheStructureSettlesToAMotion) {
+  RefinementOptions options;
+  options.solver.newton.max_iterations = 1;
+  options.solver.continuation.max_points = 1;
+  const auto tried = [&](bool fallbacks) {
+    options.solver.fallbacks = fallbacks;
+    const RefinementResult found = response_to_tolerance(bar, law_1, options);
+    EXPECT_EQ(found.status, RefinementStatus::not_converged);
+    return std::count_if(found.levels.begin(), found.levels.end(),
+                         [](const RefinementLevel& level) { return level.points >= 32; });
+  };
+  EXPECT_EQ(tried(false), 2);
+  EXPECT_EQ(tried(true), 4);
+}
+
 TEST(Refinement, StopsWhenTheObserverReturnsFalse) {
   RefinementOptions options{.tolerance = 1e-8};
   options.observer = [](const Progress& progress) { return progress.phase != "refinement"; };
