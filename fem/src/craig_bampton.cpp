@@ -117,11 +117,8 @@ Eigen::MatrixXd transformation(const FreeDofs& dofs, std::span<const int> bounda
   const auto held = static_cast<Eigen::Index>(boundary.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dofs.dofs(), held + shapes.cols());
   for (Eigen::Index i = 0; i < held; ++i) result(boundary[static_cast<std::size_t>(i)], i) = 1.0;
-  for (int i = 0; i < dofs.count(); ++i) {
-    const int row = dofs.free()[static_cast<std::size_t>(i)];
-    result.row(row).head(held) = constraint_modes.row(i);
-    result.row(row).tail(shapes.cols()) = shapes.row(i);
-  }
+  result(dofs.free(), Eigen::seqN(0, held)) = constraint_modes;
+  result(dofs.free(), Eigen::seqN(held, shapes.cols())) = shapes;
   return result;
 }
 

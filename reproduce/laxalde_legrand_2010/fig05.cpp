@@ -62,7 +62,8 @@ Table motion_table(const std::vector<std::pair<std::string, Motion>>& motions) {
   };
   table.add_column("position", column([&](auto i, auto) { return first.position[i]; }));
   table.add_column("time_fraction", column([&](auto, auto l) { return first.time[l]; }));
-  for (const auto& [name, motion] : motions) {
+  for (const auto& [name, one] : motions) {
+    const Motion& motion = one;
     table.add_column("displacement_" + name,
                      column([&](auto i, auto l) { return motion.displacement(i, l); }));
     table.add_column("velocity_" + name, column([&](auto i, auto l) { return motion.velocity(i, l); }));

@@ -46,7 +46,7 @@ TEST_P(ConvergenceOrder, OfTheDiscreteFourierTransformIsTheApproximationOrder) {
 // exp(2 pi i t) minus its orthogonal projection on the M translates: 1 - |phi^(2 pi / M)|^2 in square.
 TEST_P(ConvergenceOrder, OfTheProjectionIsTheApproximationOrder) {
   const auto [function, order] = family();
-  const auto error = [&](int level) {
+  const auto error = [&function = function](int level) {
     const PeriodicBasis basis(function, level);
     const double captured = std::norm(basis.fourier_coefficient(1) * static_cast<double>(basis.functions()));
     return std::sqrt(1.0 - captured);

@@ -309,7 +309,7 @@ std::vector<double> changes_of_stability(const Summary& summary, const std::stri
 /// Where stability changes between a stable and an unstable point: the special point between them, or the
 /// unstable one where there is none.
 double end_of_part(const std::vector<double>& changes, double stable, double unstable) {
-  const auto [low, high] = std::minmax(stable, unstable);
+  const double low = std::min(stable, unstable), high = std::max(stable, unstable);
   const auto between =
       std::find_if(changes.begin(), changes.end(), [&](double at) { return low <= at && at <= high; });
   return between == changes.end() ? unstable : *between;

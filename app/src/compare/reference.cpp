@@ -258,7 +258,8 @@ class ReferenceSearch {
   static constexpr double phases_share = 1.0 / 3.0;                  // of the time
   // Errors of the balances from which the phases are sought, and sizes of those before them.
   static constexpr double coarse_guide = 1e-2, fine_guide = 1e-3, finest_guide = 1e-4;
-  static constexpr std::array rigid_sizes{15, 31, 63}, start_sizes{31, 63, 127, 255};
+  static constexpr std::array rigid_sizes{15, 31, 63};
+  static constexpr std::array start_sizes{31, 63, 127, 255};
   static constexpr int few_contacts = 6;
 
   Scene scene_;

@@ -97,7 +97,7 @@ TEST(CurveMotions, OverTheAmplitudeAreThoseOfThePeakTheFoldsAndBothEnds) {
 TEST(CurveMotions, OverTheAmplitudeStartAResponseOnTheirBranch) {
   const Record curve = analyse(load_with({"analysis.motion_at=0.2"}));
   for (const char* name : {"motion_0.2N_1.csv", "motion_0.2N_3.csv"}) {
-    const Record near = analyse(response_with(), {.start = start_of(curve, name)});
+    const Record near = analyse(response_with(), AnalysisOptions{.start = start_of(curve, name)});
     ASSERT_TRUE(near.converged) << name;
     EXPECT_NEAR(value_of<double>(near.summary, "max_displacement_m"), largest(table_of(curve, name)), 1e-8);
   }

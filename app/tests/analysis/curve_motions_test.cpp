@@ -214,7 +214,7 @@ TEST(StartFrom, LeadsToTheUpperBranchThatIsNotFoundOtherwise) {
   const Record curve = analyse(stop_with({"analysis.motion_at=[0.18, 0.185]"}));
   const Record alone = analyse(response_with());
   const StartMotion upper = start_of(curve, "motion_0.185Hz_1.csv");
-  const Record near = analyse(response_with(), {.start = upper});
+  const Record near = analyse(response_with(), AnalysisOptions{.start = upper});
   ASSERT_TRUE(near.converged);
   const Table expected = table_of(curve, "motion_0.18Hz_1.csv");
   EXPECT_NEAR(value_of<double>(near.summary, "max_displacement_m"), largest(expected), 1e-9);
@@ -236,7 +236,7 @@ TEST(StartFrom, LeadsToTheSameBranchOfANeighbouringScene) {
                                                  "time.functions=128", "time.quadrature_points=512"},
                                                 {"time.sample_offset=0.5"},
                                                 {"contact.form=force"}}) {
-    const Record near = analyse(response_with(other), {.start = upper});
+    const Record near = analyse(response_with(other), AnalysisOptions{.start = upper});
     ASSERT_TRUE(near.converged) << other.front() << ": " << near.status;
     EXPECT_NEAR(value_of<double>(near.summary, "max_displacement_m"), top, 0.06 * top) << other.front();
   }
@@ -245,7 +245,7 @@ TEST(StartFrom, LeadsToTheSameBranchOfANeighbouringScene) {
 TEST(StartFrom, IsTheFirstPointOfASweep) {
   const Record curve = analyse(stop_with({"analysis.motion_at=0.185"}));
   const Record upper = analyse(stop_with({"analysis.frequency_from=0.185", "analysis.frequency_to=0.13"}),
-                               {.start = start_of(curve, "motion_0.185Hz_1.csv")});
+                               AnalysisOptions{.start = start_of(curve, "motion_0.185Hz_1.csv")});
   ASSERT_TRUE(upper.converged) << upper.status;
   EXPECT_NEAR(upper.sweep.numbers("max_displacement_m").front(),
               largest(table_of(curve, "motion_0.185Hz_1.csv")), 1e-8);
@@ -254,8 +254,8 @@ TEST(StartFrom, IsTheFirstPointOfASweep) {
 
 TEST(StartFrom, WarnsOfAMotionFarFromTheStart) {
   const Record curve = analyse(stop_with({"analysis.motion_at=peak"}));
-  const Record far =
-      analyse(response_with({"forcing.frequency=0.24"}), {.start = start_of(curve, "motion_peak.csv")});
+  const Record far = analyse(response_with({"forcing.frequency=0.24"}),
+                             AnalysisOptions{.start = start_of(curve, "motion_peak.csv")});
   ASSERT_TRUE(far.converged);
   EXPECT_TRUE(std::any_of(far.warnings.begin(), far.warnings.end(), [](const std::string& text) {
     return text.find("may lie on another branch") != std::string::npos;
@@ -266,7 +266,7 @@ TEST(StartFrom, OfTheMotionItselfIsSolvedAtOnce) {
   const Record first = analyse(response_with());
   const TemporaryFolder folder;
   write_csv(folder / "response.csv", first.response);
-  const Record again = analyse(response_with(), {.start = read_start_motion(folder.path())});
+  const Record again = analyse(response_with(), AnalysisOptions{.start = read_start_motion(folder.path())});
   EXPECT_LT(value_of<double>(again.summary, "start_distance"), 1e-3);
   EXPECT_LE(value_of<std::int64_t>(again.summary, "iterations"), 3);
   EXPECT_EQ(value_of<std::string>(again.summary, "strategy"), "newton");
@@ -279,13 +279,13 @@ TEST(StartFrom, OfOnePeriodServesMotionsOfTwo) {
   const StartMotion start = read_start_motion(folder.path());
   const Record twice =
       analyse(response_with({"analysis.subharmonic=2", "time.functions=125", "time.quadrature_points=2048"}),
-              {.start = start});
+              AnalysisOptions{.start = start});
   ASSERT_TRUE(twice.converged);
   EXPECT_LT(value_of<double>(twice.summary, "start_distance"), 1e-3);
   folder.write("summary.json", "{\"subharmonic\": 2}");
   const StartMotion two = read_start_motion(folder.path());
   EXPECT_EQ(two.periods, 2);
-  EXPECT_THROW(analyse(response_with(), {.start = two}), std::invalid_argument);
+  EXPECT_THROW(analyse(response_with(), AnalysisOptions{.start = two}), std::invalid_argument);
 }
 
 std::string refusal_of(const StartMotion& start, const Scene& scene) {

@@ -93,7 +93,7 @@ TEST(Motions, AreStartsOfResponsesAlsoTheUnstableOne) {
   ASSERT_EQ(motions.rows(), 3u);
   for (std::size_t i = 0; i < motions.rows(); ++i) {
     const Record response =
-        analyse(balance_with(), {.start = start_of(record, cell_text(motions.at(i, "file")))});
+        analyse(balance_with(), AnalysisOptions{.start = start_of(record, cell_text(motions.at(i, "file")))});
     ASSERT_TRUE(response.converged) << response.status;
     EXPECT_LT(value_of<double>(response.summary, "start_distance"), 1e-4);
     EXPECT_EQ(value_of<std::string>(response.summary, "stability"), cell_text(motions.at(i, "stability")));
@@ -120,7 +120,7 @@ TEST(Motions, OfTwoPeriodsAreWrittenWithTheirPeriod) {
   EXPECT_EQ(read_start_motion(folder / "motion_2.csv").periods, 1);
   std::vector<std::string> two = doubled;
   two.emplace_back("analysis.subharmonic=2");
-  const Record response = analyse(balance_with(two), {.start = start});
+  const Record response = analyse(balance_with(two), AnalysisOptions{.start = start});
   ASSERT_TRUE(response.converged) << response.status;
   EXPECT_LT(value_of<double>(response.summary, "start_distance"), 1e-3);
   EXPECT_EQ(value_of<std::int64_t>(response.summary, "period_of_motion"), 2);

@@ -47,7 +47,7 @@ TEST(PhasesOfAResponse, HaveTheStabilityOfTheStructureWhereThatOfTheBalanceIsAno
     return analyse(load_scene(place, std::vector<std::string>{"time.functions=" + std::string(functions),
                                                               "time.quadrature_points=" + std::string(points),
                                                               "analysis.phases=" + std::string(phases)}),
-                   {.start = start});
+                   AnalysisOptions{.start = start});
   };
   // One motion is settled to, and the others start from it.
   const Record settled = record_of("127", "512", "true");

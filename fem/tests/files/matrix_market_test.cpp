@@ -84,7 +84,7 @@ TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
       {general + "2 2 3\n1 1 1\n2 2 1\n", "ends after 2 of 3 entries"},
       {general + "2 2 1\n1 1 1\n2 2 1\n", "more than the 1 entries"}};
   for (const auto& [text, part] : cases) {
-    expect_error([&] { read(text); }, part);
+    expect_error([&text = text] { read(text); }, part);
     EXPECT_THROW(read(text), MatrixMarketError) << text;
   }
   expect_error([] { read_matrix_market("no/such/file.mtx"); }, "no/such/file.mtx");

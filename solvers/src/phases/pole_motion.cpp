@@ -56,7 +56,8 @@ class StatesAtPoints {
 // poles x cells: the periodic states at the boundaries.
 Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
                                                     const Eigen::MatrixXd& coefficients) const {
-  const auto& [grid, nodes, cells, waves] = period;
+  const auto& grid = period.grid;
+  const auto& cells = period.cells;
   Eigen::MatrixXcd states(exponents_.size(), Index(cells.size()));
   const auto advance = [&](const Eigen::VectorXcd& state, const Cell& cell) {
     Eigen::VectorXcd next = cell.decay.cwiseProduct(state);

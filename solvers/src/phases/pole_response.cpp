@@ -286,7 +286,8 @@ void PoleResponse::add_within_cells(const PeriodCells& period, bool velocity, Ei
 // What each source leaves at the end of the period gives the periodic states at its begin, with which the
 // states go around once.
 Influence PoleResponse::influence(const PeriodCells& period, bool velocity) const {
-  const auto& [grid, nodes, cells, waves] = period;
+  const auto& grid = period.grid;
+  const auto& cells = period.cells;
   const Index n = period.count(), m = period.marks();
   const std::vector<Rows> rows = rows_of(period, velocity);
   const std::vector<Sources> sources = sources_of(period);
