@@ -8,12 +8,16 @@ namespace wavebalance::app {
 
 inline const std::vector<BasisPair> two_pairs{{"fourier", "fourier"}, {"bspline", "bspline"}};
 
-// By how much longer solves take under the sanitizers: budgets in seconds are as much longer there.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr int slowness = 10;
+// By how much longer solves take under the sanitizers: budgets in seconds are as much longer there. clang tells
+// of them by __has_feature, gcc by a macro.
+#ifdef __has_feature
+inline constexpr bool sanitized = __has_feature(address_sanitizer);
+#elif defined(__SANITIZE_ADDRESS__)
+inline constexpr bool sanitized = true;
 #else
-inline constexpr int slowness = 1;
+inline constexpr bool sanitized = false;
 #endif
+inline constexpr int slowness = sanitized ? 10 : 1;
 
 inline ComparisonOptions brief(double budget = 1.0) {
   ComparisonOptions options;

@@ -189,7 +189,8 @@ class Assembly {
       result_.jacobian.row(row).head(result_.free_count) = stiffness * by_forces_.row(i);
       result_.jacobian(row, row) += 1.0;
       if (tangent && own.slider >= 0) result_.jacobian(row, result_.free_count + own.slider) = 1.0;
-      result_.jacobian.row(row).tail(instants()) = stiffness * by_instants_.row(i);
+      if (instants() > 0)  // Eigen offers no row of a matrix without columns
+        result_.jacobian.row(row).tail(instants()) = stiffness * by_instants_.row(i);
     }
   }
 

@@ -271,6 +271,7 @@ ForcedMotion PoleResponse::forced_motion(const PeriodCells& period, const Eigen:
         forced_flight(grid, cells[j], states.col(Index(j)), coefficients,
                       cells[j].points ? *cells[j].points : nodes.points, velocity, &*waves[j]);
     for (const Part& part : cells[j].parts) {
+      if (part.count == 0) continue;
       const int contact = grid.panels[part.panel].contact;
       const Index first = nodes.count() * Index(part.panel) + part.first;
       result.displacement.segment(first, part.count) =
