@@ -122,7 +122,7 @@ void append_attractor(Record& record, int periods, const Response& response) {
   record.summary.emplace_back(quantities::attractor_periods, std::int64_t{response.attractor_periods});
   const int attractor = response.attractor_periods;
   if (attractor > 0 && periods % attractor == 0) {
-    if (!response.converged)
+    if (!response.moves)
       record.warnings.push_back(
           "From rest the structure settles to a motion of this period, which the equations of these functions "
           "and points were not solved for. More time.functions or time.method = \"phases\" may find it.");

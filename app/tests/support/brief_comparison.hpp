@@ -8,8 +8,8 @@ namespace wavebalance::app {
 
 inline const std::vector<BasisPair> two_pairs{{"fourier", "fourier"}, {"bspline", "bspline"}};
 
-// By how much longer solves take under the sanitizers: budgets in seconds are as much longer there. clang tells
-// of them by __has_feature, gcc by a macro.
+// By how much longer solves take under the sanitizers: budgets in seconds are as much longer there. clang
+// tells of them by __has_feature, gcc by a macro.
 #ifdef __has_feature
 inline constexpr bool sanitized = __has_feature(address_sanitizer);
 #elif defined(__SANITIZE_ADDRESS__)

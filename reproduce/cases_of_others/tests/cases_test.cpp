@@ -1,7 +1,9 @@
 // Holds the cases to their references, and the references to closed forms and to shooting.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <filesystem>
 #include <tuple>
@@ -97,6 +99,32 @@ TEST(CasesOfOthers, ExactCurvesHaveTheSpecialPointsOfTheReferencesToTheirDigits)
               std::min(nearest, std::abs(unit * found.numbers("frequency_Hz")[i] / point.frequency - 1.0));
       EXPECT_LT(nearest, digits) << name << " " << to_string(point.type) << " " << point.frequency;
     }
+  }
+}
+
+// Stick and slip as phases with exact instants, which neither bases nor samples take part in.
+TEST(References, OfTheSliderAreThoseOfExactPhases) {
+  constexpr double digits = 1e-8;
+  for (const references::KnownSlip& known : references::slider_motions) {
+    const std::vector<std::string> overrides{
+        "analysis.type=forced_response", "time.method=phases",
+        fmt::format("forcing.frequency={:.17g}", known.frequency / two_pi)},
+        removed{"time.trial",
+                "time.weight",
+                "time.functions",
+                "time.quadrature_points",
+                "analysis.frequency_from",
+                "analysis.frequency_to"};
+    const app::Summary found =
+        app::analyse(app::load_scene(scene_file("slider"), overrides, removed)).summary;
+    const auto value = [&](const char* name) {
+      const auto* number = app::value_in<double>(found, name);
+      return number ? *number : std::nan("");
+    };
+    EXPECT_NEAR(value("friction_work_J"), known.work, digits * known.work) << known.frequency;
+    EXPECT_NEAR(std::hypot(value("leading_multiplier_real"), value("leading_multiplier_imag")),
+                known.multiplier, digits)
+        << known.frequency;
   }
 }
 

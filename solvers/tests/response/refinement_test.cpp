@@ -234,8 +234,8 @@ TEST(Refinement, ReportsThatLevelsHaveNoResponse) {
   EXPECT_TRUE(std::isnan(found.estimated_error));
 }
 
-// No level has a response within one step of Newton's method, whatever it starts from. Of those that may have
-// a fallback, four are tried where the structure is known to settle to a motion, and two otherwise.
+// With one step of Newton's method and one point of continuation no level has a response. Four levels are
+// tried where the structure is known to settle to a motion, two where no fallback looks for that.
 TEST(Refinement, TriesMoreLevelsWhereTheStructureSettlesToAMotion) {
   RefinementOptions options;
   options.solver.newton.max_iterations = 1;
