@@ -27,7 +27,7 @@ struct HeldMatrix {
 
 HeldMatrix matrix_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
                      const Influence& influence, Index held, const Eigen::VectorXd& by_parameter) {
-  Eigen::MatrixXd matrix = jacobian(at, now, nodes, influence);
+  Eigen::MatrixXd matrix = jacobian(now, impulses_of(at.layout, now, nodes), nodes, influence);
   if (held == now.residual.size()) return {Lu<double>(matrix), by_parameter};
   const Eigen::VectorXd column = matrix.col(held);
   matrix.col(held) = by_parameter;

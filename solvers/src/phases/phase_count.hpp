@@ -1,5 +1,5 @@
 #pragma once
-#include "phases/phase_equations.hpp"
+#include "phases/phase_period.hpp"
 
 namespace wavebalance::solvers::detail {
 

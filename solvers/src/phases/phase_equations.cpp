@@ -118,16 +118,42 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   return result;
 }
 
-Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes) {
+Evaluation on_panels_of(const Layout& layout, const PhaseModel& model, const Evaluation& solved,
+                        const LegendreNodes& nodes) {
+  Evaluation result;
+  result.grid = layout.grid();
+  const std::vector<Instant> instants = instants_of(result.grid.panels, nodes);
+  const auto values_of = [&](const Eigen::VectorXd& values) {
+    const PanelForces polynomials(solved.grid, nodes, values);
+    Eigen::VectorXd own(Index(instants.size()));
+    for (Index i = 0; i < own.size(); ++i)
+      own[i] = polynomials.in_phase(panel_of(result.grid, i, nodes).phase, instants[std::size_t(i)].time);
+    return own;
+  };
+  result.force = values_of(solved.force);
+  result.tangent = values_of(solved.tangent);
+  result.damping = values_of(solved.damping);
+  result.own.resize(result.force.size());
+  for (Index i = 0; i < result.own.size(); ++i)
+    result.own[i] = model.laws[std::size_t(panel_of(result.grid, i, nodes).contact)].rigid() ? 0.0 : 1.0;
+  result.passing = solved.passing;
+  result.released = releases_of(model, layout, result.grid);
+  result.holding = solved.holding;
+  result.force_size = solved.force_size;
+  result.displacement_size = solved.displacement_size;
+  return result;
+}
+
+Eigen::VectorXd impulses_of(const Layout& layout, const Evaluation& now, const LegendreNodes& nodes) {
   const PanelForces forces(now.grid, nodes, now.force);
-  Eigen::VectorXd result = Eigen::VectorXd::Ones(now.residual.size());
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(now.force.size() + now.passing.size());
   auto added = result.tail(now.passing.size());
   added.setZero();
-  for (std::size_t p = 0; p < at.layout.phases.size(); ++p) {
-    const Phase& phase = at.layout.phases[p];
+  for (std::size_t p = 0; p < layout.phases.size(); ++p) {
+    const Phase& phase = layout.phases[p];
     if (phase.begin < 0) continue;
-    added[phase.end] += forces.in_phase(static_cast<int>(p), at.layout.end(phase));
-    added[phase.begin] -= forces.in_phase(static_cast<int>(p), at.layout.begin(phase));
+    added[phase.end] += forces.in_phase(static_cast<int>(p), layout.end(phase));
+    added[phase.begin] -= forces.in_phase(static_cast<int>(p), layout.begin(phase));
   }
   return result;
 }
@@ -146,12 +172,12 @@ Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd&
 
 // The nodes move with the ends of their panels; since the residual is nearly zero along a phase, not only at
 // its nodes, that has no part in it.
-Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+Eigen::MatrixXd jacobian(const Evaluation& now, const Eigen::VectorXd& impulses, const LegendreNodes& nodes,
                          const Influence& influence) {
   const Index n = now.force.size(), m = now.passing.size();
   if (n + m == 0) return {};
   Eigen::MatrixXd result = residual_by_motion(now, influence.displacement, influence.node_velocity);
-  result = result * impulses_of(at, now, nodes).asDiagonal();
+  result = result * impulses.asDiagonal();
   result.diagonal().head(n) += now.own;
   for (Index i = 0; i < m; ++i) {
     const Release& release = now.released[static_cast<std::size_t>(i)];
@@ -167,19 +193,6 @@ Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const Le
     result(n + i, n + i) += now.softness() * (rate + now.holding * now.passing[i]);
   }
   return result;
-}
-
-Eigen::MatrixXd PeriodMap::all() const { return free - product(by_unknowns, unknowns_by); }
-
-std::optional<PeriodMap> period_map(const PhaseModel& model, const PhaseIterate& iterate,
-                                    const LegendreNodes& nodes) {
-  const Evaluation now = evaluate(model, iterate, nodes);
-  FreePeriod period = model.response.free_period(now.grid, nodes, model.velocity);
-  const Lu<double> factor(jacobian(iterate, now, nodes, period.influence));
-  if (factor.is_singular()) return std::nullopt;
-  return PeriodMap{std::move(period.states_by_states),
-                   period.states_by * impulses_of(iterate, now, nodes).asDiagonal(),
-                   factor.solve(residual_by_motion(now, period.displacement_by, period.velocity_by))};
 }
 
 Eigen::MatrixXd force_at(const PanelForces& forces, const PhaseModel& model, const Eigen::VectorXd& times) {

@@ -60,7 +60,12 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
                     std::shared_ptr<const PeriodCells> known = nullptr);
 
 /// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
-Eigen::VectorXd impulses_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes);
+Eigen::VectorXd impulses_of(const Layout& layout, const Evaluation& now, const LegendreNodes& nodes);
+
+/// What the evaluation of a solution is on other panels of the same phases and passages, by its polynomials:
+/// without residual and period.
+Evaluation on_panels_of(const Layout& layout, const PhaseModel& model, const Evaluation& solved,
+                        const LegendreNodes& nodes);
 
 /// The derivative of the residual by a motion that forces move towards them: displacements at nodes and
 /// passages, velocities at nodes, by any unknowns.
@@ -68,8 +73,8 @@ Eigen::MatrixXd residual_by_motion(const Evaluation& now, const Eigen::MatrixXd&
                                    const Eigen::MatrixXd& node_velocity);
 
 /// The derivative of the residual by forces and passages, (n + m) x (n + m), for their influence on the
-/// motion.
-Eigen::MatrixXd jacobian(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
+/// motion and the `impulses_of` the iterate.
+Eigen::MatrixXd jacobian(const Evaluation& now, const Eigen::VectorXd& impulses, const LegendreNodes& nodes,
                          const Influence& influence);
 
 }  // namespace wavebalance::solvers::detail

@@ -52,16 +52,16 @@ double perturbation_rate(const PhaseMotion::Parts& parts, int phase, double begi
   return rate;
 }
 
-// The motion with its phases cut into panels that resolve perturbations, which may move faster than it does:
-// at most one radian a node. Nothing where cuts would make too many.
-std::optional<detail::PhaseIterate> resolving_perturbations(const PhaseMotion::Parts& parts) {
-  detail::PhaseIterate result = parts.iterate;
+// The phases cut into panels that resolve perturbations, which may move faster than the motion does: at most
+// one radian a node. Nothing where cuts would make too many.
+std::optional<detail::Layout> resolving_perturbations(const PhaseMotion::Parts& parts) {
+  detail::Layout result = parts.iterate.layout;
   const auto q = double(parts.nodes.count());
   const double most_unknowns = std::max(4000.0, q * double(parts.iterate.forces.panels().size()));
   double unknowns = 0.0;
-  for (std::size_t i = 0; i < result.layout.phases.size(); ++i) {
-    detail::Phase& phase = result.layout.phases[i];
-    const double begin = result.layout.begin(phase), length = result.layout.end(phase) - begin;
+  for (std::size_t i = 0; i < result.phases.size(); ++i) {
+    detail::Phase& phase = result.phases[i];
+    const double begin = result.begin(phase), length = result.end(phase) - begin;
     std::vector<double> ends = phase.cuts, cuts;
     ends.push_back(1.0);
     double from = 0.0;
@@ -81,8 +81,8 @@ std::optional<detail::PhaseIterate> resolving_perturbations(const PhaseMotion::P
 }
 
 std::optional<detail::PeriodMap> map_of(const PhaseMotion::Parts& parts) {
-  const std::optional<detail::PhaseIterate> iterate = resolving_perturbations(parts);
-  return iterate ? detail::period_map(parts.model, *iterate, parts.nodes) : std::nullopt;
+  const std::optional<detail::Layout> panels = resolving_perturbations(parts);
+  return panels ? detail::period_map(parts.model, parts.iterate, *panels, parts.nodes) : std::nullopt;
 }
 
 }  // namespace

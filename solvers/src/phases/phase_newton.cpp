@@ -16,7 +16,8 @@ namespace {
 // Newton's matrix of the first `count` unknowns.
 Lu<double> factor_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
                      const Influence& influence, Index count) {
-  return Lu<double>(jacobian(at, now, nodes, influence).topLeftCorner(count, count));
+  return Lu<double>(
+      jacobian(now, impulses_of(at.layout, now, nodes), nodes, influence).topLeftCorner(count, count));
 }
 
 double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
@@ -27,7 +28,7 @@ double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
 // obstacles' other side.
 Eigen::VectorXd displacements_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
                                  const Influence& influence, const Eigen::VectorXd& unknowns) {
-  return influence.displacement * impulses_of(at, now, nodes).cwiseProduct(unknowns);
+  return influence.displacement * impulses_of(at.layout, now, nodes).cwiseProduct(unknowns);
 }
 
 // The displacements that the last two Legendre coefficients of each panel make: a column for each.

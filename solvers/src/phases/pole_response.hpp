@@ -59,14 +59,12 @@ struct ForcedMotion {
   Eigen::VectorXd mark_velocity;  ///< m, m per period
 };
 
-/// A period that begins with any states of the poles, of which s leave more than rounding after the longest
-/// flight without forces, at whose end it begins. A pair of poles has two states, the real and the imaginary
-/// part.
-struct FreePeriod {
-  Influence influence;                           ///< within the period alone
-  Eigen::MatrixXd displacement_by, velocity_by;  ///< (n + m) x s and n x s: by states of 1; like `influence`
-  Eigen::MatrixXd states_by;                     ///< s x (n + m): the last states by forces and impulses
-  Eigen::MatrixXd states_by_states;              ///< s x s
+/// Cells that follow each other and begin with any states of the poles, n nodes and m marks in them.
+struct FreeCells {
+  Influence influence;                            ///< within these cells alone
+  Eigen::MatrixXcd displacement_by, velocity_by;  ///< (n + m) x poles and n x poles: by states of 1
+  Eigen::MatrixXcd states_by;  ///< poles x (n + m): the last states, by forces and impulses
+  Eigen::VectorXcd decay;      ///< poles: the last states, by the first
 };
 
 /// Displacements (m) and velocities (m per period) of all contacts at K times, C x K each.
@@ -101,8 +99,14 @@ class PoleResponse {
   /// By forces with these Legendre coefficients, q x panels, N. O(n poles (q + C)).
   ForcedMotion forced_motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
                              bool velocity) const;
-  /// The same for a period that is not repeated. O((n + m)^2 poles).
-  FreePeriod free_period(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
+  /// The same of all cells but the last, which has neither panels nor marks, for any states at the begin of
+  /// the first. O((n + m)^2 poles).
+  FreeCells free_cells(const PeriodCells& period, bool velocity) const;
+  const Eigen::VectorXcd& exponents() const { return exponents_; }
+  /// Whether a force on one contact moves another, or changes its velocity, at once.
+  bool acts_at_once(int displaced, int forced) const {
+    return constant_(displaced, forced) != 0.0 || jump_(displaced, forced) != 0.0;
+  }
   /// The multipliers of all states without forces, exp(exponent), both of each pair.
   Eigen::VectorXcd free_multipliers() const;
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
