@@ -152,7 +152,8 @@ void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Ob
 void add_stability(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
   if (!scene.analysis.stability || sweep.curve.points.empty() || !model.contact_dynamics()) return;
   solvers::ContactProblem problem = compose_problem(scene, model);
-  sweep.stability = problem.stability(sweep.curve, scene.analysis.output_points, observer);
+  sweep.stability =
+      problem.stability(sweep.curve, scene.analysis.output_points, observer, scene.analysis.special_points);
   if (scene.analysis.branches && !sweep.stability.cancelled) add_branches(scene, problem, observer, sweep);
 }
 

@@ -175,7 +175,8 @@ void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, c
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
                                    observer, sweep.phases_cancelled));
   // Along curves with friction no phases are followed.
-  if (scene.analysis.stability && !has_friction(scene)) add_structure_points(scene, model, sweep, observer);
+  if (scene.analysis.stability && scene.analysis.special_points && !has_friction(scene))
+    add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {
     SweepPhases& phases = sweep.phases.emplace_back();
     if (branch.curve.points.empty() || sweep.phases_cancelled) continue;

@@ -157,6 +157,10 @@ void check_exact(const Document& document, const Scene& scene) {
   refuse(analysis.branches, "analysis.branches");
   refuse(!analysis.motion_at.empty(), "analysis.motion_at");
   refuse(analysis.phases, "analysis.phases");
+  if (!analysis.special_points)
+    fail_rule(
+        document, {"analysis.exact", "analysis.special_points"},
+        "a curve of exact motions is made of its special points; expected analysis.special_points = true");
   refuse(analysis.subharmonic > 1, "analysis.subharmonic");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor");
   if (is_rigid(scene.contact.law))
@@ -178,6 +182,10 @@ void check_branches(const Document& document, const Scene& scene) {
     fail_rule(document, {"analysis.branches", "analysis.stability"},
               "not with analysis.stability = false, by which branches are found; expected false, or "
               "analysis.stability = true");
+  if (!scene.analysis.special_points)
+    fail_rule(document, {"analysis.branches", "analysis.special_points"},
+              "not with analysis.special_points = false, at which branches begin; expected false, or "
+              "analysis.special_points = true");
 }
 
 /// Motions of a sweep lie on its curve.
@@ -200,6 +208,10 @@ void check_motions(const Document& document, const Scene& scene) {
     fail_rule(document, {"analysis.motion_at", "analysis.stability"},
               "\"special\" not with analysis.stability = false, by which special points are found; expected "
               "analysis.stability = true");
+  if (analysis.motion_at.special && !analysis.special_points)
+    fail_rule(
+        document, {"analysis.motion_at", "analysis.special_points"},
+        "\"special\" not with analysis.special_points = false; expected analysis.special_points = true");
   if (analysis.motion_points > 0 && analysis.motion_at.empty())
     fail_rule(document, {"analysis.motion_points", "analysis.type"},
               "a sweep writes no motion without analysis.motion_at; expected 0, or motion_at = \"peak\"");

@@ -263,7 +263,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     warn_of_open_contacts(record, highest, model.gaps.minCoeff());
   if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
   append_impacts(record, sweep);
-  append_stability(record, sweep);
+  append_stability(record, scene, sweep);
   append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_isolas(record, scene, sweep);

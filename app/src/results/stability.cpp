@@ -143,15 +143,16 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
       motion, stability.unstable, stability.unstable == 1 ? "" : "s"));
 }
 
-void append_stability(Record& record, const Sweep& sweep) {
+void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   const bool complete =
       !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
   // Curves with impacts turn at grazings, too, and exactly.
   const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
-  append_turning_points(record, sweep, complete && folds_alone);
+  append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back(quantities::stability,
                               complete ? sweep.stability_of(0).status : std::string("interrupted"));
+  if (!scene.analysis.special_points) return;
   record.summary.emplace_back(quantities::special_points, table_of(sweep));
   append_structure_points(record, sweep);
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);

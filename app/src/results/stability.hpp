@@ -12,7 +12,7 @@ void append_stability(Record& record, const ResponseStability& stability,
 
 /// The turning points of a sweep, its stability and its special points. Where stability is known the turning
 /// points are folds of the motion; those of the samples alone are named apart, with a warning.
-void append_stability(Record& record, const Sweep& sweep);
+void append_stability(Record& record, const Scene& scene, const Sweep& sweep);
 
 /// The table `branches`, and a warning about each that was not followed to an end.
 void append_branches(Record& record, const Sweep& sweep);

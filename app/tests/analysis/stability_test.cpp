@@ -115,6 +115,35 @@ TEST(RecordOfASweep, WarnsWhereItsTurningPointsCannotBeAll) {
     EXPECT_EQ(text.find("the other turns are an error"), std::string::npos) << text;
 }
 
+TEST(RecordOfASweep, WithoutSpecialPointsHasTheSameCounts) {
+  const Record all = analyse(fourier_scene("case2_sweep", {}));
+  const Record counts = analyse(fourier_scene("case2_sweep", {"analysis.special_points=false"}));
+  EXPECT_EQ(counts.status, "reached_end");
+  EXPECT_FALSE(holds(counts.summary, "special_points"));
+  EXPECT_FALSE(holds(counts.summary, "structure_special_points"));
+  EXPECT_EQ(value_of<std::vector<double>>(counts.summary, "turning_points_Hz").size(), 2u);
+  const auto expected = all.sweep.numbers("unstable"), found = counts.sweep.numbers("unstable");
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_TRUE(found[i] == expected[i] || std::isnan(expected[i])) << i;
+  EXPECT_GT(std::count(found.begin(), found.end(), 1.0), 3);
+}
+
+TEST(RecordOfASweep, WhoseSpecialPointsAreWantedCannotLeaveThemOut) {
+  const auto expect_refused = [](const std::string& other) {
+    try {
+      fourier_scene("case2_sweep", {"analysis.special_points=false", other});
+      ADD_FAILURE() << other;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("analysis.special_points = true"), std::string::npos)
+          << error.what();
+    }
+  };
+  for (const char* other :
+       {"analysis.branches=true", "analysis.motion_at=\"special\"", "analysis.exact=true"})
+    expect_refused(other);
+}
+
 TEST(RecordOfASweep, WithoutStabilityHasTheTurningPointsOfTheSamples) {
   const Record record = analyse(fourier_scene("case2_sweep", {"analysis.stability=false"}));
   EXPECT_FALSE(holds(record.summary, "special_points"));

@@ -84,6 +84,15 @@ std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, con
 /// The eigenvalues of a square matrix, in no order; NaN if the iteration does not converge. O(n^3).
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
+/// Whether a power of a square matrix, by squaring it up to 12 times, has a norm below 1/2: all its
+/// eigenvalues then lie within the unit circle. Products take a tenth of the time that eigenvalues do. False
+/// where that is not shown. O(n^3).
+bool powers_vanish(Eigen::MatrixXd matrix);
+
+/// How many eigenvalues of a square matrix lie outside the unit circle; -1 if the iteration for them does not
+/// converge. O(n^3).
+int count_outside_circle(const Eigen::MatrixXd& matrix);
+
 /// Eigenvalues in no order, and eigenvectors as columns.
 struct GeneralEigen {
   Eigen::VectorXcd values;

@@ -65,6 +65,23 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix) {
   return values;
 }
 
+bool powers_vanish(Eigen::MatrixXd matrix) {
+  constexpr int squarings = 12;
+  constexpr double vanishing = 0.5, growing = 1e60;
+  for (int k = 0;; ++k) {
+    const double norm = matrix.norm();
+    if (norm < vanishing) return true;
+    if (k == squarings || !(norm < growing)) return false;
+    matrix = product(matrix, matrix);
+  }
+}
+
+int count_outside_circle(const Eigen::MatrixXd& matrix) {
+  if (powers_vanish(matrix)) return 0;
+  const Eigen::VectorXcd all = eigenvalues(matrix);
+  return all.allFinite() ? static_cast<int>((all.array().abs() > 1.0).count()) : -1;
+}
+
 std::optional<GeneralEigen> general_eigen(const Eigen::MatrixXd& matrix) {
   const lapack_int n = lapack_size(matrix.rows());
   if (n == 0 || !matrix.allFinite()) return std::nullopt;

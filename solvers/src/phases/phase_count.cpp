@@ -129,8 +129,7 @@ int count_unstable(const PeriodMap& map, int max_evaluations) {
                of_evaluation = n * n * (16.0 * s + 8.0 * n), of_all = of_eigenvalues * s * s * s;
   if (of_all < expected * of_evaluation) {
     if (of_all > most_operations) return -1;
-    const Eigen::VectorXcd multipliers = eigenvalues(map.all());
-    return multipliers.allFinite() ? static_cast<int>((multipliers.array().abs() > 1.0).count()) : -1;
+    return count_outside_circle(map.all());
   }
   const int affordable = static_cast<int>(std::min(2e9, most_operations / of_evaluation));
   return count_by_determinant(map, std::min(max_evaluations, affordable));

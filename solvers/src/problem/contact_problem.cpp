@@ -245,15 +245,16 @@ ExactCurve ContactProblem::exact_curve_from(double frequency, const PhaseMotion&
 }
 
 CurveStability ContactProblem::stability(const FrequencySweep& curve, int output_points,
-                                         const Observer& observer) {
+                                         const Observer& observer, bool special_points) {
   if (!dynamics() || curve.points.empty()) return {};
   CurveStabilityOptions options;
   options.stability = stability_options(condensed_);
+  options.special_points = special_points;
   options.output_points = output_points;
   options.observer = observer;
   condensed_.set_load_scale(curve.points.front().load_scale);
   CurveStability stability = curve_stability(condensed_, laws_, curve, *dynamics(), options);
-  if (!stability.cancelled) add_slip_points(curve, output_points, stability);
+  if (!stability.cancelled && special_points) add_slip_points(curve, output_points, stability);
   return stability;
 }
 

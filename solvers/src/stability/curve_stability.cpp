@@ -96,11 +96,11 @@ class Tracker {
       CurveSample here{{}, {}};
       here.point.displacement = point.unknown;
       here.point.parameter = value_of(point);
-      measure(here, Measure::count);
+      measure(here, options_.special_points ? Measure::count : Measure::count_alone);
       if (!is_known(here)) here.stability.unstable = -1;
       result_.points.push_back(here.stability);
       index_ = i;
-      if (before) {
+      if (before && options_.special_points) {
         step_ = path_.distance(before->point, here.point);
         examine(*before, here, 0);
       }
@@ -144,21 +144,28 @@ class Tracker {
     return response_at(system_, point.displacement);
   }
 
-  // The measurements at a point; each includes those before it.
-  enum class Measure { contacts, signs, count };
+  // The measurements at a point; each includes those before it, but count_alone has no signs.
+  enum class Measure { contacts, signs, count, count_alone };
 
   void measure(CurveSample& sample, Measure what) {
     const PeriodicResponse at = response(sample.point);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
     sample.stability = {stiffness.status, not_counted, static_cast<int>(stiffness.intervals.size()), 0, 0};
     if (what == Measure::contacts) return;
-    const StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
+    StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
+    how.leading = false;
+    if (what == Measure::count_alone) return set_count(sample, stiffness, at.frequency, how);
     const StabilitySigns signs = stability_signs(dynamics_, stiffness, at.frequency, how);
     sample.stability.status = signs.status;
     sample.stability.fold = signs.fold;
     sample.stability.flip = signs.flip;
     if (what == Measure::signs || !is_known(sample)) return;
-    const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, at.frequency, how);
+    set_count(sample, stiffness, at.frequency, how);
+  }
+
+  void set_count(CurveSample& sample, const PeriodicStiffness& stiffness, double frequency,
+                 const StabilityOptions& how) const {
+    const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, frequency, how);
     sample.stability.status = count.status;
     sample.stability.unstable = count.count;
   }
@@ -261,10 +268,17 @@ class Tracker {
 
   Complex critical_multiplier(SpecialPointType type, const PeriodicResponse& at) {
     FloquetOptions how;
-    how.stability = options_.stability;
+    how.stability = with_harmonics_of(problem_.pair(), options_.stability);
+    const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
     Complex nearest(not_a_number, not_a_number);
-    for (const FloquetExponent& one : floquet_exponents(dynamics_, problem_, laws_, at, how).values)
-      if (!(distance_from(type, one.multiplier) >= distance_from(type, nearest))) nearest = one.multiplier;
+    const auto consider = [&](Complex multiplier) {
+      if (!(distance_from(type, multiplier) >= distance_from(type, nearest))) nearest = multiplier;
+    };
+    if (const auto all = multipliers_of_costly(dynamics_, stiffness, at.frequency, how.stability))
+      for (const Complex multiplier : *all) consider({multiplier.real(), std::abs(multiplier.imag())});
+    else
+      for (const FloquetExponent& one : floquet_exponents(dynamics_, stiffness, at.frequency, how).values)
+        consider(one.multiplier);
     return nearest;
   }
 

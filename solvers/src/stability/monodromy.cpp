@@ -94,9 +94,13 @@ class Propagator {
       maps.free.middleRows(i * closed, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
       maps.impulses.middleCols(i * closed, closed) =
           length * period_ * rule_.weights[i] *
-          states_.after_impulse(length * (1.0 - point))(Eigen::all, contacts);
-      maps.memory.block(i * closed, i * closed, closed, closed) = dynamics_.constant()(contacts, contacts);
-      add_memory(contacts, length, i, states_.free_motion(0.0), maps.memory);
+          states_.after_impulses(states_.growth(length * (1.0 - point)), contacts);
+    }
+    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(contacts, Eigen::all);
+    for (Index i = 0; i < nodes; ++i) {
+      maps.memory.middleRows(i * closed, closed) =
+          detail::product(displaced, states_up_to_node(contacts, length, i));
+      maps.memory.block(i * closed, i * closed, closed, closed) += dynamics_.constant()(contacts, contacts);
     }
     if (stiffness_.damping) add_rates(contacts, length, maps);
     return maps;
@@ -106,15 +110,17 @@ class Propagator {
   void add_rates(const std::vector<int>& contacts, double length, PartMaps& maps) const {
     const auto closed = Index(contacts.size());
     const Index nodes = rule_.points.size(), size = nodes * closed;
-    maps.memory_rate.setZero(size, size);
+    maps.memory_rate.resize(size, size);
     maps.free_rate.resize(size, states_.size());
     const Eigen::MatrixXd at_once = detail::product(states_.free_motion(0.0)(contacts, Eigen::all),
                                                     states_.after_impulse(0.0)(Eigen::all, contacts));
+    const Eigen::MatrixXd moved = states_.free_velocity(0.0)(contacts, Eigen::all);
     for (Index i = 0; i < nodes; ++i) {
       maps.free_rate.middleRows(i * closed, closed) =
           states_.free_velocity(length * rule_.points[i])(contacts, Eigen::all);
-      maps.memory_rate.block(i * closed, i * closed, closed, closed) = at_once;
-      add_memory(contacts, length, i, states_.free_velocity(0.0), maps.memory_rate);
+      maps.memory_rate.middleRows(i * closed, closed) =
+          detail::product(moved, states_up_to_node(contacts, length, i));
+      maps.memory_rate.block(i * closed, i * closed, closed, closed) += at_once;
     }
   }
 
@@ -163,21 +169,20 @@ class Propagator {
     return detail::Lu<double>(matrix).solve(free);
   }
 
-  // integral up to node i of h(t_i - s) times the polynomials of the nodes; `motion` are the displacements of
-  // all contacts in the states, or their velocities for h'.
-  void add_memory(const std::vector<int>& contacts, double length, Index i, const Eigen::MatrixXd& motion,
-                  Eigen::MatrixXd& matrix) const {
+  // The states at node i by forces from the begin of a part on that are the polynomials of the nodes, n x
+  // (contacts at node after node): each pole's integral of exp(lambda (t_i - s)) times the polynomials.
+  Eigen::MatrixXd states_up_to_node(const std::vector<int>& contacts, double length, Index i) const {
     const auto closed = Index(contacts.size());
+    const Index nodes = rule_.points.size();
     const double reach = length * rule_.points[i];
     const Eigen::MatrixXd& polynomials = below_[static_cast<std::size_t>(i)];
-    const Eigen::MatrixXd displaced = motion(contacts, Eigen::all);
-    for (Index q = 0; q < rule_.points.size(); ++q) {
-      const Eigen::MatrixXd impulse =
-          states_.after_impulse(reach * (1.0 - rule_.points[q]))(Eigen::all, contacts);
-      const Eigen::MatrixXd memory = reach * period_ * rule_.weights[q] * detail::product(displaced, impulse);
-      for (Index k = 0; k < rule_.points.size(); ++k)
-        matrix.block(i * closed, k * closed, closed, closed) += polynomials(q, k) * memory;
-    }
+    Eigen::MatrixXcd growths(Index(dynamics_.poles().size()), nodes);
+    for (Index q = 0; q < nodes; ++q)
+      growths.col(q) = reach * period_ * rule_.weights[q] * states_.growth(reach * (1.0 - rule_.points[q]));
+    Eigen::MatrixXd states(states_.size(), nodes * closed);
+    for (Index k = 0; k < nodes; ++k)
+      states.middleCols(k * closed, closed) = states_.after_impulses(growths * polynomials.col(k), contacts);
+    return states;
   }
 
   const ContactDynamics& dynamics_;
@@ -285,13 +290,15 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
 }
 
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                            double frequency, const MonodromyOptions& options) {
+                            double frequency, bool eigenvalues, const MonodromyOptions& options) {
   auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
   if (!resolving) return std::numeric_limits<double>::infinity();
   const PoleStates all(dynamics, 1.0 / frequency);
   const auto states = double(all.size()),
              left = double(all.left_after(begin_with_free_flight(*resolving)).size());
-  double operations = 25.0 * left * left * left;  // of the eigenvalues [Golub & Van Loan]
+  // Eigenvalues take 25 n^3 [Golub & Van Loan]; of powers about eight are taken, by products, which are
+  // faster.
+  double operations = (eigenvalues ? 25.0 : 8.0) * left * left * left;
   for (const Piece& piece : *resolving) {
     const double rows = options.nodes * double(piece.closed.size());
     operations += piece.parts * rows * (2.0 / 3.0 * rows * rows + 2.0 * rows * left + 4.0 * states * left);
@@ -299,22 +306,44 @@ double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiff
   return operations;
 }
 
-// From the begin of a free flight: what it leaves nothing of has columns of zeros, and so multipliers of
-// zero.
-Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
-                           double frequency, const MonodromyOptions& options) {
+namespace {
+
+// The map of the states that a free flight leaves, with which it begins: what it leaves nothing of has
+// columns of zeros, and so multipliers of zero. Nothing where contact is too stiff.
+struct LastingMap {
+  Index states;  // all of them
+  std::optional<Eigen::MatrixXd> map;
+};
+
+LastingMap lasting_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
+                       double frequency, const MonodromyOptions& options) {
   const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
-  const Index size = propagator.states().size();
+  LastingMap result{propagator.states().size(), std::nullopt};
   auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
-  if (!resolving) return Eigen::VectorXcd::Constant(size, missing);
+  if (!resolving) return result;
   const auto left = propagator.states().left_after(begin_with_free_flight(*resolving));
-  Eigen::MatrixXd states = Eigen::MatrixXd::Identity(size, size)(Eigen::all, left);
+  Eigen::MatrixXd states = Eigen::MatrixXd::Identity(result.states, result.states)(Eigen::all, left);
   for (const Piece& piece : *resolving) propagator.pass(piece, states);
-  if (!states.allFinite()) return Eigen::VectorXcd::Constant(size, missing);
-  Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(size);
-  multipliers.head(Index(left.size())) = by_falling_modulus(states(left, Eigen::all));
+  if (states.allFinite()) result.map = states(left, Eigen::all);
+  return result;
+}
+
+}  // namespace
+
+Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                           double frequency, const MonodromyOptions& options) {
+  const LastingMap lasting = lasting_map(dynamics, stiffness, frequency, options);
+  if (!lasting.map) return Eigen::VectorXcd::Constant(lasting.states, missing);
+  Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(lasting.states);
+  multipliers.head(lasting.map->rows()) = by_falling_modulus(*lasting.map);
   return multipliers;
+}
+
+int monodromy_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                    const MonodromyOptions& options) {
+  const LastingMap lasting = lasting_map(dynamics, stiffness, frequency, options);
+  return lasting.map ? detail::count_outside_circle(*lasting.map) : -1;
 }
 
 Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,

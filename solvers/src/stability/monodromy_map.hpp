@@ -15,9 +15,14 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
 /// The eigenvalues of such a map, or of a part of it, by falling modulus.
 Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map);
 
-/// Real operations that monodromy() takes, estimated: factorizations and substitutions of the parts, and the
-/// eigenvalues.
+/// How many values of monodromy() lie outside the unit circle; -1 where these are NaN. Less work where none
+/// do.
+int monodromy_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                    const MonodromyOptions& options = {});
+
+/// Real operations that monodromy() takes, or monodromy_count() of a stable motion, estimated: factorizations
+/// and substitutions of the parts, and the eigenvalues or powers.
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                            double frequency, const MonodromyOptions& options);
+                            double frequency, bool eigenvalues, const MonodromyOptions& options);
 
 }  // namespace wavebalance::solvers

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numeric>
 
 namespace wavebalance::solvers {
 
@@ -72,15 +73,30 @@ void PoleStates::advance(double time, Eigen::MatrixXd& states) const {
   }
 }
 
-Eigen::MatrixXd PoleStates::after_impulse(double time) const {
-  Eigen::MatrixXd states(size_, dynamics_.contacts());
-  for (std::size_t l = 0; l < begins_.size(); ++l) {
-    const ContactPole& pole = dynamics_.poles()[l];
-    const Eigen::RowVectorXcd row = std::exp(pole.exponent * time * period_) * pole.left.transpose();
-    states.row(begins_[l]) = row.real();
-    if (pole.exponent.imag() != 0.0) states.row(begins_[l] + 1) = row.imag();
-  }
+Eigen::VectorXcd PoleStates::growth(double time) const {
+  Eigen::VectorXcd factors(Index(begins_.size()));
+  for (Index l = 0; l < factors.size(); ++l)
+    factors[l] = std::exp(dynamics_.poles()[std::size_t(l)].exponent * time * period_);
+  return factors;
+}
+
+Eigen::MatrixXd PoleStates::after_impulses(const Eigen::VectorXcd& factors,
+                                           const std::vector<int>& contacts) const {
+  Eigen::MatrixXd states(size_, Index(contacts.size()));
+  for (Index c = 0; c < states.cols(); ++c)
+    for (std::size_t l = 0; l < begins_.size(); ++l) {
+      const ContactPole& pole = dynamics_.poles()[l];
+      const Complex state = factors[Index(l)] * pole.left[contacts[std::size_t(c)]];
+      states(begins_[l], c) = state.real();
+      if (pole.exponent.imag() != 0.0) states(begins_[l] + 1, c) = state.imag();
+    }
   return states;
+}
+
+Eigen::MatrixXd PoleStates::after_impulse(double time) const {
+  std::vector<int> all(static_cast<std::size_t>(dynamics_.contacts()));
+  std::iota(all.begin(), all.end(), 0);
+  return after_impulses(growth(time), all);
 }
 
 }  // namespace wavebalance::solvers

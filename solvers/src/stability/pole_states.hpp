@@ -27,6 +27,11 @@ class PoleStates {
   void advance(double time, Eigen::MatrixXd& states) const;
   /// n x C: the states a time after unit impulses (N s) at the contacts.
   Eigen::MatrixXd after_impulse(double time) const;
+  /// What each pole's amplitude is multiplied by in this time.
+  Eigen::VectorXcd growth(double time) const;
+  /// The states after unit impulses at some contacts, of which each pole's amplitude is that at once times
+  /// its factor: n x contacts.
+  Eigen::MatrixXd after_impulses(const Eigen::VectorXcd& factors, const std::vector<int>& contacts) const;
 
  private:
   /// The motion of the contacts by the states, of each pole times a power of its exponent.

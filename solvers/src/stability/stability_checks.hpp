@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
 namespace wavebalance::solvers {
@@ -10,5 +12,11 @@ StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions option
 /// intervals of contacts that the structure does not have.
 void require_stability_arguments(const char* who, const ContactDynamics& dynamics,
                                  const PeriodicStiffness& stiffness, double frequency, int harmonics);
+
+/// All multipliers by the monodromy, by falling modulus, where the determinant takes much more work or does
+/// not have them; nothing elsewhere.
+std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
+                                                      const PeriodicStiffness& stiffness, double frequency,
+                                                      const StabilityOptions& options);
 
 }  // namespace wavebalance::solvers

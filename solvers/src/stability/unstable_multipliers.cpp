@@ -27,11 +27,12 @@ double operations_of(const FloquetDeterminant& determinant) {
 }
 
 // True where the monodromy costs much less: many nodes on few modes, which many contacts that last long have.
-bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& stiffness, double frequency) {
+bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& stiffness, double frequency,
+               bool eigenvalues) {
   constexpr double many_operations = 1e9;
   const double operations = operations_of(determinant) * first_evaluations(determinant);
   return operations > many_operations &&
-         operations > 2.0 * monodromy_operations(determinant.dynamics(), stiffness, frequency, {});
+         operations > monodromy_operations(determinant.dynamics(), stiffness, frequency, eigenvalues, {});
 }
 
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
@@ -46,11 +47,15 @@ Truncation truncation_of(const ContactDynamics& dynamics, const PeriodicStiffnes
                               options.max_omitted);
 }
 
+bool has_monodromy(const ContactDynamics& dynamics, const StabilityOptions& options) {
+  return !dynamics.reduced() && 2 * int(dynamics.poles().size()) <= options.max_states;
+}
+
 // Nothing where there are too many states, contact is too stiff for this, too, or the structure is reduced.
 std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
                                              const PeriodicStiffness& stiffness, double frequency,
                                              const StabilityOptions& options) {
-  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states) return std::nullopt;
+  if (!has_monodromy(dynamics, options)) return std::nullopt;
   const Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, frequency);
   if (!multipliers.allFinite()) return std::nullopt;
   return multipliers;
@@ -62,8 +67,7 @@ StabilityStatus status_of_damped(const ContactDynamics& dynamics, const Periodic
                                  const StabilityOptions& options) {
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
   if (dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0) return StabilityStatus::coupled_massless;
-  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
-    return StabilityStatus::too_many_states;
+  if (!has_monodromy(dynamics, options)) return StabilityStatus::too_many_states;
   return StabilityStatus::converged;
 }
 
@@ -84,8 +88,15 @@ UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers) {
 std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& dynamics,
                                                         const PeriodicStiffness& stiffness, double frequency,
                                                         const StabilityOptions& options) {
-  const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-  return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
+  if (options.leading) {
+    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
+    return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
+  }
+  UnstableMultipliers result;
+  if (has_monodromy(dynamics, options)) result.count = monodromy_count(dynamics, stiffness, frequency);
+  if (result.count < 0) return std::nullopt;
+  result.winding = result.count;
+  return result;
 }
 
 // The multipliers of a motion with friction; nothing and the reason where they are not known.
@@ -94,8 +105,7 @@ std::optional<Eigen::VectorXcd> by_friction(const ContactDynamics& dynamics,
                                             const StabilityOptions& options, StabilityStatus& status) {
   status = stiffness.status;
   if (dynamics.structurally_damped()) status = StabilityStatus::structural_damping;
-  if (dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
-    status = StabilityStatus::too_many_states;
+  if (!has_monodromy(dynamics, options)) status = StabilityStatus::too_many_states;
   if (status != StabilityStatus::converged) return std::nullopt;
   Eigen::VectorXcd multipliers = friction_monodromy(dynamics, stiffness, frequency);
   if (!multipliers.allFinite()) status = StabilityStatus::too_few_harmonics;
@@ -108,7 +118,7 @@ UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const Per
   UnstableMultipliers result = without_count(contact.status);
   if (dynamics.structurally_damped()) result.status = StabilityStatus::structural_damping;
   if (dynamics.structurally_damped() || dynamics.holding() > 0.0 || contact.intervals.empty() ||
-      dynamics.reduced() || 2 * int(dynamics.poles().size()) > options.max_states)
+      !has_monodromy(dynamics, options))
     return result;
   const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
   if (!multipliers.allFinite()) return result;
@@ -162,6 +172,20 @@ StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
 
 }  // namespace
 
+std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
+                                                      const PeriodicStiffness& of_contacts, double frequency,
+                                                      const StabilityOptions& options) {
+  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
+  if (stiffness.damping || !stiffness.friction.empty() ||
+      status_before("multipliers", dynamics, stiffness, frequency, options) != StabilityStatus::converged)
+    return std::nullopt;
+  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
+  if (truncation.harmonics == 0) return by_monodromy(dynamics, stiffness, frequency, options);
+  const FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  if (determinant.resolved() && !is_costly(determinant, stiffness, frequency, true)) return std::nullopt;
+  return by_monodromy(dynamics, stiffness, frequency, options);
+}
+
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
                                          const PeriodicStiffness& of_contacts, double frequency,
                                          const StabilityOptions& options) {
@@ -190,7 +214,7 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
   if (!determinant.resolved())
     return counted_by_monodromy(dynamics, stiffness, frequency, options)
         .value_or(without_count(StabilityStatus::too_few_harmonics));
-  if (is_costly(determinant, stiffness, frequency))
+  if (is_costly(determinant, stiffness, frequency, options.leading))
     if (const auto counted = counted_by_monodromy(dynamics, stiffness, frequency, options)) return *counted;
   result.harmonics = options.harmonics;
   const int own = unstable_poles(dynamics);

@@ -227,6 +227,11 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
               stability_by_default),
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(
+      &Analysis::special_points, "special_points", "",
+      "with stability, true locates the special points of a curve, and those of the structure beside it; false "
+      "counts multipliers at the points of the curve alone, which of many contacts takes far less time",
+      optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"}) && by_balance()));
+  analysis(
       &Analysis::phases, "phases", "",
       "true solves for the motion of the structure itself near the response, by phases of contact: its "
       "instants of contact, the errors of the response, and the stability of the structure; of a sweep "

@@ -257,6 +257,9 @@ struct Analysis {
   /// sweeps: whether the curve is that of the motions of the structure, followed by phases of contact
   bool exact = false;
   bool stability = true;  ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
+  /// sweeps, with stability: whether the points of the curve between which counts or contacts change are
+  /// located
+  bool special_points = true;
   /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and
   /// points and output_points are then those of all of them.
   int subharmonic = 1;

@@ -110,10 +110,10 @@ class ContactProblem {
   /// exact_curve_through() over the frequency, from a motion that has converged at a frequency within the
   /// interval; without points without modes.
   ExactCurve exact_curve_from(double frequency, const PhaseMotion& motion, const ExactCurveOptions& options);
-  /// The stability along a curve that was traced with keep_unknowns, and its slip_points(); without points
-  /// where the structure has no modes.
+  /// The stability along a curve that was traced with keep_unknowns, and, if asked for, its special points
+  /// with its slip_points(); without points where the structure has no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
-                           const Observer& observer = {});
+                           const Observer& observer = {}, bool special_points = true);
   /// Makes the pair for motions of so many periods of the curve's, as BranchProblems says.
   using PairOfPeriods = std::function<TimePair(int periods)>;
   /// follow_branches() of a curve and its stability.

@@ -14,7 +14,7 @@ struct PointStability {
   StabilityStatus status = StabilityStatus::no_response;
   int unstable = -1;  ///< multipliers outside the unit circle; -1 unless converged
   int contacts = 0;   ///< intervals of contact within the period, of all contacts
-  int fold = 0;       ///< StabilitySigns::fold
+  int fold = 0;       ///< StabilitySigns::fold; 0 without special points
   int flip = 0;       ///< StabilitySigns::flip
 };
 
@@ -49,9 +49,10 @@ struct SpecialPoint {
 /// How the stability of a curve is found.
 struct CurveStabilityOptions {
   StabilityOptions stability;
-  double tolerance = 1e-6;   ///< width of a bracket over the distance of two points of the curve
-  int output_points = 1024;  ///< times per period at which the maxima of special points are taken
-  Observer observer;         ///< called after each point
+  double tolerance = 1e-6;     ///< width of a bracket over the distance of two points of the curve
+  bool special_points = true;  ///< whether they are located; without them counts alone take far less
+  int output_points = 1024;    ///< times per period at which the maxima of special points are taken
+  Observer observer;           ///< called after each point
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

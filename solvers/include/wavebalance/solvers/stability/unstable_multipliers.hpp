@@ -18,6 +18,8 @@ struct StabilityOptions {
   double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
+  bool leading =
+      true;  ///< whether the monodromy also gives the leading multiplier, which takes its eigenvalues
   int max_evaluations = 2000;    ///< of the determinant in one call
   double max_operations = 1e12;  ///< estimated, real ones, of all these evaluations
 
@@ -32,7 +34,8 @@ struct UnstableMultipliers {
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant
   double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
-  /// The largest multiplier in modulus, Im >= 0, where the monodromy was taken, NaN elsewhere.
+  /// The largest multiplier in modulus, Im >= 0, where it was asked for and the monodromy was taken, NaN
+  /// elsewhere.
   std::complex<double> leading{missing, missing};
 };
 
@@ -56,7 +59,8 @@ struct UnstableMultipliers {
 /// as its derivative says.
 ///
 /// Where this takes more than 1e9 operations, as it does when many contacts last long, and the monodromy of
-/// at most `options.max_states` states is known, its eigenvalues are counted.
+/// at most `options.max_states` states is known, its eigenvalues are counted, or powers of it that vanish
+/// show that there are none.
 ///
 /// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), 9 to 65 evaluations as
 /// there are multipliers that do not decay. Throws std::invalid_argument for a frequency that is not positive
