@@ -154,18 +154,25 @@ class Tracker {
     if (what == Measure::contacts) return;
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;
-    if (what == Measure::count_alone) return set_count(sample, stiffness, at.frequency, how);
-    const StabilitySigns signs = stability_signs(dynamics_, stiffness, at.frequency, how);
+    if (!stiffness.friction.empty()) {  // one map has both
+      const FrictionVerdict verdict = friction_verdict(dynamics_, stiffness, at.frequency, how);
+      set_signs(verdict.signs, sample);
+      if (is_known(sample)) set_count(verdict.count, sample);
+      return;
+    }
+    if (what != Measure::count_alone)
+      set_signs(stability_signs(dynamics_, stiffness, at.frequency, how), sample);
+    if (what == Measure::signs || !is_known(sample)) return;
+    set_count(unstable_multipliers(dynamics_, stiffness, at.frequency, how), sample);
+  }
+
+  static void set_signs(const StabilitySigns& signs, CurveSample& sample) {
     sample.stability.status = signs.status;
     sample.stability.fold = signs.fold;
     sample.stability.flip = signs.flip;
-    if (what == Measure::signs || !is_known(sample)) return;
-    set_count(sample, stiffness, at.frequency, how);
   }
 
-  void set_count(CurveSample& sample, const PeriodicStiffness& stiffness, double frequency,
-                 const StabilityOptions& how) const {
-    const UnstableMultipliers count = unstable_multipliers(dynamics_, stiffness, frequency, how);
+  static void set_count(const UnstableMultipliers& count, CurveSample& sample) {
     sample.stability.status = count.status;
     sample.stability.unstable = count.count;
   }

@@ -47,15 +47,15 @@ Truncation truncation_of(const ContactDynamics& dynamics, const PeriodicStiffnes
                               options.max_omitted);
 }
 
-bool has_monodromy(const ContactDynamics& dynamics, const StabilityOptions& options) {
-  return !dynamics.reduced() && 2 * int(dynamics.poles().size()) <= options.max_states;
+bool has_monodromy(const ContactDynamics& dynamics, int max_states) {
+  return !dynamics.reduced() && 2 * int(dynamics.poles().size()) <= max_states;
 }
 
 // Nothing where there are too many states, contact is too stiff for this, too, or the structure is reduced.
 std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
                                              const PeriodicStiffness& stiffness, double frequency,
                                              const StabilityOptions& options) {
-  if (!has_monodromy(dynamics, options)) return std::nullopt;
+  if (!has_monodromy(dynamics, options.max_states)) return std::nullopt;
   const Eigen::VectorXcd multipliers = monodromy(dynamics, stiffness, frequency);
   if (!multipliers.allFinite()) return std::nullopt;
   return multipliers;
@@ -67,7 +67,7 @@ StabilityStatus status_of_damped(const ContactDynamics& dynamics, const Periodic
                                  const StabilityOptions& options) {
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
   if (dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0) return StabilityStatus::coupled_massless;
-  if (!has_monodromy(dynamics, options)) return StabilityStatus::too_many_states;
+  if (!has_monodromy(dynamics, options.max_states)) return StabilityStatus::too_many_states;
   return StabilityStatus::converged;
 }
 
@@ -93,7 +93,8 @@ std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& d
     return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
   }
   UnstableMultipliers result;
-  if (has_monodromy(dynamics, options)) result.count = monodromy_count(dynamics, stiffness, frequency);
+  if (has_monodromy(dynamics, options.max_states))
+    result.count = monodromy_count(dynamics, stiffness, frequency);
   if (result.count < 0) return std::nullopt;
   result.winding = result.count;
   return result;
@@ -105,7 +106,7 @@ std::optional<Eigen::VectorXcd> by_friction(const ContactDynamics& dynamics,
                                             const StabilityOptions& options, StabilityStatus& status) {
   status = stiffness.status;
   if (dynamics.structurally_damped()) status = StabilityStatus::structural_damping;
-  if (!has_monodromy(dynamics, options)) status = StabilityStatus::too_many_states;
+  if (!has_monodromy(dynamics, options.max_states_with_friction)) status = StabilityStatus::too_many_states;
   if (status != StabilityStatus::converged) return std::nullopt;
   Eigen::VectorXcd multipliers = friction_monodromy(dynamics, stiffness, frequency);
   if (!multipliers.allFinite()) status = StabilityStatus::too_few_harmonics;
@@ -118,7 +119,7 @@ UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const Per
   UnstableMultipliers result = without_count(contact.status);
   if (dynamics.structurally_damped()) result.status = StabilityStatus::structural_damping;
   if (dynamics.structurally_damped() || dynamics.holding() > 0.0 || contact.intervals.empty() ||
-      !has_monodromy(dynamics, options))
+      !has_monodromy(dynamics, options.max_states))
     return result;
   const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
   if (!multipliers.allFinite()) return result;
@@ -137,6 +138,7 @@ int unstable_poles(const ContactDynamics& dynamics) {
 void StabilityOptions::validate() const {
   detail::require_at_least("StabilityOptions", "harmonics", harmonics, 0);
   detail::require_at_least("StabilityOptions", "max_states", max_states, 0);
+  detail::require_at_least("StabilityOptions", "max_states_with_friction", max_states_with_friction, 0);
   detail::require_positive("StabilityOptions", "max_omitted", max_omitted);
   detail::require_at_least("StabilityOptions", "max_evaluations", max_evaluations, 1);
   detail::require_positive("StabilityOptions", "max_operations", max_operations);
@@ -189,11 +191,7 @@ std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dyn
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
                                          const PeriodicStiffness& of_contacts, double frequency,
                                          const StabilityOptions& options) {
-  if (!of_contacts.friction.empty()) {
-    StabilityStatus status = StabilityStatus::converged;
-    const auto multipliers = by_friction(dynamics, of_contacts, frequency, options, status);
-    return multipliers ? count_of(*multipliers) : without_count(status);
-  }
+  if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).count;
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   if (stiffness.damping && dynamics.structurally_damped())
     return without_count(StabilityStatus::structural_damping);
@@ -269,13 +267,16 @@ StabilitySigns signs_of(const std::optional<Eigen::VectorXcd>& multipliers, Stab
 
 }  // namespace
 
+FrictionVerdict friction_verdict(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                 double frequency, const StabilityOptions& options) {
+  StabilityStatus status = StabilityStatus::converged;
+  const auto multipliers = by_friction(dynamics, stiffness, frequency, options, status);
+  return {signs_of(multipliers, status), multipliers ? count_of(*multipliers) : without_count(status)};
+}
+
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
                                double frequency, const StabilityOptions& options) {
-  if (!of_contacts.friction.empty()) {
-    StabilityStatus status = StabilityStatus::converged;
-    const auto multipliers = by_friction(dynamics, of_contacts, frequency, options, status);
-    return signs_of(multipliers, status);
-  }
+  if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).signs;
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   StabilitySigns signs;
   if (stiffness.damping && dynamics.structurally_damped()) {

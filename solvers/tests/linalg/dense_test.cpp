@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace wavebalance::solvers::detail {
@@ -29,6 +30,22 @@ TEST(PowersOfAMatrix, DoNotVanishWhereOneLiesOnItOrOutside) {
   for (const double largest : {1.0, 1.0 + 1e-9, 1.5, 1e80})
     EXPECT_FALSE(powers_vanish(matrix_with(largest, 12))) << largest;
   EXPECT_FALSE(powers_vanish(Eigen::MatrixXd::Constant(3, 3, std::nan(""))));
+}
+
+// exp(S D S^-1) = S exp(D) S^-1, with rates like those of a structure whose fast modes have decayed.
+TEST(Exponential, OfALargeMatrixIsThatOfItsEigenvalues) {
+  constexpr Eigen::Index size = 60;
+  Eigen::MatrixXd vectors = matrix_with(2.0, size);
+  Eigen::VectorXd rates(size);
+  for (Eigen::Index i = 0; i < size; ++i) rates[i] = -std::pow(10.0, -2.0 + 0.08 * double(i));
+  vectors.diagonal().setConstant(4.0 * std::sqrt(double(size)));
+  const Lu<double> inverse(vectors);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(size, size);
+  const Eigen::MatrixXd matrix = vectors * rates.asDiagonal() * inverse.solve(identity);
+  const Eigen::MatrixXd expected =
+      vectors * rates.array().exp().matrix().asDiagonal() * inverse.solve(identity);
+  EXPECT_LT((exponential(matrix) - expected).norm(), 1e-11 * expected.norm());
+  EXPECT_FALSE(exponential(Eigen::MatrixXd::Constant(size, size, std::nan(""))).allFinite());
 }
 
 TEST(CountOutsideTheCircle, IsThatOfTheEigenvalues) {

@@ -18,6 +18,8 @@ struct StabilityOptions {
   double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
+  /// The same with friction, where each interval between two transitions takes a matrix exponential.
+  int max_states_with_friction = 400;
   bool leading =
       true;  ///< whether the monodromy also gives the leading multiplier, which takes its eigenvalues
   int max_evaluations = 2000;    ///< of the determinant in one call
