@@ -160,7 +160,7 @@ void check_exact(const Document& document, const Scene& scene) {
   if (!analysis.special_points)
     fail_rule(
         document, {"analysis.exact", "analysis.special_points"},
-        "a curve of exact motions is made of its special points; expected analysis.special_points = true");
+        "an exact curve finds its special points as it is followed; expected analysis.special_points = true");
   refuse(analysis.subharmonic > 1, "analysis.subharmonic");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor");
   if (is_rigid(scene.contact.law))

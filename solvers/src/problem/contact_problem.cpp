@@ -248,7 +248,7 @@ CurveStability ContactProblem::stability(const FrequencySweep& curve, int output
                                          const Observer& observer, bool special_points) {
   if (!dynamics() || curve.points.empty()) return {};
   CurveStabilityOptions options;
-  constexpr int most_states_with_friction = 120;  // beyond, a point takes about a second
+  constexpr int most_states_with_friction = 120;  // beyond, a point takes seconds
   options.stability = stability_options(condensed_);
   options.stability.max_states_with_friction = most_states_with_friction;
   options.special_points = special_points;

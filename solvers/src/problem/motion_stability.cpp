@@ -55,7 +55,6 @@ StabilityOptions stability_options(const CondensedProblem& problem) {
   constexpr int most_harmonics = 255;
   StabilityOptions options;
   options.harmonics = std::clamp((problem.pair().functions() - 1) / 2, 1, most_harmonics);
-  options.max_states = 400;
   options.max_operations = 3e10;
   return options;
 }

@@ -32,7 +32,8 @@ bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& s
   constexpr double many_operations = 1e9;
   const double operations = operations_of(determinant) * first_evaluations(determinant);
   return operations > many_operations &&
-         operations > monodromy_operations(determinant.dynamics(), stiffness, frequency, eigenvalues, {});
+         operations >
+             2.0 * monodromy_operations(determinant.dynamics(), stiffness, frequency, eigenvalues, {});
 }
 
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
@@ -182,9 +183,9 @@ std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dyn
       status_before("multipliers", dynamics, stiffness, frequency, options) != StabilityStatus::converged)
     return std::nullopt;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0) return by_monodromy(dynamics, stiffness, frequency, options);
+  if (truncation.harmonics == 0) return std::nullopt;
   const FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (determinant.resolved() && !is_costly(determinant, stiffness, frequency, true)) return std::nullopt;
+  if (!determinant.resolved() || !is_costly(determinant, stiffness, frequency, true)) return std::nullopt;
   return by_monodromy(dynamics, stiffness, frequency, options);
 }
 

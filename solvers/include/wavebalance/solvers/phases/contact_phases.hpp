@@ -113,9 +113,9 @@ class PhaseMotion {
 
   /// The Floquet multipliers of the motion, by falling modulus; those below rounding are left out.
   /// Perturbations satisfy the linearized equations, on panels cut to what they need. Rigid contact has them,
-  /// too. Empty where they are not found, need too many panels, or with more than max_states. O(s^3 + s n^2 +
-  /// n^3) for n unknowns and s states of the structure, of which those count that the longest flight without
-  /// contact leaves.
+  /// too. Empty where they are not found, need too many panels, or with more than max_states. O(s^3 +
+  /// n s p + n w^2) for n unknowns, at most w of them between two instants over which only states last, p
+  /// poles and s states of the structure that the longest flight without contact leaves.
   Eigen::VectorXcd multipliers(int max_states = 400) const;
 
   /// How many of them lie outside the unit circle, for any number of states: by the argument of det(I + V (mu

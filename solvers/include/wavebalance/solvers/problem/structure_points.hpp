@@ -32,7 +32,7 @@ struct StructurePointsOptions {
   double reach = 0.25;
   std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
   int max_points = 2000;           ///< motions on the whole curve; and on all stretches together
-  double max_operations = 2e11;    ///< floating-point operations of all curves together
+  double max_operations = 1e12;    ///< floating-point operations of all curves together
   double max_distance = 0.1;       ///< as of CurvePhasesOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
   ContactPhasesOptions phases{};

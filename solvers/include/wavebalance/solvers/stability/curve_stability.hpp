@@ -14,7 +14,7 @@ struct PointStability {
   StabilityStatus status = StabilityStatus::no_response;
   int unstable = -1;  ///< multipliers outside the unit circle; -1 unless converged
   int contacts = 0;   ///< intervals of contact within the period, of all contacts
-  int fold = 0;       ///< StabilitySigns::fold; 0 without special points
+  int fold = 0;       ///< StabilitySigns::fold; of counts alone it may be 0, as flip
   int flip = 0;       ///< StabilitySigns::flip
 };
 

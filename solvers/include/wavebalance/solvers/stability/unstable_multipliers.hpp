@@ -20,8 +20,8 @@ struct StabilityOptions {
   int max_states = 400;
   /// The same with friction, where each interval between two transitions takes a matrix exponential.
   int max_states_with_friction = 400;
-  bool leading =
-      true;  ///< whether the monodromy also gives the leading multiplier, which takes its eigenvalues
+  /// Whether the monodromy also gives the leading multiplier, which takes its eigenvalues.
+  bool leading = true;
   int max_evaluations = 2000;    ///< of the determinant in one call
   double max_operations = 1e12;  ///< estimated, real ones, of all these evaluations
 
