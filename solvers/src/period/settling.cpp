@@ -11,6 +11,7 @@
 #include "linalg/option_checks.hpp"
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
+#include "period/settling_returns.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -39,20 +40,23 @@ void place(const Motion& period, int block, Motion& whole) {
 
 class Settling {
  public:
-  // `load_periods` are those of the problem.
-  Settling(PeriodMap& map, PeriodState begin, int load_periods, bool has_memory,
+  // `load_periods` are those of the problem, which begins `start` periods before the map.
+  Settling(PeriodMap& map, PeriodState begin, int load_periods, double start, bool has_memory,
            const SettlingOptions& options)
       : options_(options),
         map_(map),
         load_periods_(load_periods),
+        start_(start),
         has_memory_(has_memory),
         states_{std::move(begin)} {}
 
-  SettledMotion run() {
+  SettledMotion run(const TakesReturn& takes) {
     SettledMotion result;
+    result.start = start_;
     constexpr double finer = 1e-2, finest = 1e-11;
     Verdict before{{}, false};
-    double tolerance = options_.tolerance;
+    // Friction changes between stick and slip at many instants, each of which costs short steps.
+    double tolerance = has_memory_ ? even_steps : options_.tolerance;
     for (const double share : {0.5, 1.0, 1.5}) {
       limit_ = std::min(share, 1.0) * options_.max_operations;  // each accuracy has its part
       const Verdict now =
@@ -61,10 +65,10 @@ class Settling {
       if (now.agrees(before)) result.attractor_periods = now.found.periods;
       if (now.agrees(before) || !now.known) break;
       before = now;
-      tolerance = std::max(finest, finer * tolerance);
+      tolerance = tolerance == even_steps ? options_.tolerance : std::max(finest, finer * tolerance);
     }
     const bool settles = result.attractor_periods > 0 && load_periods_ % result.attractor_periods == 0;
-    if (!result.cancelled && !settles) add_returns(result);
+    if (!result.cancelled && !settles && result.integrated()) add_returns(takes, result);
     return result;
   }
 
@@ -111,9 +115,12 @@ class Settling {
     return (one.motion - other.motion).norm() / map_.size(one);
   }
 
-  // The different states that nearly return after a period of the problem, the nearest first.
+  // The different states that nearly return after a period of the problem, the nearest first. With memory
+  // the balance is solved from each as it is, which needs more of them.
   std::vector<std::size_t> nearest_returns() const {
     constexpr std::size_t transient = 20;
+    const double apart = has_memory_ ? 0.25 : 1.0;
+    const auto most = static_cast<std::size_t>((has_memory_ ? 2 : 1) * options_.max_returns);
     const auto period = static_cast<std::size_t>(load_periods_);
     std::vector<std::pair<double, std::size_t>> returns;
     for (std::size_t k = transient; k + period < states_.size(); ++k)
@@ -121,10 +128,10 @@ class Settling {
     std::sort(returns.begin(), returns.end());
     std::vector<std::size_t> chosen;
     for (const auto& [change, k] : returns) {
-      if (chosen.size() == static_cast<std::size_t>(options_.max_returns)) break;
+      if (chosen.size() == most) break;
       const bool near =
           std::any_of(chosen.begin(), chosen.end(), [&, &change = change, &k = k](std::size_t other) {
-            return distance(states_[k], states_[other]) < change;
+            return distance(states_[k], states_[other]) < apart * change;
           });
       if (!near) chosen.push_back(k);
     }
@@ -134,7 +141,7 @@ class Settling {
   // The state after a period of the problem; `piece` is the motion until then, if there is one.
   std::optional<PeriodState> after_period(PeriodState state, Motion* piece = nullptr) {
     for (int i = 0; i < load_periods_; ++i) {
-      Period period = map_.advance(state, {options_.tolerance, return_limit_ - map_.operations()});
+      Period period = map_.advance(state, {return_tolerance(), return_limit_ - map_.operations()});
       if (!period.complete()) return std::nullopt;
       if (piece) place(period.contacts, i, *piece);
       state = std::move(period.state);
@@ -191,8 +198,9 @@ class Settling {
     return has_memory_ ? state : periodic_near(state).value_or(state);
   }
 
-  void add_returns(SettledMotion& result) {
-    if (!result.integrated()) return;
+  double return_tolerance() const { return has_memory_ ? even_steps : options_.tolerance; }
+
+  void add_returns(const TakesReturn& takes, SettledMotion& result) {
     return_limit_ = map_.operations() + options_.max_operations;
     std::vector<PeriodState> found;
     for (const std::size_t k : nearest_returns()) {
@@ -208,14 +216,17 @@ class Settling {
       Motion piece = result.last;
       if (!after_period(state, &piece)) return;
       result.returns.push_back(std::move(piece));
+      if (takes && takes(result.returns.back(), start_)) return;
     }
   }
 
   static constexpr double same = 1e-4;  // distance of two states that are taken for one
+  static constexpr double even_steps = std::numeric_limits<double>::infinity();  // tolerance
 
   const SettlingOptions& options_;
   PeriodMap& map_;
   int load_periods_;
+  double start_;
   bool has_memory_;
   double limit_ = 0.0, return_limit_ = 0.0;  // of operations
   std::vector<PeriodState> states_;          // at the starts of the periods of the load
@@ -251,20 +262,24 @@ void SettlingOptions::validate() const {
 
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options) {
+  return settle(problem, laws, options, {});
+}
+
+SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
+                     const TakesReturn& takes) {
   options.validate();
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
   if (structure.size() > options.max_size || structure.is_free() || !laws.advance_in_steps()) return {};
+  const int steps = laws.act_over_period() ? std::max(1, options.steps / 4) : options.steps;
   const double frequency = load_periods(problem) * problem.frequency();
-  const double step = 1.0 / (frequency * options.steps);
-  auto flow = ModalFlow::make(structure, frequency, step, options.max_modes);
+  auto flow = ModalFlow::make(structure, frequency, 1.0 / (frequency * steps), options.max_modes);
   if (!flow) return {};
-  ModalMap map(problem, laws, options.steps, *std::move(flow));
-  SettledMotion result = Settling(map, initial_state(map, structure.size(), options), load_periods(problem),
-                                  laws.act_over_period(), options)
-                             .run();
-  result.start = map.free_motion().start() / load_periods(problem);
-  return result;
+  ModalMap map(problem, laws, steps, *std::move(flow));
+  const double start = map.free_motion().start() / load_periods(problem);
+  return Settling(map, initial_state(map, structure.size(), options), load_periods(problem), start,
+                  laws.act_over_period(), options)
+      .run(takes);
 }
 
 Eigen::VectorXd resample(const Eigen::MatrixXd& by_contact, int points, double start) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace wavebalance::solvers {
 namespace {
@@ -36,65 +37,90 @@ double implicit_force(const AnyContactLaw& law, double u, double v, double compl
   return far;
 }
 
-// The force of row c of a law of one instant.
-double force_of_row(const AnyContactLaw& law, const StepEnd& end, Eigen::Index c,
-                    const Eigen::VectorXd& force) {
-  const double d = end.compliance(c, c);
-  const double u = end.displacement[c] - end.compliance.row(c).dot(force) + d * force[c];
-  if (end.velocity.size() > 0 && law.depends_on_velocity()) {
-    const double m = end.mobility(c, c);
-    const double v = end.velocity[c] - end.mobility.row(c).dot(force) + m * force[c];
-    return implicit_force(law, u, v, d, m);
-  }
-  return d > 0.0 ? law.resolvent(u, d).force : law.force(u);
+std::span<double> rows_of(Eigen::VectorXd& values, Eigen::Index first, Eigen::Index rows) {
+  return {values.data() + first, static_cast<std::size_t>(rows)};
 }
 
-// The forces of the rows of a law with memory from row `first` on.
-Eigen::VectorXd forces_of_rows(const AnyContactLaw& law, const StepEnd& end, Eigen::Index first,
-                               const Eigen::VectorXd& begin, const Eigen::VectorXd& force) {
-  const Eigen::Index rows = law.rows();
-  const auto span_of = [&](const Eigen::VectorXd& values) {
-    return std::span<const double>(values.data(), static_cast<std::size_t>(values.size()));
-  };
-  const Eigen::VectorXd flexibility = end.compliance.diagonal().segment(first, rows);
-  const Eigen::VectorXd v = end.displacement.segment(first, rows) -
-                            end.compliance.middleRows(first, rows) * force +
-                            flexibility.cwiseProduct(force.segment(first, rows));
-  Eigen::VectorXd next = begin.segment(first, rows);
-  const std::span<double> result(next.data(), static_cast<std::size_t>(rows));
-  if (end.before.size() == 0) {
-    law.start(span_of(v), span_of(flexibility), result);
-  } else {
-    const Eigen::VectorXd before = end.before.segment(first, rows);
-    law.advance(span_of(before), span_of(v), span_of(flexibility), result);
-  }
-  return next;
+std::span<const double> rows_of(const Eigen::VectorXd& values, Eigen::Index first, Eigen::Index rows) {
+  return {values.data() + first, static_cast<std::size_t>(rows)};
 }
+
+// Forces at the end of a step with what they take from displacements and velocities there, which a change of
+// one contact's force brings up to date.
+class Forces {
+ public:
+  Forces(const StepEnd& end, const Eigen::VectorXd& begin)
+      : end_(end), begin_(begin), force_(begin), next_(begin), flexibility_(end.compliance.diagonal()) {
+    displacement_ = end.displacement - end.compliance * force_;
+    if (end.velocity.size() > 0) velocity_ = end.velocity - end.mobility * force_;
+  }
+
+  const Eigen::VectorXd& force() const { return force_; }
+
+  // Sets the rows of a law from row `first` on; by how much a force changed.
+  double set(const AnyContactLaw& law, Eigen::Index first) {
+    const Eigen::Index rows = law.acts_over_period() ? law.rows() : 1;
+    if (law.acts_over_period())
+      set_next_with_memory(law, first, rows);
+    else
+      next_[first] = of_one_instant(law, first);
+    double largest = 0.0;
+    for (Eigen::Index c = first; c < first + rows; ++c) {
+      const double change = next_[c] - force_[c];
+      if (change == 0.0) continue;
+      largest = std::max(largest, std::abs(change));
+      displacement_ -= change * end_.compliance.col(c);
+      if (velocity_.size() > 0) velocity_ -= change * end_.mobility.col(c);
+      force_[c] = next_[c];
+    }
+    return largest;
+  }
+
+ private:
+  double of_one_instant(const AnyContactLaw& law, Eigen::Index c) const {
+    const double d = flexibility_[c], u = displacement_[c] + d * force_[c];
+    if (velocity_.size() > 0 && law.depends_on_velocity()) {
+      const double m = end_.mobility(c, c);
+      return implicit_force(law, u, velocity_[c] + m * force_[c], d, m);
+    }
+    return d > 0.0 ? law.resolvent(u, d).force : law.force(u);
+  }
+
+  void set_next_with_memory(const AnyContactLaw& law, Eigen::Index first, Eigen::Index rows) {
+    const auto flexibility = rows_of(std::as_const(flexibility_), first, rows);
+    without_ = displacement_.segment(first, rows) +
+               flexibility_.segment(first, rows).cwiseProduct(force_.segment(first, rows));
+    next_.segment(first, rows) = begin_.segment(first, rows);
+    if (end_.before.size() == 0)
+      law.start({without_.data(), flexibility.size()}, flexibility, rows_of(next_, first, rows));
+    else
+      law.advance(rows_of(end_.before, first, rows), {without_.data(), flexibility.size()}, flexibility,
+                  rows_of(next_, first, rows));
+  }
+
+  const StepEnd& end_;
+  const Eigen::VectorXd& begin_;
+  Eigen::VectorXd force_, next_, flexibility_;
+  Eigen::VectorXd displacement_, velocity_;  // under the forces
+  Eigen::VectorXd without_;                  // displacements of a law's rows without its own forces
+};
 
 }  // namespace
 
 Eigen::VectorXd step_forces(const ContactLaws& laws, const StepEnd& end, const Eigen::VectorXd& begin) {
   constexpr int max_rounds = 200;
   constexpr double settled = 1e-12;
-  Eigen::VectorXd force = begin;
+  Forces forces(end, begin);
   for (int round = 0; round < max_rounds; ++round) {
     double change = 0.0;
-    for (Eigen::Index c = 0; c < force.size();) {
+    for (Eigen::Index c = 0; c < begin.size();) {
       const AnyContactLaw& law = laws[static_cast<int>(c)];
-      if (law.acts_over_period()) {
-        const Eigen::VectorXd next = forces_of_rows(law, end, c, begin, force);
-        change = std::max(change, (next - force.segment(c, next.size())).cwiseAbs().maxCoeff());
-        force.segment(c, next.size()) = next;
-        c += next.size();
-      } else {
-        const double next = force_of_row(law, end, c, force);
-        change = std::max(change, std::abs(next - force[c]));
-        force[c++] = next;
-      }
+      change = std::max(change, forces.set(law, c));
+      c += law.acts_over_period() ? law.rows() : 1;
     }
-    if (force.size() == 1 || !(change > settled * force.cwiseAbs().maxCoeff())) break;
+    if (begin.size() == 1 || !(change > settled * forces.force().cwiseAbs().maxCoeff())) break;
   }
-  return force;
+  return forces.force();
 }
 
 }  // namespace wavebalance::solvers

@@ -10,6 +10,7 @@
 #include "balance/unknown_in_form.hpp"
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
+#include "period/settling_returns.hpp"
 #include "response/free_balance.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
@@ -181,21 +182,21 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
                         int& attractor_periods) {
   SettlingOptions settling = task.options.settling;
   settling.observer = task.options.observer;
-  const SettledMotion motion = settle(task.problem, task.laws, settling);
+  const auto improve = [&](const Motion& from, double start, Strategy strategy) {
+    const Start there = start_of(task, from, start - task.problem.pair().first_sample());
+    best = better(std::move(best), try_newton(task, form, there, strategy));
+    return best.ended();
+  };
+  const SettledMotion motion =
+      settle(task.problem, task.laws, settling,
+             [&](const Motion& piece, double start) { return improve(piece, start, Strategy::recurrence); });
   attractor_periods = motion.attractor_periods;
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
-  if (motion.cancelled) return best;
-  if (!motion.integrated()) return better(std::move(best), try_residual(task, form, first));
-  const double start = motion.start - task.problem.pair().first_sample();
-  for (const Motion& piece : motion.returns) {
-    best =
-        better(std::move(best), try_newton(task, form, start_of(task, piece, start), Strategy::recurrence));
-    if (best.ended()) return best;
-  }
-  if (!motion.returns.empty()) return better(std::move(best), try_residual(task, form, first));
-  const Start settled = start_of(task, motion.last, start);
-  best = better(std::move(best), try_newton(task, form, settled, Strategy::settling));
   if (best.ended()) return best;
+  if (!motion.integrated() || !motion.returns.empty())
+    return better(std::move(best), try_residual(task, form, first));
+  if (improve(motion.last, motion.start, Strategy::settling)) return best;
+  const Start settled = start_of(task, motion.last, motion.start - task.problem.pair().first_sample());
   return better(std::move(best), try_residual(task, form, settled));
 }
 
@@ -206,7 +207,8 @@ Candidate solve(const Task& task, const Start& first, bool guessed, int& attract
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
   // A continuation in the load passes through sticking and slipping sample by sample.
-  if (task.laws.act_over_period()) return solve_settled(task, form, first, std::move(best), attractor_periods);
+  if (task.laws.act_over_period())
+    return solve_settled(task, form, first, std::move(best), attractor_periods);
   for (const Eigen::VectorXd& tried : forms_of(task)) {
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
