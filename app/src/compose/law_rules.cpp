@@ -125,10 +125,10 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
   const double stiffness = contact::number_of(values, "normal_stiffness");
   const ContactPair* pair = contact.pair ? &scene.contact.pairs[*contact.pair] : nullptr;
   const std::string section = pair ? pair_section(*contact.pair) : "contact";
-  const bool has_normal = pair && !pair->tangent.empty();
+  const bool has_normal = pair ? !pair->tangent.empty() : scene.structure.type == StructureType::blade;
   if (has_normal && !(stiffness > 0.0))
     fail_rule(document, {section + ".normal_stiffness", "contact.normal_stiffness", section + ".tangent"},
-              "the contact has a normal direction, dofs, beside its tangent; expected a number in N/m, > 0");
+              "the contact has a normal direction beside its tangent; expected a number in N/m, > 0");
   if (!has_normal && stiffness > 0.0)
     fail_rule(
         document, {section + ".normal_stiffness", "contact.normal_stiffness"},
@@ -143,8 +143,11 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
               "a slider without a normal direction has no side; expected \"positive\"");
 }
 
-/// Tangents belong to a law with friction.
+/// Tangents belong to a law with friction, and a blade's is not radial.
 void check_tangents(const Document& document, const Scene& scene) {
+  if (scene.contact.tangent == Direction::z)
+    fail_rule(document, {"contact.tangent"},
+              "the tip's nodes meet the casing along z, the radial direction; expected \"x\" or \"y\"");
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
     if (has_friction(pair.law)) continue;

@@ -225,6 +225,18 @@ void stiffen_by_rotation(fem::Matrices& matrices, const fem::SolidModel& solid, 
   matrices.stiffness = stiffening.stiffness(matrices.stiffness, blade.rotation_speed);
 }
 
+/// The radial direction of each corner node of the tip and, with friction, its tangent.
+solvers::ContactDirections tip_directions(const Scene& scene, const fem::Blade& blade) {
+  std::vector<int> unknowns;
+  for (std::size_t i = 0; i < blade.contact_nodes.size(); ++i) {
+    unknowns.push_back(blade.contact_unknowns[i]);
+    if (has_friction(scene))
+      unknowns.push_back(
+          blade.model.dofs.unknown(3 * blade.contact_nodes[i] + static_cast<int>(scene.contact.tangent)));
+  }
+  return solvers::contact_rows(unknowns, static_cast<int>(blade.model.dofs.count()));
+}
+
 StructureModel blade_model(const Scene& scene, const solvers::Observer& observer) {
   StructureModel model;
   if (!solvers::goes_on(observer, {.phase = "assembling the structure"})) throw ReductionCancelled();
@@ -235,8 +247,8 @@ StructureModel blade_model(const Scene& scene, const solvers::Observer& observer
   const Loads loads{blade_load(scene, *blade, scene.forcing.amplitude),
                     forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
                                               .inertia = blade_inertia(scene, *blade, matrices.mass)})};
-  reduce(model, matrices, loads, solvers::contact_rows(blade->contact_unknowns, model.unknowns),
-         blade->boundary_unknowns, scene.structure.kept_modes, observer);
+  reduce(model, matrices, loads, tip_directions(scene, *blade), blade->boundary_unknowns,
+         scene.structure.kept_modes, observer);
   model.blade = blade;
   return model;
 }

@@ -78,6 +78,9 @@ std::string contact_place(const Scene& scene) {
   const StructureType type = scene.structure.type;
   if (type == StructureType::bar) return "at the tip";
   if (!scene.contact.pairs.empty()) return "at " + count_text(contact_count(scene), "contact");
+  if (type == StructureType::blade && has_friction(scene))
+    return "at " + count_text(tip_corners(scene.structure.blade), "node") +
+           " along the tip, radially and along " + name_of(scene.contact.tangent);
   const std::string count = count_text(contact_count(scene), "degree") + " of freedom";
   return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
 }

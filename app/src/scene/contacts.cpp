@@ -21,13 +21,21 @@ void add_tangents(const ContactPair& pair, std::size_t index, std::vector<SceneC
   add(pair.second_tangent, pair.second_tangent_coefficients);
 }
 
+// Each corner node radially and, with friction, along its tangent.
+std::vector<SceneContact> tip_contacts(const Scene& scene) {
+  const int directions = has_friction(scene.contact.law) ? 2 : 1;
+  std::vector<SceneContact> contacts;
+  for (int i = 0; i < tip_corners(scene.structure.blade); ++i)
+    for (int place = 0; place < directions; ++place) contacts.push_back({.place = place});
+  return contacts;
+}
+
 }  // namespace
 
 std::vector<SceneContact> contact_places(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::vector<SceneContact>(1);
-  if (structure.type == StructureType::blade)
-    return std::vector<SceneContact>(static_cast<std::size_t>(tip_corners(structure.blade)));
+  if (structure.type == StructureType::blade) return tip_contacts(scene);
   std::vector<SceneContact> contacts;
   for (const int dof : structure.matrices.contact_dofs)
     contacts.push_back({.dofs = {std::abs(dof)}, .coefficients = {dof > 0 ? 1.0 : -1.0}});

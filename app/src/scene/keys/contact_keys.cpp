@@ -65,6 +65,10 @@ std::vector<double> default_weights(const std::vector<int>& dofs) {
   return dofs.size() == 1 ? std::vector<double>{1.0} : std::vector<double>{1.0, -1.0};
 }
 
+std::vector<std::string_view> with_friction() {
+  return law_names([](const contact::LawEntry& law) { return law.acts_over_period; });
+}
+
 }  // namespace
 
 void add_contact_keys(std::vector<SceneKey>& keys) {
@@ -76,6 +80,9 @@ void add_contact_keys(std::vector<SceneKey>& keys) {
   contact(&Contact::law, "law", "", law_help,
           one_of(law_names([](const contact::LawEntry&) { return true; })), optional);
   add_law_keys(keys);
+  contact(&Contact::tangent, "tangent", "",
+          "direction along which the corner nodes of a blade's tip rub, beside the radial one: x or y",
+          optional, only_with(structure_is({"blade"}) && law_is(with_friction())));
   const Condition balanced = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
   contact(
       &Contact::form, "form", "",
@@ -103,14 +110,13 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
   pair(&ContactPair::coefficients, "coefficients", "", "their weights, one for each", within(-1e9, 1e9),
        derived("[1.0] for one of dofs, [1.0, -1.0] for two",
                [=](const Scene& scene) { return default_weights(part(scene).dofs); }));
-  const auto with_friction = law_names([](const contact::LawEntry& law) { return law.acts_over_period; });
   const auto add_tangent = [&](std::vector<int> ContactPair::*dofs, std::vector<double> ContactPair::*weights,
                                std::string_view name, std::string_view weights_name, std::string_view help) {
     pair(dofs, name, "", help, within(1, 100'000'000), named_dofs,
          derived("none", [](const Scene&) { return std::vector<std::int64_t>(); }));
     pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
          derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
-    for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = with_friction;
+    for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = with_friction();
   };
   add_tangent(
       &ContactPair::tangent, &ContactPair::tangent_coefficients, "tangent", "tangent_coefficients",

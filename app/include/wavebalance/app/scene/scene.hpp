@@ -151,6 +151,7 @@ struct Contact {
   contact::LawValues values = {};
   ContactForm form = ContactForm::automatic;  ///< the unknown that is solved for
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
+  Direction tangent = Direction::y;           ///< blade with friction: along which its tip rubs, x or y
   double gap = 0.0;                           ///< m, displacement at which contact starts
   std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
   /// Directions of contact in place of MatricesStructure::contact_dofs, each with its own law and gap.
