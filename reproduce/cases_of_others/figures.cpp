@@ -29,7 +29,9 @@ const std::vector<report::Step>& figures() {
        identity("Impacts", "the oscillator with restitution of Recipes for Continuation",
                 "impact_oscillator"),
        impact_oscillator},
-      {"slider", identity("Friction", "a mass on an elastic slider, driven and free", "slider"), slider}};
+      {"slider", identity("Friction", "a mass on an elastic slider, driven and free", "slider"), slider},
+      {"den_hartog", identity("Rigid friction", "Den Hartog's oscillator, by a stiff slider", "den_hartog"),
+       den_hartog}};
   return all;
 }
 

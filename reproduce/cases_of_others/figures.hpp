@@ -12,6 +12,7 @@ void small_gap_bar(report::Artefact& artefact);
 void lightly_damped_bar(report::Artefact& artefact);
 void impact_oscillator(report::Artefact& artefact);
 void slider(report::Artefact& artefact);
+void den_hartog(report::Artefact& artefact);
 
 /// What the program cases_of_others makes.
 const std::vector<report::Step>& figures();

@@ -26,6 +26,7 @@ using references::Type;
 using testing::EventShooting;
 using testing::SpringSystem;
 
+// Of the cases whose scene is a curve; the other one is a motion.
 const std::vector<std::string> names{
     "pyharm_onedofgap",  "nlvib_example03", "oscillator_with_stop", "small_gap_bar", "lightly_damped_bar",
     "impact_oscillator", "slider"};
@@ -45,8 +46,10 @@ const app::Table& special_points(const app::Summary& summary) {
 }
 
 TEST(CasesOfOthers, EachValueAgreesWithinItsTolerance) {
-  results().need(names);
-  for (const auto& name : names) {
+  std::vector<std::string> all = names;
+  all.emplace_back("den_hartog");
+  results().need(all);
+  for (const auto& name : all) {
     const app::Table rows = results().read(name + "_comparison.csv");
     for (std::size_t i = 0; i < rows.rows(); ++i) {
       if (std::isnan(rows.numbers("given")[i])) continue;
@@ -125,6 +128,18 @@ TEST(References, OfTheSliderAreThoseOfExactPhases) {
     EXPECT_NEAR(std::hypot(value("leading_multiplier_real"), value("leading_multiplier_imag")),
                 known.multiplier, digits)
         << known.frequency;
+  }
+}
+
+// Each hundredfold stiffness brings the motion ten times as near.
+TEST(CasesOfOthers, StiffSlidersComeToRigidFrictionLikeTheRootOfTheirFlexibility) {
+  results().need({"den_hartog"});
+  const app::Table distances = results().read("den_hartog_distances.csv");
+  for (const char* name : {"distance_at_0.75", "distance_at_1.5"}) {
+    const auto distance = distances.numbers(name);
+    ASSERT_EQ(distance.size(), 7U);
+    for (std::size_t i = 4; i < distance.size(); ++i)
+      EXPECT_NEAR(distance[i - 2] / distance[i], 10.0, 1.0) << name << " " << i;
   }
 }
 
