@@ -206,7 +206,10 @@ LawDescription CoulombLaw::description() {
                 "stiffness along the tangents while the contact sticks; without it friction is rigid, and the "
                 "contact has no mass",
                 above_zero}),
-           {"normal_load", "N", "normal force at zero displacement", at_least_zero},
+           with_default({"normal_load", "N",
+                         "normal force at zero displacement; above 0 where there is no normal direction",
+                         at_least_zero},
+                        0.0),
            with_default({"normal_stiffness", "N/m",
                          "stiffness along the normal direction; 0: there is none, and the normal force is "
                          "normal_load",

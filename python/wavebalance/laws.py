@@ -152,7 +152,7 @@ class Coulomb(Law):
         self,
         friction: float,
         tangential_stiffness: float | None,
-        normal_load: float,
+        normal_load: float = 0.0,
         normal_stiffness: float = 0.0,
         slider: float = 0.0,
         wear_coefficient: float = 0.0,

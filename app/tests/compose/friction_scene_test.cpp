@@ -290,6 +290,17 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
   }
 }
 
+TEST(FrictionScene, NeedsALoadWhereNoNormalDirectionGivesTheLimit) {
+  const std::vector<std::string> none, removed{"contact.normal_load"};
+  try {
+    load_scene((scenes / "slider.toml").string(), none, removed);
+    ADD_FAILURE() << "a slider without a limit was not refused";
+  } catch (const SceneError& found) {
+    EXPECT_EQ(found.details().key, "contact.normal_load");
+  }
+  EXPECT_NO_THROW(load_scene((scenes / "lift_off.toml").string(), none, removed));
+}
+
 // Two beams glued at the joint and two that slide there bound the frequency; both have hardly any damping.
 TEST(FrictionScene, OfTheModeOfABoltedBeamHasItsDampingFromTheJoint) {
   const Record record =

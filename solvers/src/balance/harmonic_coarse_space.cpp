@@ -6,6 +6,7 @@
 #include <queue>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/spans.hpp"
 
 namespace wavebalance::solvers {
@@ -172,13 +173,15 @@ void HarmonicCoarseSpace::set_products(int m) {
 
 // The rows of all directions of one harmonic. A cosine of amplitude 1 and a sine have the amplitudes 1 and i.
 void HarmonicCoarseSpace::fill_rows(Eigen::Index first, Eigen::Index count, Eigen::MatrixXd& matrix) {
-  ahead_.noalias() = responses_.middleCols(first, count).adjoint() * forwards_;
-  back_.noalias() = responses_.middleCols(first, count).adjoint() * backwards_;
+  const Eigen::MatrixXcd responses = responses_.middleCols(first, count);
+  const Eigen::MatrixXcd ahead_along = detail::adjoint_product(responses, forwards_);
+  const Eigen::MatrixXcd back_along = detail::adjoint_product(responses, backwards_);
   for (Eigen::Index from = 0; from < basis_.cols(); ++from)
     for (Eigen::Index i = 0; i < count; ++i) {
       const auto [m, row] = directions_[static_cast<std::size_t>(first + i)];
       const auto [n, column] = directions_[static_cast<std::size_t>(from)];
-      const Complex cosine = ahead_(i, from) + back_(i, from), sine = ahead_(i, from) - back_(i, from);
+      const Complex ahead = ahead_along(i, from), back = back_along(i, from);
+      const Complex cosine = ahead + back, sine = ahead - back;
       matrix(row, column) = cosine.real();
       if (m > 0) matrix(row + 1, column) = cosine.imag();
       if (n > 0) matrix(row, column + 1) = -sine.imag();

@@ -85,7 +85,7 @@ class HarmonicCoarseSpace {
   // C x 2 K + 1, Fourier coefficients from -K on of the slopes by displacement and, times 2 pi f, by
   // velocity; the latter empty where there are none.
   Eigen::MatrixXcd tangent_, damping_;
-  Eigen::MatrixXcd forwards_, backwards_, ahead_, back_;  // C or r_n x directions, work of fill()
+  Eigen::MatrixXcd forwards_, backwards_;  // C x directions, work of fill()
 };
 
 }  // namespace wavebalance::solvers

@@ -65,6 +65,7 @@ class KrylovBlock {
 
   bool prepare(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
                double frequency);
+  void set_coarse(const ComplianceOperator& compliance, const PeriodSlopes& slopes, double frequency);
   bool factorize_coarse();
   void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
   void multiply(const ComplianceOperator& compliance, const Unknown& unknown, Eigen::VectorXd& product);
@@ -77,6 +78,9 @@ class KrylovBlock {
 
   ActiveSlopes* active_ = nullptr;
   HarmonicCoarseSpace coarse_;
+  double coarse_frequency_ = 0.0;  // Hz, at which the coarse space was set
+  CoarseSize coarse_wanted_;
+  int iterations_ = 0;  // of GMRES in the last solve
   Eigen::MatrixXd matrix_;
   detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, samples_, coefficients_;  // work

@@ -55,6 +55,9 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
+/// A^* B.
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
+
 /// exp(A) by a Padé approximant of A / 2^s and s squarings [Higham, SIAM J. Matrix Anal. Appl. 26, 2005].
 /// O(n^3).
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);

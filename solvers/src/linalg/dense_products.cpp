@@ -34,6 +34,17 @@ Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::Matrix
   return multiply(a, false, b, true);
 }
 
+Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+  const lapack_int rows = lapack_size(a.cols()), columns = lapack_size(b.cols());
+  const lapack_int inner = lapack_size(a.rows());
+  const std::complex<double> one = 1.0, zero = 0.0;
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(rows, columns);
+  if (result.size() > 0 && inner > 0)
+    zgemm_("C", "N", &rows, &columns, &inner, &one, a.data(), &inner, b.data(), &inner, &zero, result.data(),
+           &rows);
+  return result;
+}
+
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix) { return matrix.exp(); }
 
 }  // namespace wavebalance::solvers::detail
