@@ -40,7 +40,8 @@ struct Candidate {
   Eigen::VectorXd series_flexibility;  // defines its form, see ContactOperator
   Eigen::VectorXd unknown;             // m, samples() values
   Strategy strategy = Strategy::none;
-  int iterations = 0;  // Newton iterations of all attempts so far
+  int iterations = 0;       // Newton iterations of all attempts so far
+  double operations = 0.0;  // of the attempt, as ContactSystem counts them
 
   bool converged() const { return newton.status == SolveStatus::converged; }
   bool ended() const { return converged() || newton.status == SolveStatus::cancelled; }
@@ -65,6 +66,7 @@ struct Task {
   CondensedProblem& problem;
   const ContactLaws& laws;
   const ForcedResponseOptions& options;
+  double fallback_operations = options.max_fallback_operations;  // of each Newton run after the first
 
   ContactSystem system(const Eigen::VectorXd& series_flexibility) const {
     return {problem, laws, series_flexibility};
@@ -87,9 +89,10 @@ Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, 
   NewtonOptions newton_options = task.options.newton;
   newton_options.observer = task.options.observer;
   if (strategy != Strategy::newton)
-    newton_options.max_operations =
-        std::min(newton_options.max_operations, task.options.max_fallback_operations);
+    newton_options.max_operations = std::min(newton_options.max_operations, task.fallback_operations);
+  const double before = system.operations();
   candidate.newton = newton(system, candidate.unknown, newton_options);
+  candidate.operations = system.operations() - before;
   candidate.iterations += candidate.newton.iterations;
   if (candidate.converged()) candidate.strategy = strategy;
   return candidate;
@@ -200,10 +203,21 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
   return better(std::move(best), try_residual(task, form, settled));
 }
 
-Candidate solve(const Task& task, const Start& first, bool guessed, int& attractor_periods) {
-  const Eigen::VectorXd form = contact_series_flexibility(task.problem, task.laws, task.options.form);
-  Candidate best = try_newton(task, form, first, Strategy::newton);
-  if (best.ended() || !task.options.fallbacks) return best;
+/// With what a problem needs for some iterations, where that is more: one of a hundred contacts takes half of
+/// the usual limit.
+Task with_room_for_iterations(Task task, const Candidate& first) {
+  constexpr double iterations = 20.0;
+  task.fallback_operations =
+      std::max(task.fallback_operations, iterations * first.operations / std::max(1, first.iterations));
+  return task;
+}
+
+Candidate solve(const Task& at_first, const Start& first, bool guessed, int& attractor_periods) {
+  const Eigen::VectorXd form =
+      contact_series_flexibility(at_first.problem, at_first.laws, at_first.options.form);
+  Candidate best = try_newton(at_first, form, first, Strategy::newton);
+  if (best.ended() || !at_first.options.fallbacks) return best;
+  const Task task = with_room_for_iterations(at_first, best);
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
   // A continuation in the load passes through sticking and slipping sample by sample.

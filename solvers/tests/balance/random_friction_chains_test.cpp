@@ -148,5 +148,18 @@ TEST(RandomFrictionChains, HaveUnstableResponsesWhereTheirMotionsNeverRepeat) {
   }
 }
 
+// An iteration of many contacts takes as much as several of these limits.
+TEST(RandomFrictionChains, FallbacksHaveRoomForIterationsWhateverTheLimit) {
+  std::mt19937 generator(44);
+  const FrictionScene scene = random_chain_that_rubs(generator);
+  CondensedProblem problem(testing::fourier_pair(31, 256), scene.structure, testing::cosine_load());
+  problem.set_frequency(scene.frequency());
+  ForcedResponseOptions options;
+  options.max_fallback_operations = 1.0;
+  const PeriodicResponse response = forced_response(problem, scene.contact_laws(), options);
+  EXPECT_TRUE(response.converged());
+  EXPECT_NE(response.strategy, Strategy::newton);
+}
+
 }  // namespace
 }  // namespace wavebalance::solvers

@@ -18,7 +18,7 @@ struct ForcedResponseOptions {
   /// in place of all other strategies, so that the response is one near the guess or none. Without effect
   /// where there is no guess.
   bool stay_near_guess = false;
-  double max_fallback_operations = 1e10;  ///< of each further Newton run
+  double max_fallback_operations = 1e10;  ///< of each further Newton run; 20 iterations at least
   SettlingOptions settling;               ///< its observer is not used
   ResidualHomotopyOptions continuation;   ///< in the gaps and of residuals; its observer is not used
   Observer observer;                      ///< called in all phases; NewtonOptions::observer is not used here
