@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -19,29 +18,24 @@ constexpr double friction = 0.3;  // of the force
 // relative distance from rigid friction.
 constexpr double stiffest = 1e8, distance = 1e-4;
 
+struct DryMotion {
+  double amplitude, work, multiplier;  ///< work of friction in a period; modulus of the leading multiplier
+};
+
 /// The motion of x'' + x + friction sign x' = cos w t that reverses twice in a period without a stop [J. P.
-/// Den Hartog, Trans. ASME 53, 1931, p. 107], and its leading multiplier: half a period is a rotation of the
-/// phase plane by pi / w and, at the reversal, a jump of the acceleration by 2 friction.
-struct RigidFriction {
-  double amplitude, work, multiplier;
+/// Den Hartog, Trans. ASME 53, 1931, p. 107]. For its multiplier half a period is a rotation of the phase
+/// plane by pi / w and, at the reversal, a jump of the acceleration by 2 friction.
+DryMotion rigid(double w) {
+  const double linear = 1.0 / (1.0 - w * w), share = std::tan(pi / (2.0 * w)) / w;
+  const double amplitude = std::sqrt(linear * linear - friction * friction * share * share);
+  const double restoring = amplitude / linear - amplitude;
+  const double jump = (restoring + friction) / (restoring - friction);
+  const double half_trace = 0.5 * (1.0 + jump) * std::cos(pi / w), rest = half_trace * half_trace - jump;
+  const double of_half = rest < 0.0 ? std::sqrt(jump) : std::abs(half_trace) + std::sqrt(rest);
+  return {amplitude, 4.0 * friction * amplitude, of_half * of_half};
+}
 
-  explicit RigidFriction(double w) {
-    const double linear = 1.0 / (1.0 - w * w), share = std::tan(pi / (2.0 * w)) / w;
-    amplitude = std::sqrt(linear * linear - friction * friction * share * share);
-    work = 4.0 * friction * amplitude;
-    const double restoring = amplitude / linear - amplitude;
-    const double jump = (restoring + friction) / (restoring - friction);
-    const std::complex<double> half = 0.5 * (1.0 + jump) * std::cos(pi / w);
-    const double of_half = std::abs(half) + std::abs(std::sqrt(half * half - jump));
-    multiplier = std::abs(half * half) < std::abs(jump) ? std::abs(jump) : of_half * of_half;
-  }
-};
-
-struct Found {
-  double amplitude, work, multiplier;
-};
-
-Found solved(report::Artefact& artefact, double w, double stiffness) {
+DryMotion solved(report::Artefact& artefact, double w, double stiffness) {
   const app::Record record = app::analyse(
       artefact.scene("den_hartog.toml", {fmt::format("forcing.frequency={:.17g}", w / (2.0 * pi)),
                                          fmt::format("contact.tangential_stiffness={:.17g}", stiffness)}));
@@ -55,8 +49,8 @@ Found solved(report::Artefact& artefact, double w, double stiffness) {
 }
 
 std::vector<Row> rows_at(report::Artefact& artefact, double w) {
-  const RigidFriction exact(w);
-  const Found found = solved(artefact, w, stiffest);
+  const DryMotion exact = rigid(w);
+  const DryMotion found = solved(artefact, w, stiffest);
   const auto row = [&](const char* quantity, double computed, double reference) {
     return Row{fmt::format("{} at {} rad/s", quantity, report::number(w)),
                computed,
@@ -75,7 +69,7 @@ app::Table response_table(report::Artefact& artefact) {
   for (const double w : {0.6, 0.65, 0.7, 0.75, 0.8, 1.2, 1.25, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0}) {
     all.push_back(w);
     computed.push_back(solved(artefact, w, stiffest).amplitude);
-    exact.push_back(RigidFriction(w).amplitude);
+    exact.push_back(rigid(w).amplitude);
   }
   app::Table table;
   table.add_column("angular_frequency", all);
@@ -92,7 +86,7 @@ app::Panel response_panel(const app::Table& responses) {
     std::vector<double> x, y;
     for (int i = 0; i <= 100; ++i) {
       x.push_back(from + (to - from) * i / 100.0);
-      y.push_back(RigidFriction(x.back()).amplitude);
+      y.push_back(rigid(x.back()).amplitude);
     }
     app::Series line(from < 1.0 ? "rigid, closed form" : "", x, y);
     line.colour = app::Colour::blue;
@@ -108,7 +102,7 @@ app::Table distance_table(report::Artefact& artefact) {
   for (int power = 2; power <= 8; ++power) {
     stiffness.push_back(std::pow(10.0, power));
     for (auto [w, to] : {std::pair{0.75, &slow}, std::pair{1.5, &fast}}) {
-      const double exact = RigidFriction(w).amplitude;
+      const double exact = rigid(w).amplitude;
       to->push_back(std::abs(solved(artefact, w, stiffness.back()).amplitude / exact - 1.0));
     }
   }

@@ -87,14 +87,6 @@ void set_structure(StructureModel& model, fem::Matrices matrices, const Loads& l
   model.structure.forces = loads.forces;
 }
 
-/// T^T A T of the skew part of A, nothing where A is symmetric.
-Sparse projected_skew_part(const Sparse& matrix, const Eigen::MatrixXd& transformation) {
-  const Eigen::Index size = transformation.cols();
-  if (matrix.size() == 0 || solvers::is_symmetric(matrix)) return Sparse(size, size);
-  const Sparse skew = matrix - symmetric_part(matrix);
-  return Eigen::MatrixXd(transformation.transpose() * (skew * transformation)).sparseView();
-}
-
 /// Shows the phases of a reduction with their per cent; how much of the analysis it is, is not known yet.
 fem::Observer reduction_observer(const solvers::Observer& observer) {
   if (!observer) return {};
@@ -225,16 +217,14 @@ void stiffen_by_rotation(fem::Matrices& matrices, const fem::SolidModel& solid, 
   matrices.stiffness = stiffening.stiffness(matrices.stiffness, blade.rotation_speed);
 }
 
-/// The radial direction of each corner node of the tip and, with friction, its tangent.
-solvers::ContactDirections tip_directions(const Scene& scene, const fem::Blade& blade) {
+/// The radial unknown of each corner node of the tip and, with friction, that along its tangent.
+std::vector<int> tip_unknowns(const Scene& scene, const fem::Blade& blade) {
+  if (!has_friction(scene)) return blade.contact_unknowns;
   std::vector<int> unknowns;
-  for (std::size_t i = 0; i < blade.contact_nodes.size(); ++i) {
-    unknowns.push_back(blade.contact_unknowns[i]);
-    if (has_friction(scene))
-      unknowns.push_back(
-          blade.model.dofs.unknown(3 * blade.contact_nodes[i] + static_cast<int>(scene.contact.tangent)));
-  }
-  return solvers::contact_rows(unknowns, static_cast<int>(blade.model.dofs.count()));
+  for (const int node : blade.contact_nodes)
+    for (const Direction along : {Direction::z, scene.contact.tangent})
+      unknowns.push_back(blade.model.dofs.unknown(3 * node + static_cast<int>(along)));
+  return unknowns;
 }
 
 StructureModel blade_model(const Scene& scene, const solvers::Observer& observer) {
@@ -247,8 +237,8 @@ StructureModel blade_model(const Scene& scene, const solvers::Observer& observer
   const Loads loads{blade_load(scene, *blade, scene.forcing.amplitude),
                     forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
                                               .inertia = blade_inertia(scene, *blade, matrices.mass)})};
-  reduce(model, matrices, loads, tip_directions(scene, *blade), blade->boundary_unknowns,
-         scene.structure.kept_modes, observer);
+  reduce(model, matrices, loads, solvers::contact_rows(tip_unknowns(scene, *blade), model.unknowns),
+         blade->boundary_unknowns, scene.structure.kept_modes, observer);
   model.blade = blade;
   return model;
 }

@@ -11,6 +11,15 @@ inline Eigen::SparseMatrix<double> symmetric_part(const Eigen::SparseMatrix<doub
   return 0.5 * (matrix + Eigen::SparseMatrix<double>(matrix.transpose()));
 }
 
+/// T^T A T of the skew part of A, nothing where A is symmetric.
+inline Eigen::SparseMatrix<double> projected_skew_part(const Eigen::SparseMatrix<double>& matrix,
+                                                       const Eigen::MatrixXd& transformation) {
+  const Eigen::Index size = transformation.cols();
+  if (matrix.size() == 0 || solvers::is_symmetric(matrix)) return Eigen::SparseMatrix<double>(size, size);
+  const Eigen::SparseMatrix<double> skew = matrix - symmetric_part(matrix);
+  return Eigen::MatrixXd(transformation.transpose() * (skew * transformation)).sparseView();
+}
+
 /// A shift for the modes of a structure, (rad/s)^2 [fem::EigenmodesOptions]: below zero where it is free to
 /// move.
 inline double shift_of(bool free, const Eigen::SparseMatrix<double>& stiffness,

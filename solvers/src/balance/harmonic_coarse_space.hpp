@@ -32,6 +32,7 @@ struct CoarseSize {
   double velocity_slope = 0.0;
 
   double slope_at(int n) const { return slope + n * velocity_slope; }
+  bool operator==(const CoarseSize&) const = default;
 };
 
 /// Where the compliance is large: on few harmonics n, and at each of them along few directions of the C

@@ -47,19 +47,12 @@ bool KrylovBlock::prepare(const ComplianceOperator& compliance, ActiveSlopes& ac
   return true;
 }
 
-// To choose the directions of many contacts takes as long as to solve with them. Those of a frequency nearby
-// serve as long as a solve takes few iterations.
+// To choose the directions of many contacts takes as long as to solve with them. They are chosen anew at each
+// frequency, however near, since the sign of the preconditioner's determinant is taken for that of J.
 void KrylovBlock::set_coarse(const ComplianceOperator& compliance, const PeriodSlopes& slopes,
                              double frequency) {
-  constexpr double near = 1e-3, steeper = 1.1;
-  constexpr int few_iterations = 20;
   const CoarseSize wanted = coarse_size(compliance.contacts, slopes, frequency);
-  const bool serves =
-      iterations_ <= few_iterations && std::abs(frequency - coarse_frequency_) <= near * coarse_frequency_ &&
-      wanted.largest == coarse_wanted_.largest && wanted.slope <= steeper * coarse_wanted_.slope &&
-      wanted.velocity_slope <= steeper * coarse_wanted_.velocity_slope;
-  iterations_ = 0;
-  if (serves) return;
+  if (frequency == coarse_frequency_ && wanted == coarse_wanted_) return;
   const auto harmonics = std::min<Eigen::Index>((compliance.points - 1) / 2, wanted.largest / 2);
   coarse_.set(compliance, static_cast<int>(harmonics), wanted);
   coarse_frequency_ = frequency;
@@ -155,7 +148,6 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
     if (outcome.solved || round == max_refinements) break;
     const GmresResult found = gmres(map, remainder, 0.5 * reduction * size, max_iterations, v);
     outcome.iterations += found.iterations;
-    iterations_ += found.iterations;
     if (found.iterations == 0 || !v.allFinite()) break;
     precondition(v, 0.0, step);
     unknown.z += step.z;

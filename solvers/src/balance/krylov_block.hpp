@@ -80,7 +80,6 @@ class KrylovBlock {
   HarmonicCoarseSpace coarse_;
   double coarse_frequency_ = 0.0;  // Hz, at which the coarse space was set
   CoarseSize coarse_wanted_;
-  int iterations_ = 0;  // of GMRES in the last solve
   Eigen::MatrixXd matrix_;
   detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, samples_, coefficients_;  // work
