@@ -69,6 +69,31 @@ Eigen::VectorXd ActiveSlopes::read_transposed(const Eigen::VectorXd& values, Eig
   return motion;
 }
 
+std::vector<ActiveSlopes::ContactForces> ActiveSlopes::forces_of(int contact, const Eigen::MatrixXd& motions,
+                                                                 const Eigen::MatrixXd& rates) const {
+  const auto points = static_cast<int>(motions.cols());
+  std::vector<ContactForces> forces;
+  const auto force_at = [&](int sample) {
+    const int of = sample / points;
+    auto at = std::find_if(forces.begin(), forces.end(), [of](const auto& one) { return one.contact == of; });
+    if (at == forces.end())
+      at = forces.insert(at, {of, Eigen::MatrixXd::Zero(motions.rows(), motions.cols())});
+    return at->force.col(sample % points);
+  };
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (samples_[i] / points != contact) continue;
+    const int at = samples_[i] % points;
+    const auto index = Eigen::Index(i);
+    force_at(samples_[i]) += scale_[index] * (takes_samples() ? 1.0 : own_[index]) * motions.col(at);
+    if (reads_velocities()) force_at(samples_[i]) += scale_[index] * of_velocity_[index] * rates.col(at);
+  }
+  for (const SlopeEntry& entry : others_)
+    if (entry.displacement / points == contact)
+      force_at(samples_[std::size_t(entry.force)]) +=
+          scale_[entry.force] * entry.slope * motions.col(entry.displacement % points);
+  return forces;
+}
+
 // K is invariant under shifts by the shift period. The column of a point is that of the point modulo the
 // period, with the samples of each contact shifted by the remaining points.
 void ActiveSlopes::fill(int points, int period, const Eigen::MatrixXd& columns, const Eigen::MatrixXd& rates,

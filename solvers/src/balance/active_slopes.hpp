@@ -34,6 +34,16 @@ class ActiveSlopes {
     forces(samples_) = scale_.cwiseProduct(values);
   }
 
+  /// Forces of one contact, one row per motion, N.
+  struct ContactForces {
+    int contact = 0;
+    Eigen::MatrixXd force;
+  };
+  /// D of motions of one contact, the rows of `motions`, and where B reads velocities their `rates`: the
+  /// forces of each contact that has any. O(entries of D times the number of motions).
+  std::vector<ContactForces> forces_of(int contact, const Eigen::MatrixXd& motions,
+                                       const Eigen::MatrixXd& rates) const;
+
   /// B K S + I into the leading block of `matrix`, of an operator K whose columns at the samples of one shift
   /// period are `columns`, as CondensedProblem::columns() has them; `rates` are their velocities where B
   /// reads these. O(count^2 + count entries).

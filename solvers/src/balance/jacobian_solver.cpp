@@ -1,5 +1,6 @@
 #include "balance/jacobian_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wavebalance::solvers {
@@ -24,30 +25,49 @@ ComplianceOperator compliance_of(ContactOperator& contact) {
           [&contact](int n) { return contact.harmonic_response(n); }};
 }
 
+Eigen::Index most_samples(const ContactOperator& contact) {
+  // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
+  if (contact.is_force_form()) return largest_dense;
+  return contact.problem().contacts() == 1 ? crossover : crossover_of_several;
+}
+
 }  // namespace
+
+bool JacobianSolver::takes_functions(const ContactOperator& contact) const {
+  if (contact.is_force_form() || method_ != LinearSolver::automatic) return false;
+  return active_.count() > std::max(most_samples(contact), FunctionReduction::size(contact.problem()));
+}
+
+Eigen::Index JacobianSolver::dense_size(const ContactOperator& contact) const {
+  return takes_functions(contact) ? FunctionReduction::size(contact.problem()) : active_.count();
+}
+
+Reduction& JacobianSolver::reduce(ContactOperator& contact) {
+  count_dense(contact);
+  if (takes_functions(contact)) {
+    functions_.set(contact, active_);
+    return functions_;
+  }
+  samples_.set(contact, active_);
+  return samples_;
+}
 
 void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& slopes) {
   active_.set(slopes, rates_, contact.problem().frequency());
-  // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
-  const bool decays = contact.series_flexibility().size() == 0;
-  const Eigen::Index limit = !decays                             ? largest_dense
-                             : contact.problem().contacts() == 1 ? crossover
-                                                                 : crossover_of_several;
-  const bool large = active_.count() > limit;
-  const bool given_up = krylov_failures_ >= most_failures && active_.count() <= largest_dense;
+  const bool large = active_.count() > most_samples(contact);
+  const bool given_up = krylov_failures_ >= most_failures && dense_size(contact) <= largest_dense;
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;
-  if (!krylov) count_dense();
 }
 
-bool JacobianSolver::may_fall_back() const {
-  return method_ == LinearSolver::automatic && active_.count() <= largest_dense;
+bool JacobianSolver::may_fall_back(const ContactOperator& contact) const {
+  return method_ == LinearSolver::automatic && dense_size(contact) <= largest_dense;
 }
 
-void JacobianSolver::count_dense() {
-  const auto active = static_cast<double>(active_.count());
-  operations_ += 2.0 / 3.0 * active * active * active;
+void JacobianSolver::count_dense(const ContactOperator& contact) {
+  const auto size = static_cast<double>(dense_size(contact));
+  operations_ += 2.0 / 3.0 * size * size * size;
 }
 
 void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations) {
@@ -59,7 +79,7 @@ void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations
 
 bool JacobianSolver::factorize(ContactOperator& contact, const PeriodSlopes& slopes) {
   choose(contact, slopes);
-  if (used_ == Used::dense) return dense_.factorize(contact, active_);
+  if (used_ == Used::dense) return dense_.factorize(reduce(contact));
   return krylov_.factorize(compliance_of(contact), active_, slopes, contact.problem().frequency());
 }
 
@@ -70,18 +90,17 @@ bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, d
     count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
-    count_dense();
-    if (!may_fall_back() || !dense_.factorize(contact, active_)) return false;
+    if (!may_fall_back(contact) || !dense_.factorize(reduce(contact))) return false;
     used_ = Used::dense;
   }
-  dense_.solve(contact, r, x);
+  dense_.solve(r, x);
   return true;
 }
 
 bool JacobianSolver::factorize_bordered(ContactOperator& contact, const PeriodSlopes& slopes,
                                         const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   choose(contact, slopes);
-  if (used_ == Used::dense) return dense_.factorize_bordered(contact, active_, b, c, d);
+  if (used_ == Used::dense) return dense_.factorize_bordered(reduce(contact), b, c, d);
   border_column_ = b;
   border_row_ = c;
   border_corner_ = d;
@@ -97,13 +116,12 @@ bool JacobianSolver::solve_bordered(ContactOperator& contact, const Eigen::Vecto
     count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
-    count_dense();
-    if (!may_fall_back() ||
-        !dense_.factorize_bordered(contact, active_, border_column_, border_row_, border_corner_))
+    if (!may_fall_back(contact) ||
+        !dense_.factorize_bordered(reduce(contact), border_column_, border_row_, border_corner_))
       return false;
     used_ = Used::dense;
   }
-  dense_.solve_bordered(contact, r, s, x, y);
+  dense_.solve_bordered(r, s, x, y);
   return true;
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "balance/active_block.hpp"
+#include "balance/dense_block.hpp"
+#include "balance/function_reduction.hpp"
 #include "balance/krylov_block.hpp"
+#include "balance/sample_reduction.hpp"
 #include "wavebalance/solvers/balance/contact_system.hpp"
 
 namespace wavebalance::solvers {
 
 /// Solves with J = I + K D, D the slopes of the contact forces, plain or bordered, by LU of the active
 /// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the LU
-/// is used, and after three times in a row from then on.
+/// is used, and after three times in a row from then on: that of the active samples or, in the displacement
+/// form, of the coefficients of the functions, whichever are fewer.
 class JacobianSolver {
  public:
   /// `rates` gives the velocities of motions and is kept; null where no law reads them.
@@ -33,7 +36,7 @@ class JacobianSolver {
     return used_ == Used::dense ? dense_.determinant_sign() : krylov_.determinant_sign();
   }
 
-  /// Floating-point operations so far: 2/3 active^3 per LU, four transforms per iteration of GMRES.
+  /// Floating-point operations so far: 2/3 size^3 per LU, four transforms per iteration of GMRES.
   double operations() const { return operations_; }
 
   /// Condition of the matrix last factorized, as in NewtonResult; 0 before any.
@@ -42,8 +45,11 @@ class JacobianSolver {
  private:
   enum class Used { none, dense, krylov };
   void choose(const ContactOperator& contact, const PeriodSlopes& slopes);
-  bool may_fall_back() const;
-  void count_dense();
+  bool takes_functions(const ContactOperator& contact) const;
+  Reduction& reduce(ContactOperator& contact);
+  bool may_fall_back(const ContactOperator& contact) const;
+  Eigen::Index dense_size(const ContactOperator& contact) const;
+  void count_dense(const ContactOperator& contact);
   void count_krylov(const ContactOperator& contact, int iterations);
 
   LinearSolver method_ = LinearSolver::automatic;
@@ -52,7 +58,9 @@ class JacobianSolver {
   ActiveSlopes active_;
   int krylov_failures_ = 0;
   double operations_ = 0.0;
-  ActiveBlock dense_;
+  SampleReduction samples_;
+  FunctionReduction functions_;
+  DenseBlock dense_;
   KrylovBlock krylov_;
   Eigen::VectorXd border_column_, border_row_;  // those of the last factorisation, for a later LU
   double border_corner_ = 0.0;
