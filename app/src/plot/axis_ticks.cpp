@@ -12,7 +12,9 @@ std::vector<double> few_ticks(double lower, double upper) {
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * decade >= least) step = factor * decade;
   std::vector<double> ticks;
-  for (double i = std::ceil(lower / step); i * step <= upper; ++i) ticks.push_back(i * step);
+  constexpr double rounding = 1e-9;  // of a step
+  for (double i = std::ceil(lower / step - rounding); i <= upper / step + rounding; ++i)
+    ticks.push_back(i * step);
   return ticks;
 }
 
@@ -27,14 +29,14 @@ std::vector<double> logarithmic_ticks(double lower, double upper) {
           ticks.push_back(digit * decade);
     if (ticks.size() >= 3) return ticks;
   }
-  return {};
+  return few_ticks(lower, upper);
 }
 
 std::string tick_text(double value) {
   const double exponent = std::floor(std::log10(value) + 1e-9), mantissa = value / std::pow(10.0, exponent);
-  if (std::abs(exponent) < 4.0) return fmt::format("{:.3g}", value);
+  if (std::abs(exponent) < 4.0) return fmt::format("{:.6g}", value);
   const std::string power = fmt::format("10^{{{}}}", exponent);
-  return std::abs(mantissa - 1.0) < 1e-9 ? power : fmt::format("{:.3g}·{}", mantissa, power);
+  return std::abs(mantissa - 1.0) < 1e-9 ? power : fmt::format("{:.6g}·{}", mantissa, power);
 }
 
 }  // namespace wavebalance::app

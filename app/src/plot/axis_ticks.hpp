@@ -8,7 +8,8 @@ namespace wavebalance::app {
 std::vector<double> few_ticks(double lower, double upper);
 
 /// Numbers of a logarithmic axis from `lower` to `upper`, both > 0: powers of ten where there are three, else
-/// with 2 and 5 of each decade, or more where these are too few. Empty where there are not three of any.
+/// with 2 and 5 of each decade, or more where these are too few, and those of a linear axis where they all
+/// are.
 std::vector<double> logarithmic_ticks(double lower, double upper);
 
 /// A number of a logarithmic axis, "0.5", "20" or "2·10^{5}".

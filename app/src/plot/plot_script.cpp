@@ -101,11 +101,8 @@ std::string axis_text(const std::string& name, const Axis& axis, bool empty) {
   return text + ")\n";
 }
 
-/// Commands that number a logarithmic axis of the panel whose values are `member`s of its series, where
-/// gnuplot's own powers of ten are too few.
-std::string short_axis_text(const std::string& name, const Axis& axis, const Panel& panel,
-                            std::vector<double> Series::*member) {
-  if (!axis.logarithmic || !axis.ticks.empty()) return "";
+/// The least and the largest `member` of the points that are shown; infinity and 0 without any.
+std::pair<double, double> shown_extent(const Panel& panel, std::vector<double> Series::*member) {
   double lower = std::numeric_limits<double>::infinity(), upper = 0.0;
   for (const Series& series : panel.series)
     for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -113,10 +110,24 @@ std::string short_axis_text(const std::string& name, const Axis& axis, const Pan
       lower = std::min(lower, (series.*member)[i]);
       upper = std::max(upper, (series.*member)[i]);
     }
+  return {lower, upper};
+}
+
+/// Commands that number a logarithmic axis of the panel whose values are `member`s of its series, where
+/// gnuplot's own powers of ten are too few.
+std::string short_axis_text(const std::string& name, const Axis& axis, const Panel& panel,
+                            std::vector<double> Series::*member) {
+  if (!axis.logarithmic || !axis.ticks.empty()) return "";
+  auto [lower, upper] = shown_extent(panel, member);
   lower = axis.lower.value_or(lower);
   upper = axis.upper.value_or(upper);
-  if (!(lower < upper)) return "";
-  std::string text;
+  if (!(lower <= upper)) return "";
+  std::string range, text;
+  if (lower == upper) {  // a single value has a range about it
+    lower /= 2.0;
+    upper *= 2.0;
+    range = "set " + name + "range [" + number_text(lower) + ":" + number_text(upper) + "]\n";
+  }
   const std::vector<double> ticks = logarithmic_ticks(lower, upper);
   const bool by_decades = std::all_of(ticks.begin(), ticks.end(), [](double tick) {
     const double exponent = std::log10(tick);
@@ -125,7 +136,7 @@ std::string short_axis_text(const std::string& name, const Axis& axis, const Pan
   if (by_decades) return "";
   for (const double tick : ticks)
     text += (text.empty() ? "" : ", ") + quoted(tick_text(tick)) + " " + number_text(tick);
-  return text.empty() ? "" : "set " + name + "tics (" + text + ")\n";
+  return range + "set " + name + "tics (" + text + ")\n";
 }
 
 std::string end_text(const std::optional<double>& value, int edge) {

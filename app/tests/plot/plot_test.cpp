@@ -100,6 +100,10 @@ TEST(Axis, LogarithmicOnesOfOneDecadeHaveSeveralNumbers) {
       << numbered(1.2e7, 3.8e8);
   EXPECT_EQ(numbered(1, 1000).find("'10' 10"), std::string::npos);
   EXPECT_NE(numbered(3, 16, {4, 8}).find("set xtics (4, 8)"), std::string::npos);
+  for (const char* tick : {"('7' 7,", "'7.2' 7.2", "'8' 8)"})
+    EXPECT_NE(numbered(7, 8).find(tick), std::string::npos) << tick << numbered(7, 8);
+  EXPECT_NE(numbered(7, 7).find("set xrange [3.5:14]\nset xtics ('5' 5, '7' 7, '10' 10)"), std::string::npos)
+      << numbered(7, 7);
 }
 
 TEST(Render, CurveWithoutAnyValueKeepsItsPlaceInTheLegend) {

@@ -107,6 +107,7 @@ function snapped(view, figure) {
   const svg = panel.querySelector("svg"), box = svg.getBoundingClientRect();
   const place = svg.querySelector("g").getAttribute("transform").match(/[\d.]+/g).map(Number);
   const [a, b] = path.getAttribute("d").slice(1).split("L").map((point) => point.split(",").map(Number));
+  if (!b) return null;
   const share = 10 / Math.hypot(b[0] - a[0], b[1] - a[1]);
   svg.dispatchEvent(new view.PointerEvent("pointermove", { clientX: box.left + place[0] + a[0] + share * (b[0] - a[0]),
     clientY: box.top + place[1] + a[1] + share * (b[1] - a[1]) }));
