@@ -18,6 +18,10 @@ constexpr int most_failures = 3;
 // The largest LU, also as a fallback of GMRES.
 constexpr Eigen::Index largest_dense = 4096;
 
+// Up to this many coefficients an LU of them bounds the time of laws with memory, where GMRES may take many
+// iterations or fail.
+constexpr Eigen::Index few_functions = 1000;
+
 ComplianceOperator compliance_of(ContactOperator& contact) {
   return {contact.problem().contacts(), contact.problem().points(),
           [&contact](const Eigen::VectorXd& f, Eigen::VectorXd& u) { contact.apply(f, u); },
@@ -55,7 +59,9 @@ Reduction& JacobianSolver::reduce(ContactOperator& contact) {
 void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& slopes) {
   active_.set(slopes, rates_, contact.problem().frequency());
   const bool large = active_.count() > most_samples(contact);
-  const bool given_up = krylov_failures_ >= most_failures && dense_size(contact) <= largest_dense;
+  const bool remembers = !slopes.others.empty() && takes_functions(contact);
+  const bool given_up = (krylov_failures_ >= most_failures && dense_size(contact) <= largest_dense) ||
+                        (remembers && dense_size(contact) <= few_functions);
   const bool krylov =
       method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
   used_ = krylov ? Used::krylov : Used::dense;

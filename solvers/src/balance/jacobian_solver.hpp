@@ -12,7 +12,8 @@ namespace wavebalance::solvers {
 /// Solves with J = I + K D, D the slopes of the contact forces, plain or bordered, by LU of the active
 /// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the LU
 /// is used, and after three times in a row from then on: that of the active samples or, in the displacement
-/// form, of the coefficients of the functions, whichever are fewer.
+/// form, of the coefficients of the functions, whichever are fewer. Few functions come before GMRES for laws
+/// with memory, which its preconditioner leaves out.
 class JacobianSolver {
  public:
   /// `rates` gives the velocities of motions and is kept; null where no law reads them.

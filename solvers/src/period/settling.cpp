@@ -120,7 +120,7 @@ class Settling {
   std::vector<std::size_t> nearest_returns() const {
     constexpr std::size_t transient = 20;
     const double apart = has_memory_ ? 0.25 : 1.0;
-    const auto most = static_cast<std::size_t>((has_memory_ ? 4 : 1) * options_.max_returns);
+    const auto most = static_cast<std::size_t>((has_memory_ ? 3 : 1) * options_.max_returns);
     const auto period = static_cast<std::size_t>(load_periods_);
     std::vector<std::pair<double, std::size_t>> returns;
     for (std::size_t k = transient; k + period < states_.size(); ++k)
