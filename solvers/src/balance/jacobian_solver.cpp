@@ -38,7 +38,7 @@ Eigen::Index most_samples(const ContactOperator& contact) {
 }  // namespace
 
 bool JacobianSolver::takes_functions(const ContactOperator& contact) const {
-  if (contact.is_force_form() || method_ != LinearSolver::automatic) return false;
+  if (!remembers_ || contact.is_force_form() || method_ != LinearSolver::automatic) return false;
   return active_.count() > std::max(most_samples(contact), FunctionReduction::size(contact.problem()));
 }
 
@@ -58,12 +58,12 @@ Reduction& JacobianSolver::reduce(ContactOperator& contact) {
 
 void JacobianSolver::choose(const ContactOperator& contact, const PeriodSlopes& slopes) {
   active_.set(slopes, rates_, contact.problem().frequency());
+  remembers_ = !slopes.others.empty();
   const bool large = active_.count() > most_samples(contact);
-  const bool remembers = !slopes.others.empty() && takes_functions(contact);
-  const bool given_up = (krylov_failures_ >= most_failures && dense_size(contact) <= largest_dense) ||
-                        (remembers && dense_size(contact) <= few_functions);
+  const bool given_up = krylov_failures_ >= most_failures && dense_size(contact) <= largest_dense;
+  const bool few = takes_functions(contact) && dense_size(contact) <= few_functions;
   const bool krylov =
-      method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up);
+      method_ == LinearSolver::krylov || (method_ == LinearSolver::automatic && large && !given_up && !few);
   used_ = krylov ? Used::krylov : Used::dense;
 }
 

@@ -11,9 +11,9 @@ namespace wavebalance::solvers {
 
 /// Solves with J = I + K D, D the slopes of the contact forces, plain or bordered, by LU of the active
 /// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the LU
-/// is used, and after three times in a row from then on: that of the active samples or, in the displacement
-/// form, of the coefficients of the functions, whichever are fewer. Few functions come before GMRES for laws
-/// with memory, which its preconditioner leaves out.
+/// is used, and after three times in a row from then on. For laws with memory in the displacement form it is
+/// that of the coefficients of the functions where these are fewer. Few of them come before GMRES, whose
+/// preconditioner leaves memory out.
 class JacobianSolver {
  public:
   /// `rates` gives the velocities of motions and is kept; null where no law reads them.
@@ -57,6 +57,7 @@ class JacobianSolver {
   Used used_ = Used::none;
   RateMap* rates_;
   ActiveSlopes active_;
+  bool remembers_ = false;  // whether forces depend on other samples than their own
   int krylov_failures_ = 0;
   double operations_ = 0.0;
   SampleReduction samples_;
