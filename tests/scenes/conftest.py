@@ -1,0 +1,74 @@
+"""What the tests of scenes share: the command as a user runs it, and small structures as files."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SCENES = Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
+
+
+class Record:
+    """What one call of the command left: its exit code, its texts and, where it wrote one, its results folder."""
+
+    def __init__(self, ended, folder):
+        self.code = ended.returncode
+        self.text = ended.stdout
+        self.errors = ended.stderr
+        self.folder = folder
+
+    @property
+    def summary(self):
+        return json.loads((self.folder / "summary.json").read_text())
+
+    @property
+    def page(self):
+        return (self.folder / "report.html").read_text()
+
+
+@pytest.fixture
+def scenes():
+    """The folder of the scenes of this project."""
+    return SCENES
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Runs the command with arguments in a temporary folder."""
+
+    def run(*arguments, timeout=200):
+        program = os.environ["WAVEBALANCE_COMMAND"]
+        ended = subprocess.run([program, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True,
+                               check=False, timeout=timeout)
+        return Record(ended, tmp_path / "out")
+
+    return run
+
+
+@pytest.fixture
+def run(command, tmp_path):
+    """Runs a scene, given as a path or as the text of a TOML file, with --set for each keyword-like pair."""
+
+    def solve(scene, *arguments, set=(), timeout=200):
+        if not isinstance(scene, Path):
+            (tmp_path / "scene.toml").write_text(scene)
+            scene = "scene.toml"
+        sets = [word for pair in set for word in ("--set", pair)]
+        return command("run", scene, "--output", tmp_path / "out", *sets, *arguments, timeout=timeout)
+
+    return solve
+
+
+@pytest.fixture
+def matrix(tmp_path):
+    """Writes a dense symmetric matrix, or a column, as a Matrix Market file of the test's folder."""
+
+    def write(name, rows):
+        entries = [(i + 1, j + 1, value) for i, row in enumerate(rows) for j, value in enumerate(row) if value != 0.0]
+        lines = [f"{len(rows)} {len(rows[0])} {len(entries)}", *(f"{i} {j} {value!r}" for i, j, value in entries)]
+        (tmp_path / name).write_text("%%MatrixMarket matrix coordinate real general\n" + "\n".join(lines) + "\n")
+        return name
+
+    return write
