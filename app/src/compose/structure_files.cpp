@@ -17,7 +17,6 @@
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/internal_nodes.hpp"
 #include "wavebalance/fem/matrix_file.hpp"
-#include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -148,7 +147,7 @@ void hold_moving_rows(StructureFiles& files) {
 Eigen::VectorXd read_load(const std::string& path, std::string_view key, Eigen::Index size,
                           const std::string& stiffness_path) {
   Eigen::VectorXd load =
-      read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix_market_vector(file); });
+      read(path, key, [](const std::filesystem::path& file) { return fem::read_vector(file); });
   if (load.size() == size) return load;
   throw StructureFault(
       std::string(key),

@@ -1,3 +1,4 @@
+#include <optional>
 #include <vector>
 
 #include "fortran_format.hpp"
@@ -16,6 +17,9 @@ struct HarwellBoeingHeader {
   int rows = 0;
   int entries = 0;
   FortranFormat pointers, indices, values;
+  std::string load_type;  ///< F for a full vector; empty without right-hand sides
+  int loads = 0;
+  std::optional<FortranFormat> load_values;
 };
 
 int counted(const Lines& lines, std::size_t word, const char* what, int most) {
@@ -69,7 +73,12 @@ HarwellBoeingHeader read_header_of_harwell_boeing(Lines& lines) {
   header.pointers = read_format(lines, rest, "pointers", false);
   header.indices = read_format(lines, rest, "row indices", false);
   header.values = read_format(lines, rest, "values", true);
-  if (loaded) next_line(lines, "the line of right-hand sides");
+  if (loaded) {
+    header.load_values = detail::fortran_format(detail::next_parentheses(rest));
+    next_line(lines, "the line of right-hand sides");
+    header.load_type = lines.words().empty() ? "" : detail::lower(lines.words()[0]);
+    header.loads = counted(lines, 1, "the number of right-hand sides", std::numeric_limits<int>::max());
+  }
   return header;
 }
 
@@ -115,6 +124,14 @@ std::vector<int> read_pointers(Lines& lines, const HarwellBoeingHeader& header) 
   return pointers;
 }
 
+double real_in(const Lines& lines, std::string_view field, const FortranFormat& format) {
+  const auto value = detail::fortran_real(field, format);
+  if (!value)
+    lines.fail("a value is \"" + std::string(field) + "\"; it must be a finite number in a field of " +
+               std::to_string(format.width) + " characters");
+  return *value;
+}
+
 detail::MatrixEntries read_entries(Lines& lines, const HarwellBoeingHeader& header) {
   const std::vector<int> pointers = read_pointers(lines, header);
   std::vector<int> rows;
@@ -128,15 +145,24 @@ detail::MatrixEntries read_entries(Lines& lines, const HarwellBoeingHeader& head
   detail::MatrixEntries entries;
   std::size_t entry = 0, column = 0;
   for_each_field(lines, header.values, header.entries, "values", [&](std::string_view field) {
-    const auto value = detail::fortran_real(field, header.values);
-    if (!value)
-      lines.fail("a value is \"" + std::string(field) + "\"; it must be a finite number in a field of " +
-                 std::to_string(header.values.width) + " characters");
+    const double value = real_in(lines, field, header.values);
     while (static_cast<std::size_t>(pointers[column + 1]) <= entry) ++column;
-    if (*value != 0.0) entries.emplace_back(rows[entry], static_cast<int>(column), *value);
+    if (value != 0.0) entries.emplace_back(rows[entry], static_cast<int>(column), value);
     ++entry;
   });
   return entries;
+}
+
+/// The one full vector that the header must announce.
+void require_one_load(const Lines& lines, const HarwellBoeingHeader& header) {
+  if (header.loads == 0) lines.fail("the file has no right-hand side; expected one, the load");
+  if (header.loads != 1 || header.load_type.empty() || header.load_type[0] != 'f')
+    lines.fail("the file has " + std::to_string(header.loads) + " right-hand sides of the type \"" +
+               header.load_type + "\"; expected one of the type F, a full vector");
+  if (!header.load_values || !header.load_values->real())
+    lines.fail(
+        "the format of the right-hand side is missing or no Fortran format; expected one such as "
+        "(4D20.12) as the fourth in the line of formats");
 }
 
 }  // namespace
@@ -150,6 +176,23 @@ Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::
 Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file) {
   std::ifstream input = detail::open_matrix_file(file);
   return read_harwell_boeing(input, file.string());
+}
+
+Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name) {
+  Lines lines(input, name);
+  const HarwellBoeingHeader header = read_header_of_harwell_boeing(lines);
+  require_one_load(lines, header);
+  read_entries(lines, header);
+  Eigen::VectorXd load(header.rows);
+  Eigen::Index row = 0;
+  for_each_field(lines, *header.load_values, header.rows, "values of the right-hand side",
+                 [&](std::string_view field) { load[row++] = real_in(lines, field, *header.load_values); });
+  return load;
+}
+
+Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file) {
+  std::ifstream input = detail::open_matrix_file(file);
+  return read_right_hand_side(input, file.string());
 }
 
 }  // namespace wavebalance::fem

@@ -134,10 +134,33 @@ TEST(HarwellBoeing, NamesWhatIsWrongAndWhere) {
       {with("RSA 2 2 3 0", good, " 1 3 4\n 1 2 2\n 1.00E+00 abc     "), "plate.rsa:7: a value is \" abc"},
       {with("RSA 2 2 3 0", good, " 1 3 4\n 1 2 2\n 1.00E+00 1.00+999 1.00E+00"), "a value is \" 1.00+999\""},
       {with("RSA 2 2 3 0", good, " 1 3 4\n 1 1 2\n 1.00E+00 2.00E+00 3.00E+00"),
-       "the entry (1, 1) is given twice; a symmetric file holds one triangle"},
+       "the entry (1, 1) is given twice, as 1 and 2"},
   };
   for (const auto& [text, expected] : cases)
     expect_error([&, given = text] { harwell_boeing(given); }, expected);
+}
+
+Eigen::VectorXd right_hand_side(const std::string& text) {
+  std::istringstream input(text);
+  return read_right_hand_side(input, "plate.rsa");
+}
+
+TEST(HarwellBoeing, GivesTheRightHandSideWhereAnsysPutsTheLoad) {
+  const auto with = [](const std::string& kind, const std::string& format, const std::string& values) {
+    return "t\n9 3 3 3 2\nRSA 2 2 3 0\n(3I2) (3I2) (3E9.2) " + format + "\n" + kind +
+           "\n 1 3 4\n 1 2 2\n 2.00E+00-1.00E+00 3.00E+00\n" + values;
+  };
+  EXPECT_EQ(right_hand_side(with("F 1 0", "(1D11.3)", "  5.000D+00\n -2.500D-01\n")),
+            Eigen::Vector2d(5, -0.25));
+  const std::pair<std::string, std::string> cases[] = {
+      {"t\n9 3 3 3 0\nRSA 2 2 3 0\n(3I2) (3I2) (3E9.2)\n", "plate.rsa:4: the file has no right-hand side"},
+      {with("F 2 0", "(1D11.3)", ""), "the file has 2 right-hand sides of the type \"f\"; expected one"},
+      {with("M 1 2", "(1D11.3)", ""), "1 right-hand sides of the type \"m\"; expected one of the type F"},
+      {with("F 1 0", "", ""), "the format of the right-hand side is missing"},
+      {with("F 1 0", "(1D11.3)", "  5.000D+00\n"),
+       "the file ends after 1 of 2 values of the right-hand side"}};
+  for (const auto& [text, expected] : cases)
+    expect_error([&, given = text] { right_hand_side(given); }, expected);
 }
 
 TEST(FortranFormat, ReadsRealsAsFortranDoes) {
@@ -168,6 +191,14 @@ TEST(CalculixMatrix, HasBothTrianglesOfTheOneInTheFile) {
   EXPECT_EQ(calculix("1 1 2\n3 3 0.0\n").rows(), 3);
 }
 
+TEST(CalculixMatrix, MayHoldBothTrianglesThatAgreeToRounding) {
+  Eigen::Matrix2d expected;
+  expected << 2e3, -1e3, -1e3, 4e3;
+  const Eigen::MatrixXd both(calculix("1 1 2e3\n1 2 -1e3\n2 1 -1.00000000000001e3\n2 2 4e3\n"));
+  EXPECT_TRUE(both.isApprox(expected, 1e-13));
+  EXPECT_EQ(both(0, 1), both(1, 0));
+}
+
 TEST(CalculixMatrix, NamesWhatIsWrongAndWhere) {
   const std::pair<std::string, std::string> cases[] = {
       {"", "plate.sti:0: there is no entry; lines must hold row, column and value"},
@@ -175,8 +206,9 @@ TEST(CalculixMatrix, NamesWhatIsWrongAndWhere) {
       {"0 1 1\n", "plate.sti:1: the row is 0; it must be in 1..100000000"},
       {"1 x 1\n", "the column is \"x\"; it must be a whole number"},
       {"1 1 nan\n", "the value is \"nan\"; it must be finite"},
-      {"1 1 1\n1 2 3\n2 1 3\n",
-       "plate.sti: the entry (2, 1) is given twice; a symmetric file holds one triangle"},
+      {"1 1 1\n1 2 3\n1 2 3\n", "plate.sti: the entry (1, 2) is given twice, as 3 and 3"},
+      {"1 1 1\n1 2 3\n2 1 3.5\n", "plate.sti: the entry (2, 1) is 3.5 and (1, 2) is 3; a symmetric file"},
+      {"1 1 1\n1 2 3\n2 1 3\n1 3 4\n", "plate.sti: the entry (3, 1) is 0 and (1, 3) is 4"},
   };
   for (const auto& [text, expected] : cases) expect_error([&, given = text] { calculix(given); }, expected);
 }
@@ -202,6 +234,7 @@ TEST_F(MatrixFiles, AreReadByTheirContentWhateverTheirName) {
       {"k.dat", market.str(), MatrixFormat::matrix_market},
       {"k.sti", calculix_text.str(), MatrixFormat::calculix},
       {"calculix.txt", calculix_text.str(), MatrixFormat::calculix},
+      {"abaqus.mtx", calculix_text.str(), MatrixFormat::calculix},
       {"k.rsa", harwell_boeing_text(matrix, true, 'D', true), MatrixFormat::harwell_boeing},
       {"file.MATRIX", harwell_boeing_text(matrix, true, 'E', false), MatrixFormat::harwell_boeing}};
   for (const auto& [name, text, format] : files) {
@@ -214,11 +247,44 @@ TEST_F(MatrixFiles, AreReadByTheirContentWhateverTheirName) {
 TEST_F(MatrixFiles, OfNoKnownFormatAreRefusedWithAllThatAreAllowed) {
   const auto file = written("notes.txt", "mass matrix\n1 2 3 4\n");
   expect_error([&] { read_matrix(file); }, file.string() + ":1: the file has no known format");
-  expect_error([&] { read_matrix(file); }, "CalculiX (.sti, .mas: lines of row, column and value)");
+  expect_error([&] { read_matrix(file); }, "CalculiX or Abaqus (lines of row, column and value)");
   expect_error([&] { read_matrix(written("k.sti", "1 1\n")); }, "k.sti:1: found \"1 1\"");
   expect_error([&] { read_matrix(written("k.rsa", "1 1\n")); }, "k.rsa:1: the file ends before");
+  expect_error([&] { read_matrix(written("k.mtx", "1 1\n")); },
+               "; the file was read as Matrix Market because of its name");
+  expect_error([&] { read_matrix(written("f.txt", "1 1 nan\n")); }, "has no known format");
+  expect_error([&] { read_matrix(written("f.txt", "1 1 1\n1 2\n")); },
+               "; the file was read as coordinates of CalculiX or Abaqus");
   expect_error([&] { read_matrix(folder_.path()); }, "is not a regular file");
   expect_error([&] { read_matrix(folder_ / "none.sti"); }, "cannot be opened for reading");
+}
+
+TEST_F(MatrixFiles, InAFormatThatIsKnownButNotReadAreNamed) {
+  const std::tuple<std::string, std::string, std::string> files[] = {
+      {"job_STIF1.mtx", "** stiffness\n2,1, 2,1, 2.0e+03\n3,1, -2,1, -1.0e+03\n",
+       "matrix input of Abaqus (node, dof, node, dof, value), which is not read; *MATRIX OUTPUT, FORMAT=COORDINATE"},
+      {"job.pch", "$TITLE   = CHAIN\n$SUBTITLE=\n$LABEL   =\n$KAAX\nDMIG    KAAX           0       6\n",
+       "DMIG entries of Nastran, which are not read"},
+      {"kaa.mtx", "DMIG*   KAAX                           2               1\n", "DMIG entries of Nastran"},
+      {"kaa.op4", "       3      -3       6       2KAA     1P,3E23.16\n       1       1       2\n",
+       "OUTPUT4 of Nastran, which is not read"}};
+  for (const auto& [name, text, expected] : files) {
+    const auto file = written(name, text);
+    expect_error([&] { read_matrix(file); }, file.string() + ":1: the file holds " + expected);
+    expect_error([&] { read_vector(file); }, "; expected Matrix Market (opens with %%MatrixMarket)");
+  }
+}
+
+TEST_F(MatrixFiles, OfVectorsMayHoldThemAsRightHandSides) {
+  const std::string market = "%%MatrixMarket matrix array real general\n2 1\n1\n-2\n";
+  EXPECT_EQ(read_vector(written("f.txt", market)), Eigen::Vector2d(1, -2));
+  const auto file = written(
+      "k.matrix",
+      "t\n9 3 3 3 2\nRSA 1 1 1 0\n(3I2) (3I2) (3E9.2) (1E9.2)\nF 1 0\n 1 2\n 1\n 2.00E+00\n 5.00E+00\n");
+  EXPECT_EQ(read_vector(file), Eigen::VectorXd::Constant(1, 5.0));
+  EXPECT_EQ(read_matrix(file).coeff(0, 0), 2.0);
+  expect_error([&] { read_vector(written("k.sti", "1 1 1\n")); },
+               "the file holds a matrix; expected a vector");
 }
 
 }  // namespace

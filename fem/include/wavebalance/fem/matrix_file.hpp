@@ -25,31 +25,42 @@ std::string_view to_string(MatrixFormat format);
 
 /// The format of a file by its first lines: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file
 /// has the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth, and
-/// CalculiX opens with row, column and value. The extension .mtx says Matrix Market, .sti and .mas say
-/// CalculiX, and .rsa and .rua say Harwell-Boeing, where the content fits none. Throws MatrixFileError if
-/// neither says anything, or the file cannot be read.
+/// CalculiX and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) open with row, column and value. The extension
+/// .mtx says Matrix Market, .sti and .mas say CalculiX, and .rsa and .rua say Harwell-Boeing, where the
+/// content fits none. Throws MatrixFileError if neither says anything, if the file is matrix input of Abaqus
+/// or DMIG or OUTPUT4 of Nastran, which are not read, or if it cannot be read.
 MatrixFormat matrix_format(const std::filesystem::path& file);
 
 /// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles. Throws
-/// MatrixFileError. O(nnz log nnz).
+/// MatrixFileError, which says as which format the file was read. O(nnz log nnz).
 Eigen::SparseMatrix<double> read_matrix(const std::filesystem::path& file);
 
+/// Reads a vector: Matrix Market with one column, or the right-hand side of a Harwell-Boeing file. Throws
+/// MatrixFileError as read_matrix does.
+Eigen::VectorXd read_vector(const std::filesystem::path& file);
+
 /// Reads what CalculiX writes as .sti and .mas with *FREQUENCY, SOLVER=MATRIXSTORAGE: lines of row, column
-/// (from 1) and value, one triangle of a symmetric matrix. There is no line of sizes: the largest index is
-/// the number of rows. Entries that are zero are left out. Throws MatrixFileError for another line, an index
-/// below 1 or above 10^8, a value that is not finite, an entry given twice or in both triangles, a file
-/// without entries.
+/// (from 1) and value, one triangle of a symmetric matrix or both. There is no line of sizes: the largest
+/// index is the number of rows. Entries that are zero are left out. Throws MatrixFileError for another line,
+/// an index below 1 or above 10^8, a value that is not finite, an entry given twice, two triangles that
+/// differ, a file without entries.
 Eigen::SparseMatrix<double> read_calculix_matrix(const std::filesystem::path& file);
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std::string& name);
 
 /// Reads an assembled real matrix in the format of Harwell and Boeing [DGL89], type RSA (one triangle of a
-/// symmetric matrix) or RUA, as Ansys (HBMAT) and LS-DYNA write it. Numbers stand in the Fortran formats of
-/// the header: I for indices, E, D, F or G for values, with repetition and a scale factor such as 1P. A
-/// right-hand side at the end is not read. Throws MatrixFileError for another type, formats other than these,
-/// a field that holds no such number, pointers that do not increase or an index out of range, an entry given
-/// twice or in both triangles of an RSA file, a file that ends early.
+/// symmetric matrix, or both) or RUA, as Ansys (HBMAT) and LS-DYNA write it. Numbers stand in the Fortran
+/// formats of the header: I for indices, E, D, F or G for values, with repetition and a scale factor such as
+/// 1P. Throws MatrixFileError for another type, formats other than these, a field that holds no such number,
+/// pointers that do not increase or an index out of range, an entry given twice, two triangles of an RSA file
+/// that differ, a file that ends early.
 Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file);
 Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::string& name);
+
+/// Reads the right-hand side at the end of such a file, where Ansys puts the load: one full vector (F).
+/// Throws MatrixFileError as read_harwell_boeing does, and for a file that has none, several, or another
+/// kind.
+Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file);
+Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name);
 
 }  // namespace wavebalance::fem
