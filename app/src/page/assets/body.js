@@ -3,11 +3,12 @@
 (() => {
   const element = wavebalance.element;
   const period = 4000;  // milliseconds that a period takes when played
+  const resting = 0.4;  // of the colours, for lines at rest: white ones cannot be seen
 
-  // White to dark blue, as the pictures have it; `share` in 0..1.
-  function colour(share) {
+  // White to dark blue, as the pictures have it; `depth` in 0..1.
+  function colour(depth) {
     const ends = [[0.97, 0.98, 1.0], [0.42, 0.68, 0.84], [0.03, 0.19, 0.42]];
-    const place = Math.min(0.9999, Math.max(0, share)) * 2, low = Math.floor(place);
+    const place = Math.min(0.9999, Math.max(0, depth)) * 2, low = Math.floor(place);
     return ends[low].map((value, i) => value + (place - low) * (ends[low + 1][i] - value));
   }
 
@@ -30,8 +31,8 @@
   }
 
   class Body {
-    constructor(width, height) {
-      this.renderer = new THREE.WebGLRenderer({ antialias: true });
+    constructor(renderer, width, height) {
+      this.renderer = renderer;
       this.renderer.setPixelRatio(window.devicePixelRatio);
       this.renderer.setClearColor(0xffffff);
       this.scene = new THREE.Scene();
@@ -85,13 +86,13 @@
     show(time) {
       this.time = time;
       const frames = this.data.frames, place = (time % 1) * frames.length, low = Math.floor(place) % frames.length;
-      const [a, b, share] = [frames[low], frames[(low + 1) % frames.length], place - Math.floor(place)];
+      const [a, b, between] = [frames[low], frames[(low + 1) % frames.length], place - Math.floor(place)];
+      const least = this.data.triangles.length > 0 ? 0 : resting;
       const { position, color } = this.mesh.geometry.attributes;
       for (let i = 0; i < a.length; i += 3) {
-        const u = [0, 1, 2].map((k) => (a[i + k] + share * (b[i + k] - a[i + k])) * this.data.unit);
+        const u = [0, 1, 2].map((k) => (a[i + k] + between * (b[i + k] - a[i + k])) * this.data.unit);
         for (let k = 0; k < 3; ++k) position.array[i + k] = this.rest[i + k] + (this.data.times || 1) * u[k];
-        const share = Math.hypot(...u) / this.largest;
-        color.array.set(colour(this.data.triangles.length > 0 ? share : 0.4 + 0.6 * share), i);  // white lines cannot be seen
+        color.array.set(colour(least + (1 - least) * Math.hypot(...u) / this.largest), i);
       }
       position.needsUpdate = color.needsUpdate = true;
       this.mesh.geometry.computeVertexNormals();
@@ -114,31 +115,24 @@
     }
   }
 
-  function build(box, names) {
+  function build(box, names, renderer) {
     const motions = names.map((name) => wavebalance.bodies[name]);
     const largest = Math.max(...motions.map((one) => one.largest));
     const size = () => { const width = Math.max(220, box.clientWidth); return [width, Math.min(520, 0.75 * width)]; };
-    const body = new Body(...size());
-    let started = null;
+    const body = new Body(renderer, ...size());
     const list = element("select", { "aria-label": "Motion" }, ...motions.map((one, i) => element("option", { value: i }, one.label)));
-    const play = element("button", { type: "button", "aria-pressed": "false" }, "Play");
+    list.hidden = motions.length === 1;
     const slider = element("input", { type: "range", min: 0, max: 1, step: 0.005, value: 0, "aria-label": "Time" });
-    const show = (time) => { slider.value = time; body.show(time); };
-    const step = (now) => {
-      if (started === null) return;
-      show(((now - started) / period) % 1);
-      requestAnimationFrame(step);
+    const instant = element("output", { class: "quiet" });
+    const show = (time) => {
+      slider.value = time;
+      instant.textContent = `t = ${time.toFixed(2)} T`;
+      body.show(time);
     };
-    const run = (on) => {
-      started = on ? performance.now() - slider.value * period : null;
-      play.textContent = on ? "Pause" : "Play";
-      play.setAttribute("aria-pressed", String(on));
-      if (on) requestAnimationFrame(step);
-    };
-    play.addEventListener("click", () => run(started === null));
-    slider.addEventListener("input", () => { run(false); show(Number(slider.value)); });
+    const play = wavebalance.player(period, () => Number(slider.value), show);
+    slider.addEventListener("input", () => { play.pause(); show(Number(slider.value)); });
     list.addEventListener("change", () => { body.load(motions[list.value], largest); show(Number(slider.value)); });
-    box.replaceChildren(element("h4", {}, "The body over a period"), element("div", { class: "tools" }, list, play, slider), body.canvas,
+    box.replaceChildren(wavebalance.heading(box, "The body over a period"), element("div", { class: "tools" }, list, play.button, slider, instant), body.canvas,
       element("p", { class: "quiet" }, `Displacements ${(motions[0].times || 1) === 1 ? "as they are" :
         `drawn ${motions[0].times} times as large`}; ${motions[0].triangles.length > 0 ? "white" : "blue"} at rest, dark blue at ${(1e3 * largest).toPrecision(3)} mm in all ` +
         "motions. Thin lines: the body at rest. Drag to turn it."));
@@ -151,11 +145,15 @@
     const sources = box.dataset.bodies.split(" ");
     const library = box.dataset.library ? [box.dataset.library] : [];  // a report has it in itself
     for (const source of [...library, ...sources]) await wavebalance.load(source);
+    const Renderer = THREE.WebGLRenderer;
+    let renderer;
     try {
-      build(box, sources.map((source) => source.slice(source.lastIndexOf("/") + 1, -".body.js".length)));
-    } catch (error) {
+      renderer = new Renderer({ antialias: true });
+    } catch {
       box.replaceChildren(element("p", { class: "quiet" }, "This browser draws no bodies in space (WebGL), so that the body does not move here."));
+      return;
     }
+    build(box, sources.map((source) => source.slice(source.lastIndexOf("/") + 1, -".body.js".length)), renderer);
   }
 
   document.addEventListener("DOMContentLoaded", () => wavebalance.whenNear(".body-motion", start));

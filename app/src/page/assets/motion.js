@@ -45,7 +45,11 @@
     constructor(data, label, pick, scale, choose) {
       Object.assign(this, { data, label, pick, scale, choose });
       this.svg = svg("svg", { class: "diagram", height: 190 });
-      this.svg.addEventListener("pointerdown", (event) => { this.svg.setPointerCapture(event.pointerId); this.drag(event); });
+      this.svg.addEventListener("pointerdown", (event) => {
+        event.preventDefault();  // else dragging selects the texts of the diagram
+        this.svg.setPointerCapture(event.pointerId);
+        this.drag(event);
+      });
       this.svg.addEventListener("pointermove", (event) => { if (event.buttons) this.drag(event); });
     }
 
@@ -143,18 +147,20 @@
 
   function build(box, data) {
     data.order = ordered(data.time);
-    let position = 0, pair = data.pairs[0] ?? data.reference, started = null;
+    let position = 0, pair = data.pairs[0] ?? data.reference;
     const list = element("select", { "aria-label": "Pair of bases" },
       ...data.pairs.map((one, i) => element("option", { value: i }, one.label)), element("option", { value: -1 }, data.reference.label));
     list.hidden = data.pairs.length === 0;
-    const play = element("button", { type: "button", "aria-pressed": "false" }, "Play");
     const slider = element("input", { type: "range", min: 0, max: data.order.length - 1, step: 1, value: 0, "aria-label": "Time" });
     const values = element("output", { class: "quiet" });
     const choose = (next) => { position = next; show(); };
+    const play = wavebalance.player(period, () => position / data.order.length,
+      (place) => choose(Math.floor(place * data.order.length)));
+    const set = (next) => { play.pause(); choose(next); };
     const bar = new Bar(data);
     const diagrams = [
-      new Diagram(data, "Displacement of the tip (mm)", (motion) => motion.tip, 1e3, choose),
-      new Diagram(data, "Contact force over the amplitude of the load", (motion) => motion.force, 1, choose)];
+      new Diagram(data, "Displacement of the tip (mm)", (motion) => motion.tip, 1e3, set),
+      new Diagram(data, "Contact force over the amplitude of the load", (motion) => motion.force, 1, set)];
     const show = () => {
       const { index, time } = data.order[position];
       slider.value = position;
@@ -167,23 +173,11 @@
       diagrams.forEach((diagram) => diagram.draw(pair));
       show();
     };
-    const step = (now) => {
-      if (started === null) return;
-      choose(Math.floor((((now - started) % period) / period) * data.order.length));
-      requestAnimationFrame(step);
-    };
-    const run = (on) => {
-      started = on ? performance.now() - (position / data.order.length) * period : null;
-      play.textContent = on ? "Pause" : "Play";
-      play.setAttribute("aria-pressed", String(on));
-      if (on) requestAnimationFrame(step);
-    };
-    play.addEventListener("click", () => run(started === null));
-    slider.addEventListener("input", () => { run(false); choose(Number(slider.value)); });
+    slider.addEventListener("input", () => set(Number(slider.value)));
     list.addEventListener("change", () => { pair = data.pairs[list.value] ?? data.reference; draw(); });
     box.replaceChildren(
-      element("h4", {}, `The bar over a period, ${number(data.frequency, 4)} Hz`),
-      element("div", { class: "tools" }, list, play, slider, values), element("div", {}, bar.svg),
+      wavebalance.heading(box, `The bar over a period, ${number(data.frequency, 4)} Hz`),
+      element("div", { class: "tools" }, list, play.button, slider, values), element("div", {}, bar.svg),
       element("div", { class: "pair" }, ...diagrams.map((diagram) => element("div", {}, diagram.svg))),
       element("p", { class: "quiet" }, (data.pairs.length ? `Grey dashed: ${data.reference.label}. ` : "") + "Displacements are enlarged; the arrow is the contact force. Drag " +
         "in a diagram to set the time."));

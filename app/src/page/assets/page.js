@@ -23,6 +23,34 @@ wavebalance.element = (tag, attributes = {}, ...children) => {
   return made;
 };
 
+// A heading for what a script draws in `box`, one level below the heading before it and at most of the fourth.
+wavebalance.heading = (box, text) => {
+  const before = [...document.querySelectorAll("h1, h2, h3, h4")]
+    .filter((one) => one.compareDocumentPosition(box) === Node.DOCUMENT_POSITION_FOLLOWING).pop();
+  return wavebalance.element(`h${Math.min(4, Number(before?.tagName[1] ?? 0) + 1)}`, {}, text);
+};
+
+// A button that plays periods of so many milliseconds: in each frame `show` gets the place in the period, 0 <= place < 1,
+// from `place()` on. The clock is that of the frames, whose first may lie before the click.
+wavebalance.player = (period, place, show) => {
+  const button = wavebalance.element("button", { type: "button", "aria-pressed": "false" }, "Play");
+  let frame = null, started = null;
+  const step = (now) => {
+    started ??= now - place() * period;
+    show(((now - started) / period) % 1);
+    frame = requestAnimationFrame(step);
+  };
+  const run = (on) => {
+    cancelAnimationFrame(frame);
+    started = null;
+    frame = on ? requestAnimationFrame(step) : null;
+    button.textContent = on ? "Pause" : "Play";
+    button.setAttribute("aria-pressed", String(on));
+  };
+  button.addEventListener("click", () => run(frame === null));
+  return { button, pause: () => run(false) };
+};
+
 // Calls `start` with each element that `selector` finds when it comes near the window.
 wavebalance.whenNear = (selector, start) => {
   let waiting = [...document.querySelectorAll(selector)];
@@ -63,6 +91,10 @@ function keepReadable(image) {
 
 document.addEventListener("DOMContentLoaded", () => {
   document.querySelectorAll(".picture img").forEach(keepReadable);
+  const measured = new ResizeObserver((found) => {
+    for (const { target } of found) target.style.setProperty("--height", `${target.offsetHeight}px`);
+  });
+  document.querySelectorAll(".beside > .shown").forEach((one) => measured.observe(one));
   if (window.katex)
     for (const formula of document.querySelectorAll(".math"))
       katex.render(formula.textContent, formula, { throwOnError: false });

@@ -99,7 +99,7 @@
       panels.forEach((panel) => panel.show(reading));
     };
     slider.addEventListener("input", show);
-    box.replaceChildren(element("h4", {}, "Form the sums otherwise"), element("div", { class: "tools" }, slider, name), verdicts, grid,
+    box.replaceChildren(wavebalance.heading(box, "Form the sums otherwise"), element("div", { class: "tools" }, slider, name), verdicts, grid,
       element("p", { class: "quiet" }, "Black and dashed: the exact motion. Errors are those of the whole period, rms over the rms of the exact one. " +
         "The first two ways are those that the text allows; the verdicts of the statements rest on them alone."));
     const draw = () => { panels.forEach((panel) => panel.size()); show(); };
