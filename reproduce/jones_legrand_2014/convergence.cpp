@@ -174,6 +174,8 @@ std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& 
         upper = std::max(upper, value);
       }
       Series series(pair.label, x, y, app::SeriesStyle::line_points);
+      const auto functions = sizes();
+      series.told_x.assign(functions.begin(), functions.end());
       series.colour = pair.colour;
       series.marker = pair.marker;
       panel.add(std::move(series));

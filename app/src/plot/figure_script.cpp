@@ -94,25 +94,30 @@ Json axis_data(const Axis& axis) {
           {"lower", optional_number(axis.lower)},
           {"upper", optional_number(axis.upper)},
           {"logarithmic", axis.logarithmic},
-          {"ticks", rounded(axis.ticks)}};
+          {"ticks", rounded(axis.ticks)},
+          {"texts", axis.tick_texts},
+          {"format", axis.tick_format}};
 }
 
 Json series_data(const Series& series, std::size_t index, const Panel& panel) {
-  std::vector<double> x, y;
+  std::vector<double> x, y, told;
   for (const std::size_t i : shown_points(series, panel)) {
     x.push_back(rounded(series.x[i]));
     y.push_back(rounded(series.y[i]));
+    if (!series.told_x.empty()) told.push_back(rounded(series.told_x[i]));
   }
   const bool automatic = series.colour == Colour::automatic;
-  return {{"label", series.label},
-          {"style", style_name(series.style)},
-          {"colour", colour_code(automatic ? automatic_colour(index) : series.colour)},
-          {"dash", dash_lengths(series.dash)},
-          {"width", series.width},
-          {"marker", series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index},
-          {"every", series.marker_every.value_or(1)},
-          {"x", x},
-          {"y", y}};
+  Json data{{"label", series.label},
+            {"style", style_name(series.style)},
+            {"colour", colour_code(automatic ? automatic_colour(index) : series.colour)},
+            {"dash", dash_lengths(series.dash)},
+            {"width", series.width},
+            {"marker", series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index},
+            {"every", series.marker_every.value_or(1)},
+            {"x", x},
+            {"y", y}};
+  if (!told.empty()) data["told"] = told;
+  return data;
 }
 
 Json segment_data(const Segment& s) {

@@ -2,7 +2,7 @@
 // Data come from figure_script() of app/plot; d3 draws scales, axes and zooms.
 "use strict";
 (() => {
-  const margin = { top: 8, right: 24, bottom: 42, left: 58 };
+  const margin = { top: 8, right: 24, bottom: 48, left: 66 };
   const reach = 40;  // pixels within which a curve answers to the pointer
   const element = wavebalance.element;
   // Those of the pictures: five filled ones, then three open ones.
@@ -17,10 +17,10 @@
                          d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
   const number = (value) => d3.format(".5~g")(value).replace("-", "\u2212");
 
-  // Powers of ten far from 1 are written as such.
+  // A power of ten as such; nothing for other values.
   const power = (value) => {
     const exponent = Math.round(Math.log10(value));
-    if (Math.abs(exponent) < 3 || Math.abs(value / 10 ** exponent - 1) > 1e-9) return number(value);
+    if (Math.abs(value / 10 ** exponent - 1) > 1e-9) return "";
     return "10" + [...String(exponent)].map((c) => (c === "-" ? "\u207B" : "\u2070\u00B9\u00B2\u00B3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
   };
 
@@ -71,6 +71,34 @@
     }
   }
 
+  // The texts of ticks: those chosen for the picture as it has them, else numbers of one kind along an axis.
+  function tickFormat(axis, scale, count, chosen) {
+    const [low, high] = scale.domain(), decimals = /^%\.(\d)f$/.exec(axis.format)?.[1];
+    const decades = axis.logarithmic && high >= 1000 * low;
+    if (chosen)
+      return (value, i) => axis.texts[i] || (decimals ? value.toFixed(decimals) : (decades && power(value)) || number(value));
+    return axis.logarithmic ? scale.tickFormat(count, decades ? power : number) : scale.tickFormat(count);
+  }
+
+  // The title of an axis in one line, or in two where it is longer than the axis; `at` places the i-th of n.
+  function title(parent, text, room, at) {
+    const add = (part, i, n) => {
+      const made = parent.append("text").attr("class", "label").attr("text-anchor", "middle").attr("transform", at(i, n));
+      svgText(made, part);
+      return made;
+    };
+    const whole = add(text, 0, 1);
+    if (whole.node().getComputedTextLength() <= room) return;
+    const blanks = [...text.matchAll(/ (?![^{]*})/g)].map((found) => found.index);
+    if (blanks.length === 0) return;
+    const middle = blanks.reduce((a, b) => (Math.abs(b - text.length / 2) < Math.abs(a - text.length / 2) ? b : a));
+    whole.remove();
+    [text.slice(0, middle), text.slice(middle + 1)].forEach((part, i) => {
+      const made = add(part, i, 2), excess = made.node().getComputedTextLength() / room;
+      if (excess > 1) made.attr("font-size", `${Math.max(60, 100 / excess)}%`);
+    });
+  }
+
   const mark = (parent, series, x, y) => parent.append("path").attr("transform", `translate(${x},${y})`)
     .attr("d", d3.symbol().size(36).type(symbols()[series.marker % 8])())
     .attr("fill", series.marker % 8 > 4 ? "white" : series.colour).attr("stroke", series.colour);
@@ -114,13 +142,9 @@
       this.plot = root.append("g").attr("clip-path", `url(#${clip})`);
       this.outer = root.append("g");
       this.dot = root.append("circle").attr("class", "dot").attr("r", 4).attr("visibility", "hidden");
-      svgText(root.append("text").attr("class", "label").attr("x", this.width / 2).attr("y", this.height + 35)
-        .attr("text-anchor", "middle"), this.data.x.label);
-      const upright = root.append("text").attr("class", "label")
-        .attr("transform", `translate(-44,${this.height / 2})rotate(-90)`).attr("text-anchor", "middle");
-      svgText(upright, this.data.y.label);
-      const share = (this.height + 2 * margin.top) / upright.node().getComputedTextLength();
-      if (share < 1) upright.attr("font-size", `${Math.max(60, 100 * share)}%`);
+      title(root, this.data.x.label, this.width + margin.right, (i, n) => `translate(${this.width / 2},${this.height + (n === 1 ? 36 : 31 + 13 * i)})`);
+      title(root, this.data.y.label, this.height + 2 * margin.top,
+        (i, n) => `translate(${n === 1 ? -46 : 13 * i - 53},${this.height / 2})rotate(-90)`);
       this.values = element("div", { class: "values", hidden: "" });
       box.append(this.values);
     }
@@ -162,8 +186,8 @@
       this.y = transform.rescaleY(this.y0);
       const ticks = (axis, given, count) => {
         const chosen = given.ticks.length && transform.k === 1;
-        const format = given.logarithmic ? (chosen ? power : axis.scale().tickFormat(count, power)) : axis.scale().tickFormat(count);
-        return axis.ticks(count).tickValues(chosen ? given.ticks : null).tickFormat((value) => format(value).replace(/,/g, ""));
+        const format = tickFormat(given, axis.scale(), count, chosen);
+        return axis.ticks(count).tickValues(chosen ? given.ticks : null).tickFormat((value, i) => format(value, i).replace(/,/g, ""));
       };
       this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
       this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
@@ -228,7 +252,7 @@
           const share = square ? Math.min(1, Math.max(0, ((u - from[0]) * d[0] + (v - from[1]) * d[1]) / square)) : 0;
           const at = [from[0] + share * d[0], from[1] + share * d[1]];
           const distance = Math.hypot(u - at[0], v - at[1]);
-          if (distance < best.distance) best = { distance, at, series };
+          if (distance < best.distance) best = { distance, at, series, told: series.told?.[i] };
         }
         before = point;
       });
@@ -246,7 +270,7 @@
       this.dot.attr("cx", x).attr("cy", y).attr("fill", best.series.colour).attr("visibility", "visible");
       const line = (label, value) => element("div", {}, ...html(label || "value"), `: ${number(value)}`);
       this.values.replaceChildren(element("strong", {}, ...html(best.series.label)),
-        line(this.data.x.label, this.x.invert(x)), line(this.data.y.label, this.y.invert(y)));
+        line(this.data.x.label, best.told ?? this.x.invert(x)), line(this.data.y.label, this.y.invert(y)));
       this.values.hidden = false;
       const right = x > this.width / 2;
       this.values.style.left = right ? "" : `${x + margin.left + 12}px`;
@@ -345,8 +369,8 @@
     const row = (tag, ...cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, ...[cell].flat())));
     const rows = [];
     for (let i = 0; i < series.x.length; i += every)
-      if (series.y[i] !== null) rows.push(row("td", number(series.x[i]), number(series.y[i])));
-    const name = element("caption", {}, `${letter} `, ...html(series.label || panel.title), every > 1 ? `, every ${every}th point` : "");
+      if (series.y[i] !== null) rows.push(row("td", number((series.told ?? series.x)[i]), number(series.y[i])));
+    const name = element("caption", {}, `${letter} `, ...html(series.label || panel.title), every > 1 ? `, one point of ${every}` : "");
     return element("table", {}, name, element("thead", {}, row("th", html(panel.x.label || "x"), html(panel.y.label || "y"))),
       element("tbody", {}, ...rows));
   }

@@ -47,8 +47,9 @@ struct Series {
 
   std::string label;  ///< in the legend; none when empty
   std::vector<double> x;
-  std::vector<double> y;  ///< as many as x
-  std::vector<double> z;  ///< as many as x in a panel of three dimensions, empty otherwise
+  std::vector<double> y;       ///< as many as x
+  std::vector<double> told_x;  ///< empty, or the abscissae that a page tells of points shifted for sight
+  std::vector<double> z;       ///< as many as x in a panel of three dimensions, empty otherwise
   SeriesStyle style = SeriesStyle::line;
   Colour colour = Colour::automatic;
   Dash dash = Dash::solid;
