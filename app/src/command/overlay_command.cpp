@@ -7,6 +7,7 @@
 
 #include "command/commands.hpp"
 #include "command/overlay.hpp"
+#include "command/report_parts.hpp"
 #include "command/run_report.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
@@ -30,10 +31,8 @@ void check(const OverlayArguments& arguments) {
                                   " holds results that are to be drawn; expected another folder");
 }
 
-std::string page_text(const OverlayArguments& arguments, const Overlay& overlay, bool drawn) {
-  FigureBlock block{"overlay"};
-  block.alternative = "Displacement over the frequency, of all folders";
-  block.curves = drawn;
+std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
+                      const std::vector<ResultFile>& files) {
   std::string list;
   for (const fs::path& folder : arguments.folders) list += "<li>" + escaped(folder.string()) + "</li>\n";
   std::string warnings;
@@ -43,7 +42,9 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   page.assets = "";
   page.libraries = {Library::d3};
   page.body = "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
-              (drawn ? figure_html(block) : "<p>There is no picture: gnuplot was not found.</p>\n") +
+              (holds_file(files, "overlay.svg")
+                   ? picture_html(files, "overlay", "Displacement over the frequency, of all folders")
+                   : "<p>There is no picture: gnuplot was not found.</p>\n") +
               "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n" + list +
               "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
               fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
@@ -54,17 +55,15 @@ std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overla
                                  OverlayQuantity quantity) {
   const Figure figure = overlay_figure(overlay, quantity);
   std::vector<ResultFile> files;
-  bool drawn = true;
   try {
     files.push_back({"overlay.svg", render(figure, PictureFormat::svg), "the picture"});
     files.push_back({"overlay.png", render(figure, PictureFormat::png), "the picture"});
     files.push_back({"overlay.figure.js", figure_script(figure, "overlay"), "the curves of overlay.html"});
   } catch (const PlotError& error) {
     std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
-    drawn = false;
   }
   files.push_back(
-      {"overlay.html", page_text(arguments, overlay, drawn), "the picture, with curves that zoom"});
+      {"overlay.html", page_text(arguments, overlay, files), "the picture, with curves that zoom"});
   files.push_back({"overlay.csv", csv_text(overlay_table(overlay)), "the points of all curves"});
   return files;
 }

@@ -119,15 +119,22 @@ std::string columns_html(const Table& table,
   return table_html(rows);
 }
 
+std::string picture_html(const std::vector<ResultFile>& files, const std::string& stem,
+                         const std::string& alternative, const std::string& caption) {
+  FigureBlock block{stem};
+  block.alternative = alternative;
+  block.caption = escaped(caption);
+  block.curves = holds_file(files, stem + ".figure.js");
+  for (const ResultFile& file : files)
+    if (file.name == stem + ".svg") block.size = picture_size(file.contents);
+  return figure_html(block);
+}
+
 std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files) {
   std::string html;
   for (const RecordPicture& picture : pictures) {
-    if (!holds_file(files, picture.stem + ".svg")) continue;
-    FigureBlock block{picture.stem};
-    block.alternative = picture.about;
-    block.caption = escaped(sentence(picture.about));
-    block.curves = holds_file(files, picture.stem + ".figure.js");
-    html += figure_html(block);
+    if (holds_file(files, picture.stem + ".svg"))
+      html += picture_html(files, picture.stem, picture.about, sentence(picture.about));
   }
   const bool none_drawn = html.empty() && !pictures.empty();
   return none_drawn ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;

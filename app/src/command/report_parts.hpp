@@ -35,6 +35,10 @@ std::string values_table(const Summary& summary);
 std::string columns_html(const Table& table, const std::vector<std::pair<std::string, std::string>>& columns);
 /// A sentence from what a picture shows.
 std::string sentence(std::string about);
+/// The picture of that stem, of which the files hold the SVG, with curves that zoom where its data are among
+/// them; `caption` is a sentence.
+std::string picture_html(const std::vector<ResultFile>& files, const std::string& stem,
+                         const std::string& alternative, const std::string& caption = "");
 /// The pictures whose files there are, with what they show; a sentence if there should be some.
 std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files);
 /// Links to summary.json and to the files, each with its sentence.

@@ -53,11 +53,7 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
 std::string picture(const std::vector<ResultFile>& files, const std::string& svg,
                     const std::string& alternative) {
   const std::string stem = svg.substr(0, svg.size() - std::string_view(".svg").size());
-  FigureBlock block{stem};
-  block.alternative = alternative;
-  block.curves = std::any_of(files.begin(), files.end(),
-                             [&](const auto& file) { return file.name == stem + ".figure.js"; });
-  return figure_html(block);
+  return picture_html(files, stem, alternative);
 }
 
 /// The picture of the record.
@@ -145,17 +141,20 @@ std::string motion_in_space(const std::vector<ResultFile>& files) {
                            scripts);
 }
 
-/// The lines of a description, "name       what", as a list of names and what they are.
+/// The lines of describe_scene() as a list of names, which fill so many columns, and what they are. A line
+/// that begins with blanks goes on with what the one before says.
 std::string facts_html(const std::string& description) {
-  std::string html = "<dl>\n";
+  std::string html;
   std::istringstream lines(description);
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t end = std::min(line.find(' '), line.size());
-    const std::size_t begin = std::min(line.find_first_not_of(' ', end), line.size());
-    html +=
-        fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(line.substr(0, end)), escaped(line.substr(begin)));
+    constexpr std::size_t columns = 11;
+    const std::string name = line.substr(0, std::min(line.find_last_not_of(' ', columns - 1) + 1, columns));
+    const std::string what = escaped(line.substr(std::min(columns, line.size())));
+    html += name.empty() && !html.empty()
+                ? "<br>" + what
+                : fmt::format("{}<dt>{}</dt><dd>{}", html.empty() ? "" : "</dd>\n", escaped(name), what);
   }
-  return html + "</dl>\n";
+  return "<dl>\n" + html + (html.empty() ? "" : "</dd>\n") + "</dl>\n";
 }
 
 std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {

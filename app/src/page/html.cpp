@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "page/library_files.hpp"
@@ -81,15 +82,36 @@ std::string with_formulas(std::string_view text) {
   }
 }
 
+std::string picture_size(std::string_view bytes) {
+  const auto text = [](auto width, auto height) {
+    return fmt::format(" width=\"{}\" height=\"{}\"", width, height);
+  };
+  if (bytes.starts_with("\x89PNG") && bytes.size() >= 24) {
+    const auto number = [&](std::size_t at) {
+      std::uint32_t value = 0;
+      for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+      return value;
+    };
+    return text(number(16), number(20));
+  }
+  const std::string_view head = bytes.substr(0, bytes.find('>', bytes.find("<svg")));
+  const auto value = [&](std::string_view name) {
+    const std::size_t begin = std::min(head.find(name), head.size() - name.size()) + name.size();
+    return head.substr(begin, head.find('"', begin) - begin);
+  };
+  if (head.find(" width=\"") == head.npos || head.find(" height=\"") == head.npos) return "";
+  return text(value(" width=\""), value(" height=\""));
+}
+
 std::string figure_html(const FigureBlock& block) {
   if (block.alternative.empty())
     throw std::invalid_argument("figure_html: \"" + block.path + "\" has no alternative text");
   const std::string path = escaped(block.path);
   const std::string curves = block.curves ? fmt::format(" data-curves=\"{}.figure.js\"", path) : "";
   return fmt::format(
-      "<figure class=\"picture\"{}>\n<a href=\"{}{}\"><img src=\"{}{}\" alt=\"{}\" loading=\"lazy\"></a>\n{}"
+      "<figure class=\"picture\"{}>\n<a href=\"{}{}\"><img src=\"{}{}\"{} alt=\"{}\" loading=\"lazy\"></a>\n{}"
       "</figure>\n",
-      curves, path, block.suffix, path, block.suffix, escaped(block.alternative),
+      curves, path, block.suffix, path, block.suffix, block.size, escaped(block.alternative),
       block.caption.empty() ? "" : "<figcaption>" + block.caption + "</figcaption>\n");
 }
 

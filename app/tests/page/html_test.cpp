@@ -27,6 +27,15 @@ TEST(PageHtml, AFigureLinksItsPictureAndNamesItsCurves) {
   EXPECT_THROW(figure_html({"fig", ".png", "", "", false}), std::invalid_argument);
 }
 
+TEST(PageHtml, PicturesTellTheirSizeBeforeTheyAreLoaded) {
+  EXPECT_EQ(picture_size("<?xml?>\n<svg \n width=\"800\" height=\"540\"\n viewBox=\"0 0 800 540\">..."),
+            " width=\"800\" height=\"540\"");
+  const char png[] = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x06\x40\0\0\x03\x84";
+  EXPECT_EQ(picture_size({png, sizeof png - 1}), " width=\"1600\" height=\"900\"");
+  for (const char* other : {"", "text", "<svg viewBox=\"0 0 1 1\"><rect width=\"1\"/></svg>", "\x89PNG"})
+    EXPECT_EQ(picture_size(other), "") << other;
+}
+
 TEST(PageHtml, TheFirstRowOfATableIsItsHead) {
   const std::string text = table_html({{"a", "b"}, {"1 | <2>", "$x$"}});
   EXPECT_TRUE(holds(text, "<thead><tr><th>a</th><th>b</th></tr>"));

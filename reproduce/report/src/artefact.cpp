@@ -126,6 +126,8 @@ std::string number(double value, int digits) {
   const std::string text = fmt::format("{:.{}g}", value, digits);
   const std::size_t e = text.find('e');
   if (e == text.npos) return text;
+  if (const int exponent = std::stoi(text.substr(e + 1)); exponent > 0 && exponent < 5)
+    return fmt::format("{:.0f}", std::stod(text));  // 120 of two digits, not 1.2·10²
   const std::string mantissa = text.substr(0, e), power = "10" + superscript(std::stoi(text.substr(e + 1)));
   if (mantissa == "1" || mantissa == "-1") return (mantissa == "1" ? "" : "-") + power;
   return mantissa + "·" + power;

@@ -103,7 +103,7 @@ TEST(Moving, ScriptsStandBesideTheFilesAndTheFirstFigureOfTheCaseShowsTheBar) {
   second.identity.stem = "fig08_velocity_case1";
   body.identity.stem = "fig10";
   body.files = {"fig_energy_2.pvd"};
-  Section section{{}, {first, second, body}, {}};
+  Section section{{}, {first, second, body}, {}, {}};
   write_moving(folder.path(), section.records);
   EXPECT_NE(app::read_file(folder.path() / "motion_case1.motion.js").find("[\"motion_case1\"] = {\"gap\":1}"),
             std::string::npos);

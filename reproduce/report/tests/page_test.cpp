@@ -224,7 +224,7 @@ TEST(Page, ResultsWithoutAPaperAreNotQuotedFromOneAndNotJudged) {
 }
 
 TEST(Page, LinksToASectionWithItsOwnPageInPlaceOfShowingIt) {
-  const Section own_section{some_paper(true), {judged()}, {}};
+  const Section own_section{some_paper(true), {judged()}, {}, {}};
   const std::string index = page_html({own_section}, Origin{}), own = own_page_html(own_section, Origin{});
   EXPECT_TRUE(holds(index, "href=\"some_paper/index.html\""));
   EXPECT_FALSE(holds(index, "<td>3</td>"));

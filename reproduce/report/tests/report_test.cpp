@@ -129,6 +129,9 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(number(0.000123456), "0.000123");
   EXPECT_EQ(number(1.23456e-5), "1.23·10⁻⁵");
   EXPECT_EQ(number(-1e8), "-10⁸");
+  EXPECT_EQ(number(123.4, 2), "120");
+  EXPECT_EQ(number(99960.0, 4), "99960");
+  EXPECT_EQ(number(99960.0, 3), "10⁵");
   EXPECT_EQ(number(2.5e120), "2.5·10¹²⁰");
   EXPECT_EQ(percent(0.0123456), "1.23 %");
 }

@@ -31,11 +31,15 @@ std::string picture(const Record& record, const Place& place) {
   const auto& files = record.files;
   if (std::find(files.begin(), files.end(), stem + ".svg") == files.end()) return "";
   const bool small = bytes(place.section, stem + ".svg") <= largest_svg;
+  const std::string suffix = small ? ".svg" : ".png";
+  const auto& sizes = place.section.sizes;
+  const auto size = sizes.find(stem + suffix);
   std::string alternative = record.identity.number + ": " + record.identity.title + ". " + record.caption;
-  std::erase(alternative, '$');
-  return app::figure_html({place.folder + stem, small ? ".svg" : ".png", alternative,
-                           app::with_formulas(record.caption),
-                           place.section.files.count(stem + ".figure.js") > 0});
+  std::erase_if(alternative,
+                [](char c) { return std::string_view("$\\{}").find(c) != std::string_view::npos; });
+  return app::figure_html({place.folder + stem, suffix, alternative, app::with_formulas(record.caption),
+                           place.section.files.count(stem + ".figure.js") > 0,
+                           size == sizes.end() ? "" : size->second});
 }
 
 std::string notes(const Record& record) {

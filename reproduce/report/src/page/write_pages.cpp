@@ -13,10 +13,13 @@ void list_files(const std::filesystem::path& folder, const std::string& prefix,
 }
 
 Section read_section(const Paper& paper, const std::filesystem::path& folder) {
-  Section section{paper, read_records(folder / "records"), {}};
+  Section section{paper, read_records(folder / "records"), {}, {}};
   write_moving(folder, section.records);
   list_files(folder, "", section.files);
   list_files(folder / "scenes", "scenes/", section.files);
+  for (const auto& [name, bytes] : section.files)
+    if (name.ends_with(".svg") || name.ends_with(".png"))
+      section.sizes[name] = app::picture_size(app::read_file(folder / name));
   return section;
 }
 

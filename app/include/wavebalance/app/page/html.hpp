@@ -31,7 +31,12 @@ struct FigureBlock {
   std::string alternative = {};  ///< what the picture shows, in words; must not be empty
   std::string caption = {};      ///< HTML
   bool curves = false;           ///< path + ".figure.js" holds figure_script(figure, <name without folders>)
+  std::string size = {};         ///< picture_size(); a page keeps this room before the picture is loaded
 };
+
+/// Width and height of the picture that begins with `bytes`, SVG or PNG, as attributes: ` width="800"
+/// height="540"`; empty where they are not told.
+std::string picture_size(std::string_view bytes);
 
 /// A `figure` element: the picture, linked to its file, and the caption. With `curves` a button draws the
 /// curves in its place. Throws std::invalid_argument without an alternative text.
