@@ -2,7 +2,8 @@
 function(wavebalance_add_python_test name)
   cmake_parse_arguments(PARSE_ARGV 1 T "" "LABEL" "COMMAND")
   add_test(NAME python.${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR} MPLBACKEND=Agg
-    PYTHONDONTWRITEBYTECODE=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command> ${Python_EXECUTABLE} ${T_COMMAND})
+    PYTHONDONTWRITEBYTECODE=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command>
+    WAVEBALANCE_REPORT_PAGE=$<$<TARGET_EXISTS:wavebalance_report_page>:$<TARGET_FILE:wavebalance_report_page>> ${Python_EXECUTABLE} ${T_COMMAND})
   set_tests_properties(python.${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT 240 SKIP_RETURN_CODE 77)
 endfunction()
 
@@ -20,6 +21,12 @@ else()
   foreach(test IN LISTS tests)
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(scenes_${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/scenes ${test})
+  endforeach()
+  # What every page shows in a browser; skipped where chromium is absent.
+  file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/pages/*_test.py)
+  foreach(test IN LISTS tests)
+    get_filename_component(name ${test} NAME_WE)
+    wavebalance_add_python_test(pages_${name} LABEL paper COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/pages ${test})
   endforeach()
 endif()
 file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/examples/*.py)

@@ -1,15 +1,5 @@
-// Opens pictures as chromium draws them and writes their measures in px as JSON into the element "found". `pages` names them.
+// The measures in px of an SVG picture of gnuplot, as chromium draws it.
 "use strict";
-
-async function open(page) {
-  const frame = document.createElement("iframe");
-  frame.style = "width:2200px;height:6000px;border:0;display:block";
-  frame.src = page;
-  const loaded = new Promise((resolve) => { frame.onload = resolve; });
-  document.body.replaceChildren(frame);
-  await loaded;
-  return frame.contentDocument.documentElement;
-}
 
 // The middle of a text's box: letters fill 0.6 of the height of a line.
 function boxOf(text) {
@@ -61,7 +51,7 @@ function numbersOf(area, texts) {
     numbers.filter((box) => within(up(box), area.top - 8, area.bottom + 8) && within(across(box), area.left - 70, area.left)).length];
 }
 
-function measured(svg) {
+function measured(svg, least) {
   const paths = [...svg.querySelectorAll("#gnuplot_canvas path:not(.gridline)")].filter((path) => !path.closest("defs"));
   const texts = [...svg.querySelectorAll("text")].filter((text) => text.textContent.trim()).map(boxOf);
   const [width, height] = ["width", "height"].map((name) => Number(svg.getAttribute(name)));
@@ -72,22 +62,9 @@ function measured(svg) {
   const on = (box) => lines.filter((line) => meets(line, box)).length +
     marks.filter(([x, y]) => x > box.left - 3 && x < box.right + 3 && y > box.top - 3 && y < box.bottom + 3).length;
   const areas = areasOf(paths);
-  return { width, height, areas, unlabelled: areas.filter((area) => numbersOf(area, texts).some((count) => count < 2)).length, texts: texts.length,
+  return { width, height, areas, unlabelled: areas.filter((area) => numbersOf(area, texts).some((count) => count < least)).length, texts: texts.length,
     legend: texts.filter((box) => box.legend).length,
     overlapping: texts.flatMap((a, i) => texts.slice(i + 1).filter((b) => overlap(a, b)).map((b) => [a.text, b.text])),
     cut: texts.filter((box) => box.left < -0.5 || box.top < -0.5 || box.right > width + 0.5 || box.bottom > height + 0.5).map((box) => box.text),
     covered: texts.filter((box) => box.legend && on(box) > 0).map((box) => [box.text, on(box)]) };
 }
-
-(async () => {
-  const found = [];
-  try {
-    for (const page of pages) found.push({ page, ...measured(await open(page)) });
-  } catch (error) {
-    found.push({ error: `${error} ${error.stack}` });
-  }
-  const pre = document.createElement("pre");
-  pre.id = "found";
-  pre.textContent = JSON.stringify(found);
-  document.body.replaceChildren(pre);
-})();

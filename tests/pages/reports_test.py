@@ -1,0 +1,71 @@
+"""What every command writes, in a browser: page and pictures of each kind of analysis, of study, comparison and overlay."""
+
+import pytest
+
+FEW = ("--budget", "1", "--pairs", "fourier:fourier,haar:fourier,daubechies6:daubechies6")
+REPORTS = {
+    "forced response": ("run", "jones_legrand_2014/case1.toml"),
+    "far from the gap": ("run", "jones_legrand_2014/case1.toml", "--set", "forcing.amplitude=1"),
+    "sweep": ("run", "jones_legrand_2014/case2_sweep.toml", "--set", "analysis.motion_at=peak", "--set", "analysis.stability=true"),
+    "exact curve": ("run", "jones_legrand_2014/case2_sweep.toml", "--set", "analysis.exact=true"),
+    "branches": ("run", "cases_of_others/small_gap_bar.toml", "--set", "time.functions=31", "--set", "time.quadrature_points=256"),
+    "amplitude sweep": ("run", "jones_legrand_2014/case1.toml", "--set", "analysis.type=amplitude_sweep", "--set",
+                        "analysis.amplitude_from=1e5", "--set", "analysis.amplitude_to=2e5", "--unset", "analysis.output_points",
+                        "--set", "time.functions=31"),
+    "nonlinear mode": ("run", "laxalde_legrand_2010/rod.toml"),
+    "mode with stability": ("run", "matrices/strip_mode.toml"),
+    "mode with friction": ("run", "cases_of_others/slider_mode.toml"),
+    "friction": ("run", "friction/lift_off.toml"),
+    "impacts": ("run", "impacts/oscillator.toml"),
+    "coexisting motions": ("run", "laws/duffing.toml"),
+    "time stepping": ("run", "jones_legrand_2014/stepping_case1.toml"),
+    "tolerance": ("run", "tolerance/case1.toml"),
+    "blade with a mesh": ("run", "blade/rotating_mode.toml", "--set", "analysis.harmonics=3"),
+    "comparison": ("compare", "jones_legrand_2014/case1.toml", *FEW),
+    "comparison of sweeps": ("compare", "jones_legrand_2014/case2_sweep.toml", *FEW),
+}
+
+
+def made(report, scenes, name):
+    """The folder of the results of that name."""
+    command, scene, *more = REPORTS[name]
+    return report(command, scenes / scene, *more)
+
+
+def sound(look, folder, page="report.html", least=2):
+    """The page, and all pictures of the folder, whose axes have so many numbers."""
+    look.sound(folder / page)
+    for picture in folder.glob("*.svg"):
+        look.legible(picture, least)
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_report_is_sound(look, report, scenes, name):
+    sound(look, made(report, scenes, name), least=1 if name == "friction" else 2)  # an axis of one contact
+
+
+def test_facts_have_the_names_that_the_description_gives_them(look, browser, report, scenes):
+    look.open(made(report, scenes, "friction") / "report.html")
+    names = browser.value("[...document.querySelectorAll('dt')].map((one) => one.textContent)")
+    assert {"structure", "compliance", "at rest", "forcing"} <= set(names), names
+    assert all(0 < len(name) <= 10 for name in names), names
+    rest = browser.value("[...document.querySelectorAll('dt')].find((one) => one.textContent === 'at rest').nextElementSibling.innerText")
+    assert [line.split(":")[0] for line in rest.split("\n")[1:]] == ["contact 1 (row 2)", "contact 2 (row 1)"], rest
+
+
+def test_overlay_is_sound(look, report, scenes):
+    folder = report("overlay", made(report, scenes, "sweep"), made(report, scenes, "exact curve"))
+    sound(look, folder, "overlay.html")
+
+
+@pytest.mark.parametrize("sampling", ["grid", "list", "samples"])
+def test_study_is_sound(look, report, scenes, tmp_path_factory, sampling):
+    frequency = '[[parameters]]\nkey = "forcing.frequency"\nfrom = 100.0\nto = 200.0\n'
+    others = {"grid": 'count = 5\n[[parameters]]\nkey = "contact.gap"\nfrom = 1e-4\nto = 1e-2\ncount = 3\nspacing = "logarithmic"\n',
+              "list": 'count = 5\n[[parameters]]\nkey = "contact.constant"\nvalues = [1e7, 1e8]\n',
+              "samples": '[[parameters]]\nkey = "contact.constant"\nfrom = 1e7\nto = 4e8\nspacing = "logarithmic"\n'}
+    head = 'sampling = "sobol"\nsamples = 8\n' if sampling == "samples" else ""
+    study = tmp_path_factory.mktemp("study") / f"{sampling}.toml"
+    study.write_text(f'scene = "{scenes}/jones_legrand_2014/case1.toml"\nset = ["time.functions=15"]\n'
+                     f'quantity = "max_displacement_m"\n{head}{frequency}{others[sampling]}')
+    sound(look, report("study", study))
