@@ -100,8 +100,9 @@ app::Figure drawn(const app::Table& table) {
     panel.segments.push_back(
         {lowest / per_rpm, lowest, to, to * per_rpm, false, app::Dash::dashed, Colour::grey, 1.0});
     const double label = lowest + 0.08 * (highest - lowest);
-    panel.texts.push_back(
-        {label / per_rpm - 60.0, label, std::to_string(order), app::TextMark::Align::right});
+    panel.texts.push_back({label / per_rpm - 60.0, label,
+                           (order == first_order ? "order " : "") + std::to_string(order),
+                           app::TextMark::Align::right});
   }
   return figure;
 }

@@ -124,8 +124,8 @@ void add_differences(app::Figure& figure, const Study& study) {
   for (std::size_t i = 1; i < study.curves.size(); ++i) {
     auto values = largest_displacements(study.curves[i]);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] -= fourier[k];
-    app::Series series(pairs[i].label, frequencies(study.curves[i]), over_gap(values, study.gap()),
-                       app::SeriesStyle::line_points);
+    app::Series series(pairs[i].label + std::string(" less Fourier"), frequencies(study.curves[i]),
+                       over_gap(values, study.gap()), app::SeriesStyle::line_points);
     series.colour = pairs[i].colour;
     series.marker = static_cast<int>(i) + 1;
     panel.add(series);

@@ -61,6 +61,16 @@ Eigen::VectorXd window(const Eigen::VectorXd& values, double from, double to) {
       last - first + 1, [&](Eigen::Index i) { return values[(first + i + values.size()) % values.size()]; });
 }
 
+std::pair<double, double> contact_interval(const Case& study, double from) {
+  const Eigen::VectorXd all = study.reference().force(),
+                        force = from < 0.0 ? shifted_by_half_a_period(all) : all;
+  Eigen::Index first = 0, last = force.size() - 1;
+  while (force[first] <= 0.0) ++first;
+  while (force[last] <= 0.0) --last;
+  const auto n = static_cast<double>(force.size());
+  return {static_cast<double>(first) / n + from, static_cast<double>(last) / n + from};
+}
+
 std::vector<Panel> pair_view(const PairView& view, bool haar_apart) {
   const auto chosen = panel_pairs();
   const Values values = reordered(view.values, pairs(), chosen);
@@ -102,7 +112,7 @@ Figure pair_rows(const std::string& title, app::TextMark key, std::vector<Panel>
     figure.panels.push_back(panel);
     if (more.empty()) continue;
     Panel& beside = more.at(row);
-    beside.title = second;
+    if (beside.title.empty()) beside.title = second;
     if (!last) beside.x.label.clear();
     figure.panels.push_back(beside);
   }

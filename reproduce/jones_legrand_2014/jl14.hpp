@@ -110,6 +110,9 @@ app::Axis fitted_axis(const std::string& label, const Values& curves);
 /// The samples of a periodic history at from <= t/T <= to, -1/2 <= from < to <= 1.
 Eigen::VectorXd window(const Eigen::VectorXd& values, double from, double to);
 
+/// The time in which the reference of a case is in contact, which does not pass t/T = `from`, 0 or -1/2.
+std::pair<double, double> contact_interval(const Case& study, double from);
+
 /// A pair's curve with the reference, dashed, over from <= t/T <= to.
 struct PairView {
   Values values;  ///< in the order of pairs()
@@ -124,8 +127,9 @@ struct PairView {
 /// every curve.
 std::vector<app::Panel> pair_view(const PairView& view, bool haar_apart);
 
-/// The panels of panel_pairs(), lettered once: in two columns, or, with a second panel for each pair titled
-/// `second`, in a row per pair. `key` says in the first panel what the dashed curve is, where it stands.
+/// The panels of panel_pairs(), lettered once: in two columns, or, with a second panel for each pair, in a
+/// row per pair, titled `second` where it has no title. `key` says in the first panel what the dashed curve
+/// is, where it stands.
 app::Figure pair_rows(const std::string& title, app::TextMark key, std::vector<app::Panel> panels,
                       std::vector<app::Panel> more = {}, const std::string& second = "");
 

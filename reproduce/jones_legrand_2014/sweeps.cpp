@@ -272,6 +272,11 @@ Table sweeps_table(const Resonance& resonance) {
 
 Table special_points_table() { return Table({"curve", "type", "frequency_Hz", "max_displacement_m"}); }
 
+void append_turning_points(Table& table, const std::string& curve, const app::Sweep& sweep) {
+  for (const auto& turn : sweep.curve.turning_points)
+    table.append_row({curve, std::string("turning_point"), turn.frequency, turn.max_displacement});
+}
+
 void append_special_points(Table& table, const std::string& curve, const app::Sweep& sweep) {
   for (const auto& point : sweep.stability.special_points)
     table.append_row({curve, std::string(to_string(point.type)), point.frequency, point.max_displacement});

@@ -72,6 +72,8 @@ void add_special_points(app::Panel& panel, const app::Sweep& sweep);
 Table sweeps_table(const Resonance& resonance);
 /// Adds the rows of one more curve.
 void append_sweep(Table& table, const Pair& pair, int functions, const app::Sweep& sweep);
+/// The turning points of a sweep, as rows of that table: its stability need not be known.
+void append_turning_points(Table& table, const std::string& curve, const app::Sweep& sweep);
 /// Adds the special points of a sweep: curve, type, frequency_Hz, max_displacement_m.
 Table special_points_table();
 void append_special_points(Table& table, const std::string& curve, const app::Sweep& sweep);

@@ -82,8 +82,11 @@ void add_resonances(app::Panel& panel, const app::ModeStudy& study, const app::B
     const bool shown = energy.back() < 0.93 * *panel.x.upper && energy.back() > *panel.x.lower &&
                        ratio.back() > (onset ? *panel.y.lower : 1.05) && ratio.back() < *panel.y.upper;
     if (name != named && shown) {
-      panel.texts.push_back({energy.back() + 0.012 * (*panel.x.upper - *panel.x.lower), ratio.back(), name,
-                             app::TextMark::Align::left});
+      // Beside the mark, away from the curves: above it where contact begins, below it elsewhere.
+      const double side = onset ? 1.0 : -1.0;
+      panel.texts.push_back({energy.back() - side * 0.008 * (*panel.x.upper - *panel.x.lower),
+                             ratio.back() + side * 0.035 * (*panel.y.upper - *panel.y.lower), name,
+                             onset ? app::TextMark::Align::right : app::TextMark::Align::left});
       named = name;
     }
   }
@@ -226,7 +229,7 @@ void fig03(report::Artefact& artefact) {
   artefact.caption(fmt::format(
       "First nonlinear mode of the rod: exact, with the mass matrix of eq. (28) and corrected equations, with a "
       "half-lumped mass matrix, and by the printed equations (augmented Lagrangian, eq. (28), N = {}). The paper "
-      "states neither its N nor its m. (b) shows the beginning of contact with a symbol at each point, (a) and (c) at each fourth; (c) is what the paper takes for ω. "
+      "states neither its N nor its m. (b) shows the beginning of contact with a symbol at each point, (a) and (c) at each fourth; (c) is what the paper takes for ω. The dotted line is the linear mode that grazes. "
       "Stability is not drawn: where contacts have mass, no motion beside that of a rigid obstacle is "
       "determined without a law of impact. The table lists the internal resonances that cut the curves: n:k means that "
       "harmonic n of the motion resonates with linear mode k.",

@@ -281,8 +281,9 @@ app::Figure velocity_figure(const Case& study, const Values& u, const Values& v)
     if (chosen[i].trial != "daubechies6") continue;
     auto series = periodic_series("differences of 256 values",
                                   central_differences(displacements[i], paper_points, period), -0.5);
-    series.colour = app::Colour::blue;
+    series.colour = app::Colour::grey;
     contact[i].add(std::move(series));
+    contact[i].texts.push_back({-0.02, -0.85, "grey: differences of 256 values"});
   }
   return pair_rows("Tip velocity at 150 Hz, 64 functions", {-0.17, -1.25, {}}, std::move(whole),
                    std::move(contact), "the same, about the contact");
@@ -300,7 +301,7 @@ void fig08(report::Artefact& artefact) {
   artefact.picture(velocity_figure(study, drawn(responses, &app::Response::displacement), v));
   artefact.caption(
       "64 functions at 150 Hz. Haar trial functions: the jump between neighbouring cells divided by the cell "
-      "width, placed at the cell edge. Right, blue in (b) and (f): differences of 256 values of the displacement; "
+      "width, placed at the cell edge. Right, grey in (b) and (f): differences of 256 values of the displacement; "
       "(c) and (e) have a scale of their own.");
   const Readings readings(artefact, study);
   check_jump(artefact, study, readings);

@@ -149,14 +149,18 @@ std::string passing_text(const std::vector<UnderReading>& all) {
       passes[0], curves[0], passes[1], curves[1]);
 }
 
-void state_agreement(report::Artefact& artefact, const Curves& curves) {
-  const app::Scene scene = artefact.scene(first_file);
+/// The curves of all pairs under each reading, the first of which is that of the scene.
+std::vector<UnderReading> under_readings(report::Artefact& artefact) {
+  std::vector<UnderReading> all;
+  for (const SweepReading& reading : sweep_readings(artefact.scene(first_file)))
+    all.push_back({reading, swept_under(artefact, first_file, reading)});
+  return all;
+}
+
+void state_agreement(report::Artefact& artefact, const Curves& curves, const std::vector<UnderReading>& all) {
   double fold = 0.0;
   for (const auto& turn : curves.exact.curve.turning_points) fold = std::max(fold, turn.frequency);
   const double range = std::abs(fold - peak(curves.first.free).frequency);  // what contact moves
-  std::vector<UnderReading> all;
-  for (const SweepReading& reading : sweep_readings(scene))
-    all.push_back({reading, swept_under(artefact, first_file, reading)});
   const std::string criterion = fmt::format(
       "with the steps of the scene the curve passes the interval, and its turning points are within {} Hz, {} of what "
       "contact shifts the resonance by, of the folds of the exact curve, {}",
@@ -297,6 +301,13 @@ void fig12(report::Artefact& artefact) {
   curves.near = swept(artefact, second_file, two, {fmt::format("contact.gap={}", gap)});
   artefact.picture(drawn(curves));
   Table table = sweeps_table(curves.first), special = special_points_table();
+  const auto all = under_readings(artefact);
+  for (std::size_t i = 0; i < pairs().size(); ++i) {
+    append_turning_points(special, "first resonance, " + pairs()[i].label, all.front().sweeps[i]);
+    const auto same = [&](const Pair& one) { return one.name() == pairs()[i].name(); };
+    if (std::none_of(two.begin(), two.end(), same))
+      append_sweep(table, pairs()[i], curves.first.functions, all.front().sweeps[i]);
+  }
   append_sweep(table, pair("fourier_fourier"), full_functions, curves.full);
   append_special_points(special, "first resonance, 63 functions", curves.full);
   append_special_points(special, "first resonance, exact", curves.exact);
@@ -304,8 +315,9 @@ void fig12(report::Artefact& artefact) {
   append_special_points(special, "second resonance", curves.second.sweeps[0]);
   append_special_points(special, "second resonance, small gap", curves.near.sweeps[0]);
   artefact.data(table, units, {"first resonance"});
-  artefact.more_data("special_points", special,
-                     "Hz and m; of Fourier:Fourier, 64 functions if not said otherwise");
+  artefact.more_data(
+      "special_points", special,
+      "Hz and m; of Fourier:Fourier if no pair is named, and 64 functions if no other number is");
   artefact.more_data("second", sweeps_table(curves.second), units);
   artefact.more_data("second_small_gap", sweeps_table(curves.near), units);
   artefact.more_data("without_contact", app::sweep_table(curves.first.free.curve), units);
@@ -317,7 +329,7 @@ void fig12(report::Artefact& artefact) {
       unstable_text(curves.near.sweeps[0])));
   note_nyquist_resonances(artefact, first_file);
   state_stiffening(artefact, curves);
-  state_agreement(artefact, curves);
+  state_agreement(artefact, curves, all);
   note_all_turning_points(artefact);
   state_second(artefact, curves);
 }

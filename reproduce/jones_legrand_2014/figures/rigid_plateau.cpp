@@ -107,6 +107,7 @@ void add_panels(app::Figure& figure, const Study& study) {
                              "Contact force f_c/F (-)");
     motion.mark_y(millimetres * study.scene.contact.gap);
     motion.title = study.penalty.frequency_text() + ", " + group.title;
+    force.title = "the same, force";
     const bool last = study.number == 2 && &group == &groups().back();
     if (!last) {
       motion.x.label.clear();

@@ -80,6 +80,11 @@ struct Costs {
                  fourier = table[0][static_cast<std::size_t>(step)].seconds;
     return std::isfinite(own) && std::isfinite(fourier) ? own / fourier : solvers::missing;
   }
+  /// Missing where the stair does not reach the error.
+  double milliseconds(bool of_force, std::size_t stair, int step) const {
+    const double seconds = by(of_force)[stair][static_cast<std::size_t>(step)].seconds;
+    return std::isfinite(seconds) ? 1e3 * seconds : solvers::missing;
+  }
   /// The stair of the lowest time; none where no pair reaches the error.
   std::optional<std::size_t> best(bool of_force, int step) const {
     std::optional<std::size_t> found;
@@ -134,10 +139,10 @@ Table costs_table(const std::vector<Costs>& all) {
   return table;
 }
 
-/// What the ratios take of both axes.
+/// What the times take of both axes.
 struct Range {
-  double least = 1.0, most = 1.0;
-  int last = per_decade;  ///< step of the smallest error
+  double least = beyond, most = 0.0;  ///< ms
+  int last = per_decade;              ///< step of the smallest error
 };
 
 Range range_of(const std::vector<Costs>& all) {
@@ -146,9 +151,9 @@ Range range_of(const std::vector<Costs>& all) {
     for (const bool of_force : {false, true})
       for (std::size_t i = 0; i < stairs().size(); ++i)
         for (int step = 0; step < asked_steps; ++step) {
-          const double ratio = costs.ratio(of_force, i, step);
-          if (!std::isfinite(ratio)) continue;
-          range = {std::min(range.least, ratio), std::max(range.most, ratio), std::max(range.last, step)};
+          const double time = costs.milliseconds(of_force, i, step);
+          if (!std::isfinite(time)) continue;
+          range = {std::min(range.least, time), std::max(range.most, time), std::max(range.last, step)};
         }
   return {std::pow(10.0, std::floor(std::log10(range.least))),
           std::pow(10.0, std::ceil(std::log10(range.most))),
@@ -158,27 +163,33 @@ Range range_of(const std::vector<Costs>& all) {
 app::Panel panel_of(const Costs& costs, bool of_force, const Range& range) {
   app::Panel panel;
   panel.title = costs.title + (of_force ? ", force" : ", displacement");
-  panel.x = axis("Relative error asked", error_asked(range.last), error_asked(0));
-  panel.y = axis("Time over Fourier:Fourier", range.least, range.most);
+  panel.x = axis("Relative error asked", error_asked(range.last), error_asked(-1));
+  panel.y = axis("Time (ms)", range.least, range.most);
   panel.x.logarithmic = panel.y.logarithmic = true;
-  panel.rectangles.push_back(
-      {error_asked(range.last), range.least, error_asked(0), 1.0, app::Colour::sky_blue, 0.15});
+  for (int step = 0; step <= range.last; step += 2 * per_decade) {
+    panel.x.ticks.push_back(error_asked(step));
+    panel.x.tick_texts.push_back(fmt::format("10^{{-{}}}", 1 + step / per_decade));
+  }
   for (std::size_t i = 0; i < stairs().size(); ++i) {
     const Stair stair = stairs()[i];
     std::vector<double> x, y;
     for (int step = range.last; step >= 0; --step) {
       x.push_back(error_asked(step));
-      y.push_back(costs.ratio(of_force, i, step));
+      y.push_back(costs.milliseconds(of_force, i, step));
     }
+    // What reaches the largest error asked holds beyond it, so that a stair of one step is seen.
+    x.push_back(error_asked(-1));
+    y.push_back(y.back());
     Series series(stair.label, x, y, app::SeriesStyle::steps);
     series.colour = stair.colour;
     series.dash = stair.dash;
     series.width = i + 1 == stairs().size() ? 2.4 : 1.4;
     panel.add(std::move(series));
   }
-  if (std::isnan(costs.ratio(of_force, 0, 0)))
-    panel.texts.push_back({std::sqrt(error_asked(range.last) * error_asked(0)), std::sqrt(range.most),
-                           "Fourier:Fourier reaches none of these"});
+  if (!std::isfinite(costs.milliseconds(of_force, 0, 0)))
+    panel.texts.push_back({std::sqrt(error_asked(range.last) * error_asked(0)),
+                           std::sqrt(range.least * range.most),
+                           "Fourier:Fourier reaches none of these errors"});
   return panel;
 }
 
@@ -310,9 +321,9 @@ void speed(report::Artefact& artefact) {
   artefact.picture(drawn(all));
   artefact.printed(choices_table(all));
   artefact.caption(fmt::format(
-      "The least time in which a pair of bases reaches an error, over that of Fourier:Fourier, by the error of the "
-      "displacement (left) and of the contact force (right). Below 1, shaded, a pair is cheaper than Fourier:Fourier. A "
-      "stair ends where the pair or Fourier:Fourier does not reach the error within {} s for each scene, {} s against a rigid obstacle. Times are those of "
+      "The least time in which a pair of bases reaches an error, by the error of the displacement (left) and of the contact "
+      "force (right). Below the stair of Fourier:Fourier a pair is cheaper. A "
+      "stair ends where the pair does not reach the error within {} s for each scene, {} s against a rigid obstacle. Times are those of "
       "this run, without the making of plans, as within a sweep; with it they are in the data. The table names the "
       "cheapest way and its time over that of Fourier:Fourier where that reaches the error.",
       elastic_budget, rigid_budget));

@@ -235,6 +235,20 @@ TEST(Jl14Paper, FrequencyResponseTurnsWhereItShould) {
   EXPECT_FALSE(table.where("trial", "haar").empty());
 }
 
+TEST(Jl14Paper, TheFilesOfTheFrequencyResponseHoldAllSixPairsAndWhereTheyTurn) {
+  results().need({"fig12"});
+  const Table all = results().read("fig12_frequency_response.csv").where("functions", "64"),
+              special = results().read("fig12_frequency_response_special_points.csv");
+  for (const Pair& pair : pairs()) {
+    const Table curve = all.where("trial", pair.trial).where("weight", pair.weight);
+    EXPECT_GT(curve.rows(), 100u) << pair.label;
+    const Table turns = special.where("curve", "first resonance, " + pair.label);
+    ASSERT_EQ(turns.rows(), 2u) << pair.label;
+    EXPECT_NEAR(turns.numbers("frequency_Hz")[0], 1337.9, 0.2) << pair.label;
+    EXPECT_NEAR(turns.numbers("frequency_Hz")[1], 1315.0, 0.2) << pair.label;
+  }
+}
+
 // Whoever draws the figure again finds the line, its stability and its marks in the files.
 TEST(Jl14Paper, FilesOfTheFrequencyResponseHoldAllThatIsDrawn) {
   results().need({"fig12"});

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "jl14_results.hpp"
@@ -42,6 +43,21 @@ TEST(Jl14Speed, ASmallerErrorNeverCostsLessAndFourierIsItsOwnMeasure) {
   EXPECT_EQ(scenes.size(), 4u);
   EXPECT_EQ(bases.size(), 8u);
   EXPECT_EQ(results().record("speed").notes.size(), 5u);
+}
+
+TEST(Jl14Speed, APairThatReachesTheLargestErrorAloneIsSeenInItsPanel) {
+  results().need({"speed"});
+  const std::string text = app::read_file(results().folder() / "speed.figure.js");
+  const std::size_t begin = text.find(" = {") + 3;
+  const auto panels = nlohmann::json::parse(text.substr(begin, text.rfind(';') - begin))["panels"];
+  ASSERT_EQ(panels.size(), 8u);
+  for (const auto& panel : panels)
+    for (const auto& stair : panel["series"]) {
+      const auto& y = stair["y"];
+      int seen = 0;
+      for (std::size_t i = 0; i + 1 < y.size(); ++i) seen += y[i].is_number() ? 1 : 0;
+      EXPECT_TRUE(seen == 0 || y.back().is_number()) << panel["title"] << stair["label"];
+    }
 }
 
 }  // namespace

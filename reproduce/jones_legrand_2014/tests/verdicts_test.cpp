@@ -67,6 +67,18 @@ TEST(Jl14Paper, ReadingsOfTheTextDecideAndTheOthersAreCountedApart) {
   }
 }
 
+TEST(Jl14Paper, ErrorsThatAreToldAreThoseOfTheReadingsOfTheText) {
+  results().need({"reference_case1", "reference_case2", "haar_readings", "fig06", "fig09"});
+  const auto force = results().statement("fig09_contact_force_case1", "relatively well");
+  EXPECT_NE(force.headline.find("by 36 % to 90 %"), std::string::npos) << force.headline;
+  const auto plateau =
+      results().statement("fig06_tip_displacement_case1", "well represented by the constant");
+  for (const auto& reading : report::of_text(plateau.readings)) {
+    const std::string share = reading.measured.substr(0, reading.measured.find(" of the range"));
+    EXPECT_NE(plateau.because.find(share), std::string::npos) << plateau.because << " / " << share;
+  }
+}
+
 TEST(Jl14Paper, StatementsOnConvergenceAndResonanceHaveTheirVerdicts) {
   using report::Verdict;
   results().need({"reference_case1", "reference_case2", "fig10", "fig11", "fig12"});
