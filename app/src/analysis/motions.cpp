@@ -78,10 +78,12 @@ Motions impact_motions(const Scene& scene, const StructureModel& model, const so
                                                            .seed = static_cast<unsigned>(analysis.seed),
                                                            .longest = analysis.longest_period,
                                                            .observer = observer});
-  const bool none = all.status == solvers::ImpactStatus::not_settled;
-  result.status = none ? "no_motion" : std::string(to_string(all.status));
+  result.status = to_string(all.status);
   result.starts = all.starts;
-  result.none = all.none;
+  for (const auto& [status, count] : all.none) {
+    result.none += count;
+    result.none_by_status.emplace(to_string(status), count);
+  }
   for (solvers::CoexistingImpacts& one : all.motions)
     result.motions.push_back(sampled(std::move(one), all.starts, problem, scene, model));
   return result;
@@ -96,7 +98,11 @@ Motions phase_motions(const Scene& scene, const StructureModel& model, const sol
                                                                 .longest = analysis.longest_period,
                                                                 .tolerance = scene.time.tolerance,
                                                                 .observer = observer});
-  Motions result{std::string(to_string(all.status)), {}, all.starts, all.none};
+  Motions result{.status = std::string(to_string(all.status)),
+                 .unsolved = std::move(all.unsolved),
+                 .starts = all.starts,
+                 .none = all.none,
+                 .box = std::move(all.box)};
   for (solvers::CoexistingMotion& one : all.motions)
     result.motions.push_back(sampled(std::move(one), problem, scene, model));
   return result;

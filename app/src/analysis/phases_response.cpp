@@ -34,8 +34,9 @@ struct PhasesFound {
   std::string strategy;
   int start_functions = 0;
   std::optional<solvers::PhaseMotion> motion;
+  std::optional<SettledBeside> settled;  ///< what the structure settles to, where that was the start
 
-  bool may_go_on() const { return !motion || motion->status == solvers::PhasesStatus::no_motion_near; }
+  bool may_go_on() const { return !motion || motion->status == solvers::PhasesStatus::not_found; }
 };
 
 void note(PhasesFound& found, solvers::PhaseMotion motion, const char* strategy, int functions) {
@@ -45,8 +46,10 @@ void note(PhasesFound& found, solvers::PhaseMotion motion, const char* strategy,
   found.motion = std::move(motion);
 }
 
-/// From one balance after the other.
+/// From one balance after the other, as long as these do not take too long.
 PhasesFound from_balances(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  constexpr double most_seconds = 60.0;  // after which no further balance is begun
+  const auto start = std::chrono::steady_clock::now();
   PhasesFound found;
   if (model.contact_dynamics() == nullptr) {
     found.status = "no_modes";
@@ -54,6 +57,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
   }
   for (const int functions : phases_starts) {
     if (functions < least_start_functions(scene)) continue;
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > most_seconds) break;
     solvers::ContactProblem problem = compose_problem(balance_of(scene, functions), model);
     solvers::ForcedResponseOptions options;
     options.observer = observer;
@@ -78,6 +82,8 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
   const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, options);
   if (settled.cancelled) found.status = "cancelled";
   if (settled.cancelled || !settled.integrated() || !settled.last.displacement.allFinite()) return;
+  found.settled = {settled.attractor_periods, settled.last.displacement.maxCoeff(),
+                   settled.last.force.maxCoeff()};
   auto motion = problem.phases(scene.forcing.frequency, settled,
                                {.tolerance = tolerance_of(scene), .observer = observer});
   if (motion) note(found, *std::move(motion), "from_settling", 0);
@@ -130,7 +136,10 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   result.unknowns = motion.unknowns;
   result.converged = motion.converged();
   result.moves = motion.parts != nullptr;
-  if (!result.moves) return;
+  if (!result.moves) {
+    result.settled = found.settled;
+    return;
+  }
   result.residual = motion.residual;
   copy_motion(problem, motion, scene, model, options, result);
 }

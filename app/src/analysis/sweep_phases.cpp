@@ -142,8 +142,8 @@ std::string phases_status(const SweepPhases::Point& point) {
   return std::string(to_string(point->status)) + (beside ? "_beside" : "");
 }
 
-bool has_no_motion_near(const SweepPhases::Point& point) {
-  return point && point->status == solvers::PhasesStatus::no_motion_near;
+bool was_not_found(const SweepPhases::Point& point) {
+  return point && point->status == solvers::PhasesStatus::not_found;
 }
 
 StabilityAlong stability_along(const solvers::CurveStability& balance, const SweepPhases* phases) {
@@ -153,7 +153,7 @@ StabilityAlong stability_along(const solvers::CurveStability& balance, const Swe
   for (std::size_t i = 0; i < along.points.size(); ++i) {
     solvers::PointStability& point = along.points[i];
     std::string by = "balance", status(to_string(point.status));
-    if (phased && has_no_motion_near(phases->points[i])) {
+    if (phased && was_not_found(phases->points[i])) {
       point.unstable = -1;
       by = "none";
       status = phases_status(phases->points[i]);

@@ -22,7 +22,7 @@ const Remedies& of_responses() {
       {"stagnated", "a larger time.tolerance"},
       {"no_start",
        "time.method = \"balance\" with other time.functions, or analysis.type = \"time_stepping\""},
-      {"no_motion_near",
+      {"not_found",
        "time.method = \"balance\" with more time.functions, or analysis.type = \"time_stepping\""},
       {"tolerance_missed", "a larger time.tolerance"},
       {"rigid_contact", balance},
@@ -30,7 +30,8 @@ const Remedies& of_responses() {
       {"structural_damping", balance},
       {"no_modes", balance},
       {"resonant", "another forcing.frequency, or damping such as structure.stiffness_damping"},
-      {"chattering", "contact.restitution = 0, a stiff \"linear\" law, or a larger contact.restitution"},
+      {"chattering",
+       "analysis.type = \"motions\", contact.restitution = 0, a stiff \"linear\" law, or a larger contact.restitution"},
       {"lasting_contact", "a stiff \"linear\" law"},
       {"too_many_impacts", "a stiff \"linear\" law, more damping, or a smaller contact.restitution"},
       {"grazing", "another forcing.frequency, or another contact.gap"},
@@ -85,7 +86,7 @@ const Remedies& of_shooting() {
   static const std::string others = "analysis.type = \"forced_response\" or \"time_stepping\"",
                            balance = "analysis.type = \"forced_response\"";
   static const Remedies all{{"no_start", others},
-                            {"no_motion_near", others},
+                            {"not_found", others},
                             {"tolerance_missed", "a larger time.tolerance"},
                             {"rigid_contact", balance},
                             {"velocity_and_no_mass", balance},
@@ -97,9 +98,10 @@ const Remedies& of_shooting() {
 
 const Remedies& of_motions() {
   static const Remedies all{
-      {"no_motion",
+      {"not_settled",
        "a larger analysis.longest_period, more analysis.random_starts, more damping, or analysis.type = "
        "\"forced_response\""},
+      {"not_solved", "analysis.type = \"forced_response\" with time.method = \"balance\""},
       {"no_modes", "analysis.type = \"forced_response\""}};
   return all;
 }

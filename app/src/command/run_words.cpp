@@ -34,11 +34,11 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share
 std::string phases_sentence(const std::string& status) {
   static const std::map<std::string, std::string> known{
       {"no_start",
-       "No balance with up to 511 functions converged, and the structure settles to no motion: time.method = "
-       "\"balance\" with more functions may lead to one."},
-      {"no_motion_near",
-       "Near the balances with 63 to 511 functions there is no motion of the structure that the phases find: "
-       "time.method = \"balance\" with more functions solves for the samples alone."},
+       "No balance with up to 511 functions converged, and no integration gave a start: time.method = \"balance\" with "
+       "more functions may lead to a motion."},
+      {"not_found",
+       "The search by phases ended without a motion; whether the structure has one is not known. time.method = "
+       "\"balance\" with more functions solves for the samples alone."},
       {"tolerance_missed",
        "The phases do not come as near as time.tolerance demands: a larger one takes the motion found."},
       {"rigid_contact",
@@ -53,14 +53,15 @@ std::string phases_sentence(const std::string& status) {
        "A loss factor has no equation in time, by which phases are solved: time.method = \"balance\" takes it, and "
        "modal_damping = loss_factor / 2 in its place gives phases."},
       {"chattering",
-       "Impacts follow each other ever faster until the contact stays closed, which is solved for without rebound alone: "
+       "From where it begins impacts follow each other ever faster until the contact stays closed, which is solved for "
+       "without rebound alone. Other states may lead to a motion: analysis.type = \"motions\" seeks them. "
        "contact.restitution = 0, or a stiff \"linear\" law, takes it."},
       {"lasting_contact",
        "An impact without rebound leaves the contact closed, and no periodic motion with it was found: a stiff "
        "\"linear\" law may lead to one."},
       {"not_settled",
-       "The structure settles to no motion with impacts of up to 16 periods of the load: it is aperiodic, or has not "
-       "settled yet."},
+       "The motion from rest did not repeat within the periods integrated: it is aperiodic, has more than 16 periods of "
+       "the load, or has not settled yet. Other motions were not sought."},
       {"grazing", "A contact touches its obstacle so slightly that it cannot be told whether it does."},
       {"too_many_impacts", "There are more than 2000 impacts in a period of the load."},
       {"no_modes",
@@ -157,7 +158,7 @@ void append_phases(std::vector<std::string>& sentences, const Summary& summary, 
         fmt::format("{} displacement is {} off that of the structure's own motion, by contact phases{}.",
                     curve ? "At the peak the" : "The", percent(error),
                     std::isfinite(force) ? ", and the contact force " + percent(force) : ""));
-  } else if (!status.empty() && status != "no_motion_near" && status != "not_computed") {
+  } else if (!status.empty() && status != "not_found" && status != "not_computed") {
     sentences.push_back("How far it is off the structure's own motion is not known (" + spaced(status) +
                         ").");
   }
@@ -252,9 +253,13 @@ std::string status_sentence(const std::string& status) {
       {"no_modes", "Stability is not known: the modes of the structure could not be computed."},
       {"effort_limit",
        "Stability is not known everywhere: the count of multipliers took too many operations."},
+      {"not_confirmed",
+       "Stability is not known: contact phases do not take this motion, and the balance with twice the functions has "
+       "another number of multipliers outside the unit circle, or no response near. More functions may settle it."},
       {"no_response", "Stability is not known: there is no motion."},
-      {"no_motion_near",
-       "Stability is not known where no motion of the structure was found near the response of the samples."},
+      {"not_found",
+       "Stability is not known where the search by phases found no motion of the structure near the response of the "
+       "samples."},
       {"not_computed", "Stability was not computed; analysis.stability = true asks for it."},
       {"interrupted", "The computation of stability was interrupted."},
   };

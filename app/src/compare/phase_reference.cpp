@@ -52,7 +52,7 @@ std::string phrase_of(solvers::PhasesStatus status) {
       return "their error stays above 1e-6";
     case too_many_phases:
       return "they have too many unknowns";
-    case no_motion_near:
+    case not_found:
       return "no motion of the structure is found near the balance";
     case cancelled:
       return "no time was left for them";

@@ -209,7 +209,7 @@ class ReferenceSearch {
     PhaseReference found = phase_reference(start, observer_);
     const bool known = found.missing_because.empty();
     if (known && is_of_guide(found.contacts)) return by_phases(std::move(found), start);
-    without_phases_ = known ? phrase_of(solvers::PhasesStatus::no_motion_near) : found.missing_because;
+    without_phases_ = known ? phrase_of(solvers::PhasesStatus::not_found) : found.missing_because;
     refused_ = found.refused;
     return std::nullopt;
   }

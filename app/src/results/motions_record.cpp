@@ -64,10 +64,38 @@ void append_files(Record& record, const StructureModel& model, const FoundMotion
 }
 
 void warn_of_none(Record& record, const Motions& all, int longest) {
-  if (all.none > 0)
-    record.warnings.push_back(
-        fmt::format("{} of {} random starts settled to no motion of up to {} periods that was solved for.",
-                    all.none, all.starts, longest));
+  if (all.none == 0) return;
+  std::vector<std::string> ends;
+  for (const auto& [status, count] : all.none_by_status) ends.push_back(fmt::format("{} {}", count, status));
+  record.warnings.push_back(fmt::format(
+      "{} of {} random starts came to no motion of up to {} periods within the periods integrated{}: "
+      "motions may be missing.",
+      all.none, all.starts, longest, ends.empty() ? "" : fmt::format(" ({})", fmt::join(ends, ", "))));
+}
+
+/// Motions that are known by integration alone.
+void append_unsolved(Record& record, const Motions& all) {
+  if (all.unsolved.empty()) return;
+  Table table({"phases_status", "period", "max_displacement_m", "max_contact_force_N", "share"});
+  for (const solvers::UnsolvedMotion& one : all.unsolved) {
+    const std::string status(to_string(one.status));
+    const double share = all.starts > 0 ? double(one.arrivals) / all.starts : missing;
+    table.append_row({status, std::int64_t{one.periods}, one.max_displacement, one.max_force, share});
+    record.warnings.push_back(fmt::format(
+        "The structure settles to a motion over {} period{} of the load with a largest displacement of {:.6g} m, by "
+        "integration, which contact phases did not solve for ({}).",
+        one.periods, one.periods == 1 ? "" : "s", one.max_displacement, status));
+  }
+  record.summary.emplace_back(quantities::unsolved_motions, table);
+}
+
+/// The box of the random states, by mode.
+void append_box(Record& record, const Motions& all) {
+  if (all.box.empty()) return;
+  Table table({"mode", "largest_displacement_m", "largest_velocity_m_per_s"});
+  for (std::size_t i = 0; i < all.box.size(); ++i)
+    table.append_row({std::int64_t(i + 1), all.box[i].displacement, all.box[i].velocity});
+  record.summary.emplace_back(quantities::start_box, table);
 }
 
 /// The largest of a number of all motions; missing without any.
@@ -111,6 +139,9 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   warn_of_scene(record, scene);
   warn_of_none(record, all, scene.analysis.longest_period);
   record.summary.emplace_back(quantities::motions, motions_table(all));
+  append_unsolved(record, all);
+  append_box(record, all);
+  record.summary.emplace_back(quantities::warnings, record.warnings);
   // read_start_motion() takes these, since tables are not read.
   for (std::size_t i = 0; i < all.motions.size(); ++i)
     if (all.motions[i].found.periods > 1)

@@ -60,7 +60,7 @@ void append_special_points(Table& table, const std::vector<Cell>& first,
     const solvers::SpecialPoint& point = stability.special_points[i];
     const bool sought = phases != nullptr && i < phases->special_points.size();
     const SweepPhases::Point near = sought ? phases->special_points[i] : SweepPhases::Point();
-    const bool none = has_no_motion_near(near);
+    const bool none = was_not_found(near);
     std::vector<Cell> row = first;
     row.insert(row.end(), {std::string(to_string(point.type)), parameter_of(point, parameter), point.bracket,
                            none ? missing : point.multiplier.real(), none ? missing : point.multiplier.imag(),

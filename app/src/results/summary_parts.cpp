@@ -131,8 +131,8 @@ void append_attractor(Record& record, int periods, const Response& response) {
   record.warnings.push_back(
       attractor == 0
           ? std::string(
-                "From rest the structure settles to no motion of up to 16 periods of the load within the "
-                "periods integrated: it is aperiodic, or has not settled yet.")
+                "From rest the motion did not repeat after up to 16 periods of the load within the periods "
+                "integrated: it is aperiodic, or has not settled yet.")
           : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
                         "analysis.subharmonic = {} computes.",
                         attractor, attractor));
@@ -147,14 +147,18 @@ void append_settled(Record& record, const Response& response) {
   const std::string others = " Other motions were not sought; analysis.type = \"motions\" seeks them.";
   if (beside.periods > 0)
     record.warnings.push_back(fmt::format(
-        "From rest the structure settles to another motion, which repeats after {} of the load and has a largest "
-        "displacement of {:.6g} m.{}",
+        "From rest the structure settles to {} motion, which repeats after {} of the load and has a largest "
+        "displacement of {:.6g} m{}.{}",
+        response.moves ? "another" : "a",
         beside.periods == 1 ? "one period" : fmt::format("{} periods", beside.periods),
-        beside.max_displacement, others));
+        beside.max_displacement, response.moves ? "" : " by integration; contact phases did not solve for it",
+        others));
   else
     record.warnings.push_back(
-        (beside.periods == 0 ? "From rest the structure settles to no motion of up to 16 periods of the load."
-                             : "What the structure settles to from rest is not known.") +
+        (beside.periods == 0
+             ? "From rest the motion did not repeat after up to 16 periods of the load within the periods "
+               "integrated."
+             : "What the structure settles to from rest is not known.") +
         others);
 }
 
@@ -215,14 +219,14 @@ void append_phases(Record& record, double tolerance, const Response& response) {
                               known ? found.motion.estimated_error : missing);
   record.summary.emplace_back(quantities::phases_unknowns, std::int64_t{found.motion.unknowns});
   record.summary.emplace_back(quantities::phases, phases_table(found.motion));
-  const bool none = found.motion.status == solvers::PhasesStatus::no_motion_near && !is_by_phases(response);
+  const bool none = found.motion.status == solvers::PhasesStatus::not_found && !is_by_phases(response);
   if (response.stability && !none)
     record.summary.emplace_back(quantities::stability_by,
                                 std::string(response.stability->by_phases ? "phases" : "balance"));
   if (!none) return;
   record.warnings.emplace_back(
-      "No motion of the structure was found near this response, which solves the equations at its samples alone. "
-      "More functions may lead to one.");
+      "Contact phases found no motion of the structure near this response, which solves the equations at its samples "
+      "alone; whether there is one is not known. More functions may lead to it.");
 }
 
 }  // namespace wavebalance::app

@@ -33,19 +33,19 @@ void append_phases_of_points(Record& record, const Sweep& sweep) {
   const auto found = std::count_if(points.begin(), points.end(), [](const SweepPhases::Point& point) {
     return point && point->status == solvers::PhasesStatus::converged;
   });
-  const auto none = std::count_if(points.begin(), points.end(), has_no_motion_near);
+  const auto none = std::count_if(points.begin(), points.end(), was_not_found);
   const auto all = static_cast<std::int64_t>(points.size());
   record.summary.emplace_back(quantities::largest_error_of_displacement,
                               largest_of(points, displacement_error));
   record.summary.emplace_back(quantities::largest_error_of_force, largest_of(points, force_error));
   record.summary.emplace_back(quantities::points_phases_converged, std::int64_t{found});
-  record.summary.emplace_back(quantities::points_no_motion_near, std::int64_t{none});
+  record.summary.emplace_back(quantities::points_not_found, std::int64_t{none});
   record.summary.emplace_back(quantities::points_phases_not_known, all - found - none);
   if (none == 0) return;
   record.warnings.push_back(fmt::format(
-      "At {} of {} points of the curve no motion of the structure was found near: the balance solves the equations at its "
-      "samples alone there, as between its folds and those of the structure, and no verdict of stability is given. More "
-      "functions may lead to one.",
+      "At {} of {} points of the curve contact phases found no motion of the structure near the response, as between the "
+      "folds of the balance and those of the structure. No verdict of stability is given there. More functions may lead to "
+      "a motion.",
       none, all));
 }
 
@@ -53,7 +53,7 @@ void append_phases_of_points(Record& record, const Sweep& sweep) {
 void append_places(std::vector<std::string>& places, const std::vector<solvers::SpecialPoint>& points,
                    const SweepPhases& phases, const Sweep& sweep) {
   for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
-    if (!has_no_motion_near(phases.special_points[i])) continue;
+    if (!was_not_found(phases.special_points[i])) continue;
     std::string type(to_string(points[i].type));
     std::replace(type.begin(), type.end(), '_', ' ');
     places.push_back(fmt::format("the {} at {:.7g} {}", type, parameter_of(points[i], sweep.curve.parameter),
@@ -63,14 +63,14 @@ void append_places(std::vector<std::string>& places, const std::vector<solvers::
 
 void warn_of_places(Record& record, const Sweep& sweep) {
   std::vector<std::string> places;
-  if (has_no_motion_near(sweep.phases.front().peak)) places.emplace_back("the peak");
+  if (was_not_found(sweep.phases.front().peak)) places.emplace_back("the peak");
   append_places(places, sweep.stability.special_points, sweep.phases.front(), sweep);
   for (std::size_t i = 1; i < sweep.phases.size(); ++i)
     append_places(places, sweep.branches[i - 1].stability.special_points, sweep.phases[i], sweep);
   if (places.empty()) return;
   record.warnings.push_back(fmt::format(
       "No motion of the structure was found near these points of the curve: {}. The balance solves the equations at its "
-      "samples alone there; those of the structure may lie elsewhere, or be none. More functions may lead to them.",
+      "samples alone there, and whether the structure has these points is not known. More functions may lead to them.",
       fmt::join(places, ", ")));
 }
 

@@ -75,7 +75,7 @@ TEST(PhasesOfASweep, CorrectTheCountsOfTheBalance) {
   EXPECT_EQ(phases.sweep.texts("stability_by")[0], "phases");
   EXPECT_EQ(phases.sweep.texts("phases_status")[0], "converged");
   for (std::size_t i = 0; i < phases.sweep.rows(); ++i) {
-    const bool none = phases.sweep.texts("phases_status")[i] == "no_motion_near";
+    const bool none = phases.sweep.texts("phases_status")[i] == "not_found";
     EXPECT_EQ(std::isnan(phases.sweep.numbers("unstable")[i]), none);
     EXPECT_EQ(phases.sweep.texts("stability_by")[i], none ? "none" : "phases");
   }
@@ -159,7 +159,7 @@ TEST(PhasesOfASweep, SumUpTheErrorsOfAllPoints) {
   EXPECT_EQ(value_of<double>(record.summary, "largest_error_of_displacement"), largest);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "points_phases_converged"),
             static_cast<std::int64_t>(record.sweep.rows()));
-  EXPECT_EQ(value_of<std::int64_t>(record.summary, "points_no_motion_near"), 0);
+  EXPECT_EQ(value_of<std::int64_t>(record.summary, "points_not_found"), 0);
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "points_phases_not_known"), 0);
 }
 
@@ -258,14 +258,14 @@ TEST(PhasesOfASweep, DecideTheVerdictPointByPoint) {
   phases.points.resize(4);
   phases.points[0] =
       PointPhases{PhasesStatus::converged, 1e-3, 1e-2, solvers::MotionStability{"stable", 0}, 0};
-  phases.points[1] = PointPhases{PhasesStatus::no_motion_near};
+  phases.points[1] = PointPhases{PhasesStatus::not_found};
   phases.points[2] = PointPhases{PhasesStatus::structural_damping};
   const StabilityAlong along = stability_along(balance, &phases);
   EXPECT_EQ(along.by, (Overrides{"phases", "none", "balance", "balance"}));
   EXPECT_EQ(along.points[0].unstable, 0);
   EXPECT_EQ(along.points[1].unstable, -1);
   EXPECT_EQ(along.points[2].unstable, 3);
-  EXPECT_EQ(along.status, "no_motion_near");
+  EXPECT_EQ(along.status, "not_found");
   EXPECT_EQ(stability_along(balance, nullptr).points[0].unstable, 3);
 }
 

@@ -191,7 +191,7 @@ TEST(PhaseStudy, KeepsBalancesThatAreTooCoarseAmongItsRows) {
   const std::vector<SolvePoint> points = phase_study(measured_scene(scene, reference), reference, options);
   ASSERT_GE(points.size(), 3u);
   EXPECT_EQ(points.front().functions, 3);
-  EXPECT_EQ(points.front().status, "no_motion_near");
+  EXPECT_EQ(points.front().status, "not_found");
   EXPECT_FALSE(points.front().converged);
   EXPECT_EQ(points.back().tolerance, 1e-8);
   EXPECT_TRUE(points.back().converged);

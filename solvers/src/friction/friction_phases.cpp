@@ -47,7 +47,8 @@ std::vector<RubbingContact> contacts_of(const PhasesProblem& problem) {
   return contacts;
 }
 
-void require_friction_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start) {
+void require_friction_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                            const Eigen::MatrixXd& start_force) {
   const int rows = problem.dynamics.contacts();
   problem.laws.require(rows);
   if (problem.contact_free.rows() != rows || problem.contact_free.cols() < 1)
@@ -58,6 +59,10 @@ void require_friction_sizes(const PhasesProblem& problem, const Eigen::MatrixXd&
     throw std::invalid_argument("friction_phases: start is " + std::to_string(start.rows()) + " x " +
                                 std::to_string(start.cols()) + "; it must have a finite row for each of " +
                                 std::to_string(rows) + " contact directions and at least 8 columns");
+  if (start_force.size() > 0 && (start_force.rows() != start.rows() || start_force.cols() != start.cols()))
+    throw std::invalid_argument("friction_phases: start_force is " + std::to_string(start_force.rows()) +
+                                " x " + std::to_string(start_force.cols()) +
+                                "; it must be as large as start, or empty");
   if (!(problem.frequency > 0.0) || !std::isfinite(problem.frequency))
     throw std::invalid_argument("friction_phases: frequency is " + std::to_string(problem.frequency) +
                                 " Hz; it must be positive and finite");
@@ -66,12 +71,13 @@ void require_friction_sizes(const PhasesProblem& problem, const Eigen::MatrixXd&
 class RubbingSearch {
  public:
   RubbingSearch(const RubbingModel& model, const ContactPhasesOptions& options, const Eigen::MatrixXd& start,
-                const ContactDynamics& dynamics)
+                const Eigen::MatrixXd& start_force, const ContactDynamics& dynamics)
       : model_(model),
         dynamics_(dynamics),
         options_(options),
         operations_left_(options.max_operations),
         start_(start),
+        start_force_(start_force),
         observer_([this](const Progress& progress) {
           cancelled_ = cancelled_ || !goes_on(options_.observer, progress);
           return !cancelled_;
@@ -166,6 +172,18 @@ class RubbingSearch {
     return std::nullopt;
   }
 
+  // A slider that does not move is where the forces of the start have it, which come from the periods before:
+  // the law over one period does not know them.
+  void hold_as_start(RubbingLayout& layout) const {
+    if (start_force_.size() == 0) return;
+    for (RubbingPhase& phase : layout.phases) {
+      if (!phase.always() || phase.state != RubbingState::stick) continue;
+      const RubbingContact& contact = model_.contacts[std::size_t(phase.contact)];
+      phase.held = contact.constants.tangential_stiffness * start_.row(contact.tangent).mean() -
+                   start_force_.row(contact.tangent).mean();
+    }
+  }
+
   // The phases of the start, then those that the law has along what was found, sampled more finely where they
   // were tried before.
   void find() {
@@ -176,6 +194,7 @@ class RubbingSearch {
     std::vector<RubbingLayout> tried;
     for (int change = 0; !stopped(); ++change) {
       RubbingLayout layout = rubbing_layout(model_.contacts, motion);
+      hold_as_start(layout);
       const bool again = std::any_of(tried.begin(), tried.end(),
                                      [&](const RubbingLayout& other) { return other.has_states_of(layout); });
       if (again) {
@@ -270,7 +289,7 @@ class RubbingSearch {
   const ContactDynamics& dynamics_;
   const ContactPhasesOptions& options_;
   double operations_left_;
-  Eigen::MatrixXd start_;
+  Eigen::MatrixXd start_, start_force_;
   LegendreNodes nodes_{options_.nodes};
   PhaseMotion result_;
   std::optional<RubbingIterate> found_;
@@ -282,14 +301,14 @@ class RubbingSearch {
 }  // namespace
 
 PhaseMotion friction_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                            const ContactPhasesOptions& options, const Eigen::MatrixXd&) {
+                            const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
   options.validate();
-  require_friction_sizes(problem, start);
+  require_friction_sizes(problem, start, start_force);
   PhaseMotion result;
   result.status = friction_refusal(problem);
   if (!result.converged()) return result;
   const RubbingModel model{PhaseModel(problem, start.cwiseAbs().maxCoeff()), contacts_of(problem)};
-  return RubbingSearch(model, options, start, problem.dynamics).run();
+  return RubbingSearch(model, options, start, start_force, problem.dynamics).run();
 }
 
 PhaseMotion phases_of_any_law(const PhasesProblem& problem, const Eigen::MatrixXd& start,

@@ -30,7 +30,7 @@ double largest_of(const std::vector<double>& times, const Eigen::VectorXd& value
 class Checker {
  public:
   Checker(const RubbingModel& model, const RubbingIterate& solved, const LegendreNodes& nodes, double allowed)
-      : model_(model), solved_(solved), allowed_(allowed) {
+      : model_(model), solved_(solved), nodes_(nodes.count()), allowed_(allowed) {
     for (const RubbingPhase& phase : solved.layout.phases) {
       begins_.push_back(times_.size());
       append_times(phase);
@@ -63,16 +63,14 @@ class Checker {
 
  private:
   void append_times(const RubbingPhase& phase) {
-    constexpr int of_phase = 32, of_panel = 12, of_period = 512;
+    constexpr int of_phase = 32, of_period = 512, of_node = 2;
     const double begin = solved_.layout.begin(phase), end = solved_.layout.end(phase);
-    if (phase.always()) return append_points(times_, begin, end, of_period);
-    append_points(times_, begin, end, std::max(of_phase, static_cast<int>(256.0 * (end - begin))));
+    append_points(times_, begin, end, std::max(of_phase, static_cast<int>(of_period * (end - begin))));
     if (phase.tangent < 0) return;
-    const std::size_t first = times_.size();
     for (const Panel& panel : solved_.forces.panels())
-      if (panel.phase == phase.tangent && panel.end - panel.begin < 0.5 * (end - begin))
-        append_points(times_, panel.begin, panel.end, of_panel);
-    if (times_.size() > first) std::sort(times_.begin() + std::ptrdiff_t(begins_.back()), times_.end());
+      if (panel.phase == phase.tangent || panel.phase == phase.normal)
+        append_points(times_, panel.begin, panel.end, of_node * static_cast<int>(nodes_));
+    std::sort(times_.begin() + std::ptrdiff_t(begins_.back()), times_.end());
   }
 
   double largest_force() const {
@@ -120,8 +118,11 @@ class Checker {
     const double sign = solved_.layout.phases[phase].sign;
     const Eigen::VectorXd slider =
         sign * stretched(phase) - contact(phase).constants.friction * normal(phase);
-    const Index steps = slider.size() - 1;
-    return (slider.tail(steps) - slider.head(steps)).minCoeff() >= -allowed_ * force_size_;
+    double farthest = slider[0];
+    return std::all_of(slider.begin(), slider.end(), [&](double now) {
+      farthest = std::max(farthest, now);
+      return farthest - now <= allowed_ * force_size_;
+    });
   }
 
   // Not a number where the contact cannot stick all the time.
@@ -137,6 +138,7 @@ class Checker {
 
   const RubbingModel& model_;
   const RubbingIterate& solved_;
+  Index nodes_;  // of a panel
   double allowed_;
   std::vector<double> times_;  // of all phases, ascending in each
   std::vector<std::size_t> begins_;

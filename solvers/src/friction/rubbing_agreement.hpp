@@ -12,8 +12,8 @@ struct RubbingAgreement {
   double largest_move = 0.0;  ///< over the largest force
 };
 
-/// At instants within all phases, of which more lie near their ends. `allowed` is how far a limit may be
-/// passed, over the largest force or rate. O(instants (poles + panels)).
+/// At instants within all phases and panels, of which more lie near their ends. `allowed` is how far a limit
+/// may be passed, over the largest force. O(instants (poles + panels)).
 RubbingAgreement agreement_of(const RubbingModel& model, const RubbingIterate& solved,
                               const LegendreNodes& nodes, double allowed);
 

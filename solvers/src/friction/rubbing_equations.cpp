@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -54,6 +55,7 @@ class Assembly {
     const auto own = influence_.displacement.topLeftCorner(count(), count());
     const Eigen::VectorXd u = model_.poles.free_displacement(places) - own * result_.force;
     result_.displacement_size = std::max(tiny, u.cwiseAbs().maxCoeff());
+    set_rounding(own.cwiseAbs() * result_.force.cwiseAbs());
     if (with_jacobian) set_motion_by_unknowns();
     for (std::size_t p = 0; p < result_.grid.panels.size(); ++p) set_law(p, u, with_jacobian);
     for (const RubbingPhase& phase : at_.layout.phases)
@@ -77,6 +79,17 @@ class Assembly {
   const RubbingPhase& phase(int number) const { return at_.layout.phases[std::size_t(number)]; }
   const RubbingContact& contact_of(const RubbingPhase& phase) const {
     return model_.contacts[std::size_t(phase.contact)];
+  }
+
+  // From the sizes of what adds up to the displacements, m.
+  void set_rounding(const Eigen::VectorXd& sums) {
+    constexpr double rounding = 10.0 * std::numeric_limits<double>::epsilon();
+    for (std::size_t p = 0; p < result_.grid.panels.size(); ++p) {
+      const FrictionConstants& constants = contact_of(owner(p)).constants;
+      const double stiffness = is_tangent(p) ? constants.tangential_stiffness : constants.normal_stiffness;
+      const double largest = sums.segment(nodes_.count() * Index(p), nodes_.count()).maxCoeff();
+      result_.rounding = std::max(result_.rounding, rounding * stiffness * largest);
+    }
   }
 
   // The panels of each phase of forces follow each other.

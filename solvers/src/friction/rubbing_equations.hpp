@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "friction/rubbing_layout.hpp"
@@ -25,13 +26,17 @@ struct RubbingEvaluation {
   double force_size = 0.0, displacement_size = 0.0;
   /// Largest change of the displacements by forces like the residual, m.
   double moved = 0.0;
+  /// N, what rounding of the displacements makes of the forces: these are differences of much larger ones
+  /// where the structure is nearly free.
+  double rounding = 0.0;
 
   double error() const { return residual.size() > 0 ? residual.cwiseAbs().maxCoeff() / force_size : 0.0; }
   /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the
-  /// forces, or forces of its size move the contacts by nothing.
+  /// forces or what rounding makes of them, or forces of its size move the contacts by nothing.
   bool is_rounding(double before) const {
     constexpr double small = 1e-9, nothing = 1e-12;
-    return error() > 0.5 * before && (error() < small || moved < nothing * displacement_size);
+    const double least = std::max(small, rounding / force_size);
+    return error() > 0.5 * before && (error() < least || moved < nothing * displacement_size);
   }
 };
 

@@ -102,7 +102,12 @@ ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsO
     }
     if (start < 0) radii = radii_of(model, response);
     const bool settled = is_settled(response);
-    if (start >= 0) ++result.starts, result.none += settled ? 0 : 1;
+    if (start < 0) result.status = response.motion.status;
+    if (start >= 0) {
+      ++result.starts;
+      const bool unstable = response.motion.converged();
+      if (!settled) ++result.none[unstable ? ImpactStatus::not_settled : response.motion.status];
+    }
     if (response.motion.converged()) {
       CoexistingImpacts& one = found.add(std::move(response));
       one.from_random = one.from_random || (settled && !one.settled && start >= 0);

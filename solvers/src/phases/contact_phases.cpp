@@ -282,7 +282,7 @@ void ContactPhasesOptions::validate() const {
 std::string_view to_string(PhasesStatus status) {
   using enum PhasesStatus;
   return detail::name_in<PhasesStatus>({{converged, "converged"},
-                                        {no_motion_near, "no_motion_near"},
+                                        {not_found, "not_found"},
                                         {tolerance_missed, "tolerance_missed"},
                                         {rigid_contact, "rigid_contact"},
                                         {velocity_and_no_mass, "velocity_and_no_mass"},

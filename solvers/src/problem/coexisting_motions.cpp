@@ -75,6 +75,20 @@ Samples first_periods(const Samples& samples, int periods) {
           periods};
 }
 
+// What is told of a motion by its integration.
+UnsolvedMotion unsolved_of(const SettledMotion& settled, int periods, PhasesStatus status) {
+  return {status, periods, settled.last.displacement.maxCoeff(), settled.last.force.maxCoeff(), 0};
+}
+
+bool same_as(const UnsolvedMotion& one, const UnsolvedMotion& other) {
+  constexpr double same = 1e-3;  // of integrations
+  const auto near = [](double a, double b) {
+    return std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b));
+  };
+  return one.periods == other.periods && near(one.max_displacement, other.max_displacement) &&
+         near(one.max_force, other.max_force);
+}
+
 // The period before which a motion changed least from one period to the next, compared with how much it did
 // later: there it was nearest to one that it leaves. 0 where it leaves none.
 int period_before_leaving(const std::vector<double>& changes) {
@@ -181,9 +195,11 @@ class MotionsSearch {
     return how;
   }
 
-  // The motion that the structure settles to, solved for.
+  // The motion that the structure settles to, solved for. One that was not solved for before is not tried
+  // again.
   std::optional<std::size_t> settle(const SettlingOptions& how, MotionSource source) {
     const SettledMotion settled = problem_.settle(frequency_, how);
+    unsolved_ = nullptr;
     if (settled.attractor_periods < 1) {
       near_returns(settled);
       return approached(settled, source);
@@ -192,15 +208,30 @@ class MotionsSearch {
     const int periods = settled.attractor_periods / std::gcd(settled.attractor_periods, within);
     ContactProblem& problem = over(periods);
     const SettledMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
-    return add(problem, periods, problem.phases(frequency_, whole, phases_options(result_.starts)), source);
+    UnsolvedMotion told = unsolved_of(whole, periods, PhasesStatus::not_found);
+    for (UnsolvedMotion& known : result_.unsolved)
+      if (same_as(known, told)) {
+        unsolved_ = &known;
+        return std::nullopt;
+      }
+    const auto near = problem.phases(frequency_, whole, phases_options(result_.starts));
+    const auto found = add(problem, periods, near, source);
+    if (found || cancelled_ || !near) return found;
+    told.status = near->status;
+    unsolved_ = &result_.unsolved.emplace_back(told);
+    return std::nullopt;
   }
 
   // The stable motion that a structure of light damping had nearly come to when its integration ended.
   std::optional<std::size_t> approached(const SettledMotion& settled, MotionSource source) {
     constexpr double near = 1e-2;  // of what vibrates
     if (cancelled_ || !settled.integrated()) return std::nullopt;
+    const UnsolvedMotion told = unsolved_of(settled, 1, PhasesStatus::not_found);
+    if (std::any_of(given_up_.begin(), given_up_.end(), [&](const auto& one) { return same_as(one, told); }))
+      return std::nullopt;
     const auto found =
         add(problem_, 1, problem_.phases(frequency_, settled, phases_options(result_.starts)), source);
+    if (!found) given_up_.push_back(told);
     if (!found || result_.motions[*found].stability.status != "stable") return std::nullopt;
     const Eigen::MatrixXd& motion = samples_[*found].contacts.displacement;
     if (motion.cols() != points_of_period) return std::nullopt;
@@ -235,10 +266,10 @@ class MotionsSearch {
       starts_.emplace(*arrived, detail::StructureState{zero, zero});
   }
 
-  // The box of the motion without contact, which holds twice those found, too.
+  // The box of the motions without contact and at resonance, which holds twice those found, too.
   std::optional<detail::StateBox> box() {
     constexpr double larger = 2.0;
-    auto box = detail::box_of_free_motion(problem_, frequency_);
+    auto box = detail::box_of_motions(problem_, frequency_);
     if (!box) return box;
     for (const CoexistingMotion& one : result_.motions)
       box->include(
@@ -253,6 +284,7 @@ class MotionsSearch {
     if (options_.random_starts == 0 || cancelled_) return;
     const std::optional<detail::StateBox> states = box();
     if (!states) return;
+    result_.box = states->sides();
     std::mt19937 generator(options_.seed);
     while (result_.starts < options_.random_starts && !cancelled_) {
       const auto arrived = arrive(states->random(generator), MotionSource::random);
@@ -260,6 +292,8 @@ class MotionsSearch {
       ++result_.starts;
       if (arrived)
         ++result_.motions[*arrived].arrivals;
+      else if (unsolved_)
+        ++unsolved_->arrivals;
       else
         ++result_.none;
     }
@@ -338,6 +372,8 @@ class MotionsSearch {
       result_.status = MotionsStatus::cancelled;
     else if (!result_.motions.empty())
       result_.status = MotionsStatus::converged;
+    else if (!result_.unsolved.empty())
+      result_.status = MotionsStatus::not_solved;
   }
 
   ContactProblem& problem_;
@@ -347,6 +383,8 @@ class MotionsSearch {
   std::vector<Samples> samples_;                          // of the motions of the result
   std::map<std::size_t, detail::StructureState> starts_;  // that settle to them, the first of each
   CoexistingMotions result_;
+  std::vector<UnsolvedMotion> given_up_;  // near which no motion was found
+  UnsolvedMotion* unsolved_ = nullptr;    // of the result, where the last start settled to it
   bool cancelled_ = false;
 };
 
@@ -366,9 +404,12 @@ std::string_view to_string(MotionSource source) {
 
 std::string_view to_string(MotionsStatus status) {
   using enum MotionsStatus;
-  return detail::name_in<MotionsStatus>(
-      {{converged, "converged"}, {no_motion, "no_motion"}, {no_modes, "no_modes"}, {cancelled, "cancelled"}},
-      status);
+  return detail::name_in<MotionsStatus>({{converged, "converged"},
+                                         {not_settled, "not_settled"},
+                                         {not_solved, "not_solved"},
+                                         {no_modes, "no_modes"},
+                                         {cancelled, "cancelled"}},
+                                        status);
 }
 
 CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,

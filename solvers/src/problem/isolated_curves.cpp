@@ -101,7 +101,7 @@ class IsolatedCurvesSearch {
     result_.frequencies.push_back(frequency);
     motions_there_.clear();
     const std::optional<detail::StateBox> box =
-        options_.random_starts > 0 ? detail::box_of_free_motion(problem_, frequency) : std::nullopt;
+        options_.random_starts > 0 ? detail::box_of_motions(problem_, frequency) : std::nullopt;
     const int random = box ? options_.random_starts : 0;
     for (int start = 0; start <= random && !result_.cancelled; ++start) {
       SettlingOptions how = options_.settling;

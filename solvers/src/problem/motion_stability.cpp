@@ -87,7 +87,7 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
                                  const PhaseMotion* motion) {
   const auto start = std::chrono::steady_clock::now();
-  if (motion && motion->status == PhasesStatus::no_motion_near) {
+  if (motion && motion->status == PhasesStatus::not_found) {
     MotionStability unknown;
     unknown.status = to_string(motion->status);
     return unknown;

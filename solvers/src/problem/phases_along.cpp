@@ -22,11 +22,11 @@ PointPhases phases_at(ContactProblem& problem, const FrequencySweep& curve, cons
 PointPhases phases_near(ContactProblem& problem, const FrequencySweep& curve,
                         const std::vector<CurvePlace>& places, const CurvePhasesOptions& options) {
   const PointPhases first = phases_at(problem, curve, places.front(), options);
-  if (first.status != PhasesStatus::no_motion_near) return first;
+  if (first.status != PhasesStatus::not_found) return first;
   for (std::size_t i = 1; i < places.size(); ++i) {
     PointPhases other = phases_at(problem, curve, places[i], options);
     other.place = i;
-    if (other.status != PhasesStatus::no_motion_near) return other;
+    if (other.status != PhasesStatus::not_found) return other;
   }
   return first;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "linalg/dense.hpp"
 #include "period/modal_flow.hpp"
@@ -42,6 +43,73 @@ double factor_to_gap(const ContactProblem& problem, const Eigen::VectorXd& stand
   return std::isfinite(factor) ? std::max(1.0, factor) : 1.0;
 }
 
+// What the contacts add to the square of a mode's frequency while it vibrates about where the structure
+// stands: their force in its first harmonic, over the amplitude.
+double added_stiffness(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
+                       const Eigen::VectorXd& shape, double amplitude) {
+  constexpr int points = 64;
+  const Eigen::RowVectorXd cosine =
+      Eigen::RowVectorXd::LinSpaced(points, 0.0, 2.0 * std::numbers::pi * (1.0 - 1.0 / points)).array().cos();
+  const Eigen::MatrixXd motion = (amplitude * shape * cosine).colwise() + contacts_stand;
+  return 2.0 / (points * amplitude) * shape.dot(problem.laws().force(motion) * cosine.transpose());
+}
+
+// The largest amplitude between two at which a mode of the square `square` of its frequency vibrates with a
+// frequency; 0 without one.
+double resonant_amplitude(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
+                          const Eigen::VectorXd& shape, double square, double wanted, double least,
+                          double most) {
+  constexpr double step = 1.25;
+  double found = 0.0, before = square - wanted;
+  for (double amplitude = least; amplitude < step * most; amplitude *= step) {
+    const double now = square + added_stiffness(problem, contacts_stand, shape, amplitude) - wanted;
+    if (std::isnan(now)) break;
+    if ((now > 0.0) != (before > 0.0)) found = amplitude;
+    before = now;
+    if (std::isinf(now)) break;
+  }
+  return found;
+}
+
+// The amplitudes of the modes in a harmonic of a motion uniform over the period.
+Eigen::VectorXd amplitudes_of(const Eigen::MatrixXd& modes, int harmonic) {
+  const double points = double(modes.cols());
+  Eigen::VectorXcd wave(modes.cols());
+  for (Eigen::Index l = 0; l < modes.cols(); ++l)
+    wave[l] = std::polar(2.0 / points, -2.0 * std::numbers::pi * harmonic * double(l) / points);
+  return (modes * wave).cwiseAbs();
+}
+
+// The load of a mode follows from its vibration without contact, and with it the largest vibration at the
+// same frequency: that of which the damping takes the work of the load.
+void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& stands, const Motion& free,
+                        double factor, StateBox& box) {
+  constexpr int harmonics = 3;
+  constexpr double least_part = 1e-3, most_times = 1e6;
+  if (!problem.laws().have_finite_force()) return;
+  const LinearStructure& structure = problem.structure();
+  const Eigen::SparseMatrix<double>& directions = structure.contact_directions;
+  const Eigen::MatrixXd contacts = directions * box.shapes(),
+                        modes = product(box.projection(), free.displacement);
+  const Eigen::VectorXd contacts_stand = directions * stands;
+  for (int h = 1; h <= harmonics; ++h) {
+    const double omega = 2.0 * std::numbers::pi * h * problem.condensed().frequency();
+    const Eigen::VectorXd amplitudes = amplitudes_of(modes, h);
+    for (Eigen::Index j = 0; j < amplitudes.size(); ++j) {
+      const double amplitude = amplitudes[j];
+      if (!(amplitude > least_part * amplitudes.maxCoeff()) || contacts.col(j).isZero(0.0)) continue;
+      const Eigen::VectorXd shape = box.shapes().col(j);
+      const double square = shape.dot(structure.stiffness * shape),
+                   damped = omega * shape.dot(structure.damping * shape),
+                   load = amplitude * std::hypot(square - omega * omega, damped),
+                   most = std::min(most_times * amplitude, load / damped),
+                   found = resonant_amplitude(problem, contacts_stand, contacts.col(j), square, omega * omega,
+                                              amplitude, most);
+      box.include_mode(j, factor * found, factor * found * omega);
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<StateBox> StateBox::make(const LinearStructure& structure, double frequency, int max_modes) {
@@ -64,6 +132,20 @@ void StateBox::include(const Motion& motion, double factor) {
   velocity_ = velocity_.cwiseMax(largest(motion.velocity, Eigen::VectorXd::Zero(middle_.size())));
 }
 
+void StateBox::include_mode(Eigen::Index mode, double displacement, double velocity) {
+  displacement_[mode] = std::max(displacement_[mode], displacement);
+  velocity_[mode] = std::max(velocity_[mode], velocity);
+}
+
+std::vector<BoxSide> StateBox::sides() const {
+  std::vector<BoxSide> sides;
+  for (Eigen::Index i = 0; i < displacement_.size(); ++i) {
+    const double largest = shapes_.col(i).cwiseAbs().maxCoeff();
+    sides.push_back({largest * displacement_[i], largest * velocity_[i]});
+  }
+  return sides;
+}
+
 StructureState StateBox::random(std::mt19937& generator) const {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto within = [&](Eigen::VectorXd modes, const Eigen::VectorXd& sides) -> Eigen::VectorXd {
@@ -76,7 +158,7 @@ StructureState StateBox::random(std::mt19937& generator) const {
   return state;
 }
 
-std::optional<StateBox> box_of_free_motion(ContactProblem& problem, double frequency) {
+std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency) {
   constexpr double larger = 2.0;
   constexpr int points_of_period = 256;
   problem.condensed().set_load_frequency(frequency);
@@ -89,6 +171,7 @@ std::optional<StateBox> box_of_free_motion(ContactProblem& problem, double frequ
   Motion free = vibration_of(structure_motion(problem.condensed(), open, points_of_period));
   const double factor = larger * factor_to_gap(problem, stands, free);
   box->set_middle(stands);
+  include_resonances(problem, stands, free, larger, *box);
   free.displacement.colwise() += stands;
   box->include(free, factor);
   return box;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <random>
 
-#include "wavebalance/solvers/problem/contact_problem.hpp"
+#include "wavebalance/solvers/problem/coexisting_motions.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -25,8 +25,15 @@ class StateBox {
   /// Makes it large enough for a motion of all degrees of freedom whose distance from the middle is
   /// multiplied by `factor`.
   void include(const Motion& motion, double factor);
+  /// Makes it large enough for a vibration of one mode: half sides of its displacement and velocity.
+  void include_mode(Eigen::Index mode, double displacement, double velocity);
   /// A state uniform in the box.
   StructureState random(std::mt19937& generator) const;
+
+  const Eigen::MatrixXd& shapes() const { return shapes_; }          ///< n x m, mass-normalised
+  const Eigen::MatrixXd& projection() const { return projection_; }  ///< m x n
+  /// The half sides as they are told.
+  std::vector<BoxSide> sides() const;
 
  private:
   Eigen::MatrixXd shapes_, projection_;      // n x m, m x n
@@ -35,8 +42,11 @@ class StateBox {
 };
 
 /// A box around what the static loads deflect, with the contacts that they close. It holds twice the
-/// vibration without contact at a frequency of the load (Hz), which is enlarged until it reaches a gap.
-/// Nothing where the structure has no modes to compute.
-std::optional<StateBox> box_of_free_motion(ContactProblem& problem, double frequency);
+/// vibration without contact at a frequency of the load (Hz), which is enlarged until it reaches a gap, and
+/// twice the resonant vibrations that the laws move there. Such is one of a single mode whose frequency, with
+/// the stiffness that the contacts have in the first harmonic, is that of a harmonic of the load, and of
+/// which the damping takes no more than the work of the load. Nothing where the structure has no
+/// modes to compute. O(modes contacts) evaluations of the laws.
+std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency);
 
 }  // namespace wavebalance::solvers::detail

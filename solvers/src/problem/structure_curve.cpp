@@ -125,7 +125,7 @@ StretchStart StructureCurve::start_of(const Stretch& stretch, bool forwards) con
     start.direction = direction_from(curve_, at, forwards, clear * unit_of_parameter(options_));
     const PeriodicResponse response = problem_.response(curve_, start.value, curve_.points[at].unknown);
     start.motion = near_phases(problem_, response, near).value().motion;
-    if (start.motion.status != PhasesStatus::no_motion_near) break;  // elsewhere it takes as much
+    if (start.motion.status != PhasesStatus::not_found) break;  // elsewhere it takes as much
   }
   return start;
 }

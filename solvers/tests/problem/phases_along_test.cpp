@@ -64,7 +64,7 @@ TEST(PhasesAlong, TryOneSolutionAfterAnother) {
   ASSERT_EQ(found.points.size(), 2u);
   EXPECT_EQ(found.points[0]->status, PhasesStatus::converged);
   EXPECT_EQ(found.points[0]->place, 1u);
-  EXPECT_EQ(found.points[1]->status, PhasesStatus::no_motion_near);
+  EXPECT_EQ(found.points[1]->status, PhasesStatus::not_found);
   EXPECT_TRUE(std::isnan(found.points[1]->displacement_error));
   EXPECT_FALSE(found.points[1]->stability);
 }
@@ -79,7 +79,7 @@ TEST(PhasesAlong, AreNotThoseOfAMotionFartherAwayThanAllowed) {
   CurvePhasesOptions options;
   options.max_distance = 0.5 * found.displacement_error;
   const ResponsePhases none = near_phases(problem, response, options).value();
-  EXPECT_EQ(none.motion.status, PhasesStatus::no_motion_near);
+  EXPECT_EQ(none.motion.status, PhasesStatus::not_found);
   EXPECT_TRUE(std::isnan(none.displacement_error) && std::isnan(none.force_error));
   options.max_distance = 2.0 * found.displacement_error;
   EXPECT_EQ(near_phases(problem, response, options)->motion.status, PhasesStatus::converged);

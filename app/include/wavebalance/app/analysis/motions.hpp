@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,9 +26,12 @@ struct FoundMotion {
 
 /// The motions at forcing.frequency.
 struct Motions {
-  std::string status = "no_motion";  ///< solvers::MotionsStatus
-  std::vector<FoundMotion> motions;
-  int starts = 0, none = 0;   ///< as of solvers::CoexistingMotions
+  std::string status = "not_settled";  ///< solvers::MotionsStatus, or with impacts solvers::ImpactStatus
+  std::vector<FoundMotion> motions{};
+  std::vector<solvers::UnsolvedMotion> unsolved{};
+  int starts = 0, none = 0;                     ///< as of solvers::CoexistingMotions
+  std::map<std::string, int> none_by_status{};  ///< with impacts, `none` by what the starts ended with
+  std::vector<solvers::BoxSide> box{};
   double wall_seconds = 0.0;  ///< composition, search and samples
 };
 

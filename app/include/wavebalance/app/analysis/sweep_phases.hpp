@@ -23,14 +23,14 @@ struct SweepPhases {
 /// "converged", "converged_beside" where that holds a few points of the curve away alone, another
 /// solvers::PhasesStatus, or "not_computed" where they were not sought.
 std::string phases_status(const SweepPhases::Point& point);
-/// Whether it was sought and the structure has no motion near.
-bool has_no_motion_near(const SweepPhases::Point& point);
+/// Whether it was sought and not found near.
+bool was_not_found(const SweepPhases::Point& point);
 
 /// The stability along a curve that its record tells.
 struct StabilityAlong {
   std::vector<solvers::PointStability> points;
   /// Of each point: "phases" where the count is that of the structure's motion, "balance", or "none" where
-  /// the structure has no motion near and no verdict is given. Empty without SweepPhases::points.
+  /// no motion of the structure was found near and no verdict is given. Empty without SweepPhases::points.
   std::vector<std::string> by;
   std::string status = "converged";  ///< or why the first count that is not known is not
 };

@@ -28,8 +28,9 @@ namespace wavebalance::solvers {
 /// slip_in_a_plane for two tangents, mixed_laws beside laws of another kind and free_structure for a
 /// structure that is free to move.
 ///
-/// Throws std::invalid_argument for sizes that do not fit and options out of range. Forces of the start have
-/// no part in it. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
+/// Throws std::invalid_argument for sizes that do not fit and options out of range. Forces of the start
+/// (N, as large or empty) say where contacts that stick all the time hold their sliders. A Newton step costs
+/// O(n^3 + n^2 poles) for n unknowns.
 PhaseMotion friction_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                             const ContactPhasesOptions& options = {},
                             const Eigen::MatrixXd& start_force = {});

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <vector>
 
 #include "wavebalance/solvers/impacts/impact_response.hpp"
@@ -26,10 +27,13 @@ struct CoexistingImpacts {
 
 /// The motions found.
 struct ImpactMotions {
-  ImpactStatus status = ImpactStatus::not_settled;  ///< converged where there are motions
-  std::vector<CoexistingImpacts> motions;           ///< in the order in which they were found
-  int starts = 0;                                   ///< random ones that were taken
-  int none = 0;  ///< of these, those that settle to no motion that is solved for
+  /// Converged where there are motions; else what became of the motion that is clear of all obstacles at
+  /// first.
+  ImpactStatus status = ImpactStatus::not_settled;
+  std::vector<CoexistingImpacts> motions;  ///< in the order in which they were found
+  int starts = 0;                          ///< random ones that were taken
+  /// How many of these settle to no motion that is solved for, by what they ended with.
+  std::map<ImpactStatus, int> none;
 };
 
 /// The periodic motions with impacts of one load: those that impact_response() settles to, from where the

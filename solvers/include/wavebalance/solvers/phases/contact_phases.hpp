@@ -25,8 +25,7 @@ struct ContactPhase {
 
 enum class PhasesStatus {
   converged,
-  no_motion_near,    ///< the equations have no solution near the start: it is not near a motion of the
-                     ///< structure
+  not_found,  ///< the search ended without a motion near the start, which is no proof that there is none
   tolerance_missed,  ///< the error is estimated above the tolerance at the largest number of unknowns
   too_many_phases,   ///< the first steps of Newton's method would take more than max_operations
   /// a law has no finite stiffness at a contact with mass, or at a structure that is free to move
@@ -78,7 +77,7 @@ struct ContactPhasesOptions {
 /// Immutable; copies share it.
 class PhaseMotion {
  public:
-  PhasesStatus status = PhasesStatus::no_motion_near;
+  PhasesStatus status = PhasesStatus::not_found;
   std::vector<ContactPhase> phases;  ///< by contact, then by begin
   /// Contacts with friction by the parts of the period in which they are open, stick and slip.
   std::vector<FrictionAlong> friction;

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -42,27 +43,46 @@ struct CoexistingMotion {
 };
 
 enum class MotionsStatus {
-  converged,  ///< there are motions, and all starts were taken
-  no_motion,  ///< no start settles to a motion that contact phases solve for
-  no_modes,   ///< the structure has no modes to compute
-  cancelled   ///< the observer returned false; the motions are those found before
+  converged,    ///< there are motions, and all starts were taken
+  not_settled,  ///< no start settles to a motion that repeats within the options' limits
+  not_solved,   ///< starts do, or nearly, and contact phases solve for none of them
+  no_modes,     ///< the structure has no modes to compute
+  cancelled     ///< the observer returned false; the motions are those found before
 };
 
 std::string_view to_string(MotionsStatus status);
 
+/// How far random states are from the middle of their box in one mode: its largest part in the displacement
+/// (m) and the velocity (m/s) of any degree of freedom.
+struct BoxSide {
+  double displacement = 0.0, velocity = 0.0;
+};
+
+/// A motion that starts settle to, by integration, and that contact phases do not solve for.
+struct UnsolvedMotion {
+  PhasesStatus status = PhasesStatus::not_found;   ///< with which contact phases ended
+  int periods = 1;                                 ///< of the load, after which it repeats
+  double max_displacement = 0.0, max_force = 0.0;  ///< of any contact, m, N
+  int arrivals = 0;                                ///< random starts that settle to it
+};
+
 /// The motions found at one frequency.
 struct CoexistingMotions {
-  MotionsStatus status = MotionsStatus::no_motion;
+  MotionsStatus status = MotionsStatus::not_settled;
   std::vector<CoexistingMotion> motions;  ///< in the order in which they were found
+  std::vector<UnsolvedMotion> unsolved;   ///< likewise
   int starts = 0;                         ///< random ones that were taken
-  int none = 0;  ///< of these, those that settle to nothing, or to what contact phases do not solve for
+  int none = 0;                           ///< of these, those that settle to none of the motions
+  std::vector<BoxSide> box;               ///< of the random states, by mode
 };
 
 /// The periodic motions at a frequency of the load: those that the structure settles to from rest and from
 /// random states, and unstable ones between them. The states are uniform in a box of the modes around the
-/// static deflection, of half sides twice the largest displacements and velocities of the settled motion
-/// and of that without contact, enlarged until it reaches a gap. Motions are solved for by contact phases, so
-/// that two are the same where their displacements agree to 1e-6, also by whole periods of the load later.
+/// static deflection, of half sides twice the largest displacements and velocities of the settled motion,
+/// of that without contact, enlarged until it reaches a gap, and of the resonant vibrations that the laws
+/// move to this frequency. Motions are solved for by contact phases, so that two are the same where their
+/// displacements agree to 1e-6, also by whole periods of the load later. One that contact phases do not solve
+/// for is told by its integration.
 ///
 /// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
 /// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that settle to different motions

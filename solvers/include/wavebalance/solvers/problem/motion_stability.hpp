@@ -14,7 +14,7 @@ namespace wavebalance::solvers {
 /// The stability of a motion.
 struct MotionStability {
   /// "stable", "unstable", or why it is not known: a StabilityStatus, "no_modes" of the structure, or
-  /// "no_motion_near" of a PhasesStatus.
+  /// "not_found" of a PhasesStatus.
   std::string status = "no_modes";
   int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
   /// The multiplier of the largest modulus, Im >= 0, of several the one with the largest real part; NaN where
@@ -36,8 +36,8 @@ MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
 
 /// The stability of a response, at whose frequency and load the problem is. By the phases of contact of
 /// `motion` where these are known: all multipliers at once, PhaseMotion::multipliers(), which have no
-/// harmonics to truncate. Where the structure has no motion near the response there is no verdict. `motion`
-/// may be null.
+/// harmonics to truncate. Where none was found near the response there is no verdict. `motion` may be
+/// null.
 MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
                                  const PhaseMotion* motion = nullptr);

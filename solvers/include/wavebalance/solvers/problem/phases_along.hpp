@@ -15,7 +15,7 @@ struct CurvePlace {
 
 /// The motion of the structure near a solution of a curve.
 struct PointPhases {
-  PhasesStatus status = PhasesStatus::no_motion_near;
+  PhasesStatus status = PhasesStatus::not_found;
   double displacement_error = missing, force_error = missing;  ///< as of ResponsePhases
   /// That of the motion of the structure, with CurvePhasesOptions::stability and where it has converged.
   std::optional<MotionStability> stability{};
@@ -35,7 +35,7 @@ struct CurvePhasesOptions {
   void validate() const;
 };
 
-/// ContactProblem::phases() of a response, with the status no_motion_near where the motion found is farther
+/// ContactProblem::phases() of a response, with the status not_found where the motion found is farther
 /// away than options.max_distance.
 std::optional<ResponsePhases> near_phases(ContactProblem& problem, const PeriodicResponse& response,
                                           const CurvePhasesOptions& options = {});

@@ -1,0 +1,108 @@
+"""All motions at one frequency: what the search says of those that it finds, and of what it does not solve for."""
+
+import math
+
+import pytest
+
+
+def oscillator(matrix, stiffness, mass, damping):
+    """The files of one mass on a spring and a dashpot, as the [structure] of a scene."""
+    names = [matrix(f"{name}.mtx", [[value]])
+             for name, value in (("m", mass), ("k", stiffness), ("c", damping))]
+    return '[structure]\ntype = "matrices"\nmass = "{}"\nstiffness = "{}"\ndamping = "{}"\n'.format(*names)
+
+
+def tapping(matrix, tmp_path, points):
+    """A cantilever that taps on a sample, attraction and Hertz contact, as a table of so many points."""
+    stiffness, frequency, quality, free = 2.0, 70e3, 150.0, 20e-9
+    omega = 2 * math.pi * frequency
+    mass = stiffness / omega**2
+    distance, touch = 15e-9, 0.165e-9
+
+    def force(u):
+        d = distance - u
+        return (-6.4e-20 * 10e-9 / 6 / max(d, touch) ** 2
+                + 4 / 3 * 1.3e9 * math.sqrt(10e-9) * max(touch - d, 0.0) ** 1.5)
+
+    places = [-40e-9 + 54.8e-9 * i / (points // 3) for i in range(points // 3)]
+    places += [14.8e-9 + 3.2e-9 * i / points for i in range(points)]
+    (tmp_path / "sample.csv").write_text(
+        "u_m,force_N\n" + "".join(f"{u:.12e},{force(u):.12e}\n" for u in places))
+    return (oscillator(matrix, stiffness, mass, mass * omega / quality)
+            + f"""contact_dofs = [1]
+[contact]
+law = "table"
+table = "sample.csv"
+[forcing]
+load_dofs = [1]
+amplitude = {stiffness * free / quality}
+frequency = {frequency}
+[analysis]
+type = "motions"
+random_starts = 0
+""")
+
+
+def test_a_motion_that_phases_do_not_solve_for_is_told_with_what_failed(run, matrix, tmp_path):
+    """A table of many points has too many phases; the motion that the structure settles to is there all the same."""
+    record = run(tapping(matrix, tmp_path, 1500))
+    assert record.code == 3
+    assert record.summary["status"] == "not_solved"
+    (unsolved,) = record.summary["unsolved_motions"]
+    assert unsolved["phases_status"] == "too_many_phases"
+    assert unsolved["period"] == 1
+    assert unsolved["max_displacement_m"] == pytest.approx(16.1378e-9, rel=1e-3)
+    assert any("too_many_phases" in warning for warning in record.summary["warnings"])
+    assert "no motion" not in record.errors
+
+
+def test_the_box_of_random_states_follows_the_law(run, matrix):
+    """A cubic spring moves the resonance to 2.5 rad/s, where the response without contact is small."""
+    record = run(oscillator(matrix, 1.0, 1.0, 0.1) + f"""contact_dofs = [1]
+[contact]
+law = "cubic"
+cubic_stiffness = 1.0
+[forcing]
+load_dofs = [1]
+amplitude = 1.0
+frequency = {2.5 / (2 * math.pi)}
+[analysis]
+type = "motions"
+random_starts = 4
+""")
+    stable = [one for one in record.summary["motions"] if one["stability"] == "stable"]
+    assert max(one["max_displacement_m"] for one in stable) == pytest.approx(2.76813, rel=1e-5)
+    assert sum(one["share"] for one in stable) == pytest.approx(1.0)
+    (side,) = record.summary["start_box"]
+    # Twice the amplitude at which 1 + 3/4 a^2 is the square of 2.5 rad/s.
+    assert side["largest_displacement_m"] == pytest.approx(2 * math.sqrt(4 / 3 * (2.5**2 - 1)), rel=0.3)
+    assert side["largest_velocity_m_per_s"] == pytest.approx(2.5 * side["largest_displacement_m"])
+
+
+STOPS = """contact_dofs = [1]
+[contact]
+law = "rigid"
+gap = {gap}
+restitution = {restitution}
+[forcing]
+load_dofs = [1]
+amplitude = 1.0
+frequency = {frequency}
+[[forcing.terms]]
+harmonic = 0
+amplitude = {static}
+dofs = [1]
+[analysis]
+type = "motions"
+random_starts = 3
+"""
+
+
+def test_starts_that_chatter_are_not_told_as_the_absence_of_motions(run, matrix):
+    """Pressed against its stop for half of the period, every start bounces ever faster."""
+    scene = oscillator(matrix, 1.0, 1.0, 0.1) + STOPS.format(gap=1.0, restitution=0.5, frequency=0.02, static=0.5)
+    record = run(scene)
+    assert record.code == 3
+    assert record.summary["status"] == "chattering"
+    (warning,) = record.summary["warnings"]
+    assert "3 of 3 random starts" in warning and "(3 " in warning  # and how they ended
