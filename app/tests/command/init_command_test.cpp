@@ -194,7 +194,8 @@ TEST(NextSteps, NameKeysThatExist) {
                                "ended at frequency ratio 1.2",
                                "subharmonic",
                                "step_failure",
-                               "no_motion",
+                               "not_settled",
+                               "not_solved",
                                "no_modes"})
       for (const bool exact : {false, true})
         for (const std::string& key : keys_in(next_step(type, status, exact))) {

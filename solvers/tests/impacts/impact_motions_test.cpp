@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "support/impact_table.hpp"
 #include "support/refusal.hpp"
