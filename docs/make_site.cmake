@@ -19,7 +19,7 @@ function(run_step)
 endfunction()
 
 set(package "")
-file(GLOB core ${python_package}/wavebalance/_core*)
+file(GLOB core ${python_package}/wavebalance/_core*.so)
 if(core)
   set(package ${python_package})
 endif()

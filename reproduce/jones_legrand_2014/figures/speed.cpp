@@ -189,7 +189,7 @@ app::Panel panel_of(const Costs& costs, bool of_force, const Range& range) {
   if (!std::isfinite(costs.milliseconds(of_force, 0, 0)))
     panel.texts.push_back({std::sqrt(error_asked(range.last) * error_asked(0)),
                            std::sqrt(range.least * range.most),
-                           "Fourier:Fourier reaches none of these errors"});
+                           "Fourier:Fourier reaches none"});
   return panel;
 }
 
