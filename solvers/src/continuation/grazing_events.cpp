@@ -77,7 +77,9 @@ bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const Law
     if (!solve_in(plane, &sides, event, corrections)) return false;
     const Crossing earlier = passed(event, sides);
     if (earlier.sample < 0) {
-      if (!leads_to(crossing, sides, event) || !leave_grazing_event(crossing, sides, event)) return false;
+      CurvePoint arrives = event;
+      if (!leads_to(crossing, sides, arrives) || !leave_grazing_event(crossing.sample, arrives, event))
+        return false;
       accept(std::move(event), sides);
       step_ = std::clamp(1.6 * step_, options_.min_step, options_.max_step);
       return true;
@@ -88,8 +90,9 @@ bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const Law
   return false;
 }
 
-// True if the piece leads from point_ to the event without a large change of direction.
-bool ArcLength::leads_to(Crossing crossing, const LawPieces& sides, CurvePoint event) {
+// True if the piece leads from point_ to the event without a large change of direction. Sets its tangent
+// there.
+bool ArcLength::leads_to(Crossing crossing, const LawPieces& sides, CurvePoint& event) {
   const bool upwards = sides[crossing.sample] <= crossing.kink;
   return tangent_through(crossing.sample, upwards, event) && is_ahead(event, options_.max_angle);
 }
@@ -135,22 +138,19 @@ bool ArcLength::grazing_tangent(int sample, const std::vector<Crossing>& togethe
 }
 
 // Finds how the curve continues when several samples are at kinks.
-// A single sample always passes through its kink.
+// A single sample always passes through its kink, the way in which it arrives there. That kink may be the one
+// at which its piece began.
 // Samples of symmetric contacts pass through together.
 // In general some pass and the others return to their sides; the first combination that keeps the orientation
 // is taken.
-bool ArcLength::leave_grazing_event(Crossing crossing, const LawPieces& sides, CurvePoint& event) {
+bool ArcLength::leave_grazing_event(int sample, const CurvePoint& arrives, CurvePoint& event) {
   constexpr std::size_t most = 8;
-  const int sample = crossing.sample;
   const std::vector<Crossing> together = samples_at_kinks(event);
   for (const auto& [l, kink] : together)
     orientation_unknown_ =
         orientation_unknown_ || l / system_.problem().points() != sample / system_.problem().points();
   std::vector<bool> through;
-  for (const auto& [l, kink] : together) {
-    const bool beyond = sides[l] > kink;
-    through.push_back(kink_at(point_, l) == kink ? beyond : !beyond);
-  }
+  for (const auto& [l, kink] : together) through.push_back(arrives.displacement_tangent[l] > 0.0);
   if (grazing_tangent(sample, together, through, event))
     return together.size() > 1 || event.orientation * point_.orientation >= 0;
   if (together.size() > most) return false;

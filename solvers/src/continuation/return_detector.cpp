@@ -48,10 +48,11 @@ bool ReturnDetector::meets(ArcLength& curve, const CurvePoint& kept) const {
          is_same(found, kept);
 }
 
-// A grazing event has one tangent before and another after it. The next point is kept in its place.
+// A grazing event has one tangent before and another after it. The next point is kept in its place, unless
+// all points are such events.
 void ReturnDetector::add(const CurvePoint& point, int count) {
-  const bool due = kept_.empty() || count >= 2 * kept_.back().count;
-  if (due && !point.grazing) kept_.push_back({point, count, false});
+  const int due = kept_.empty() ? 0 : (point.grazing ? 4 : 2) * kept_.back().count;
+  if (count >= due && (count > 4 || !point.grazing)) kept_.push_back({point, count, false});
 }
 
 std::optional<std::size_t> ReturnDetector::returned_to(ArcLength& curve) {

@@ -193,11 +193,11 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
   Crossing passed(const CurvePoint& candidate, const LawPieces& sides) const;
   LawPieces sides_of(const CurvePoint& point) const;
   std::vector<Crossing> samples_at_kinks(const CurvePoint& point) const;
-  bool leads_to(Crossing crossing, const LawPieces& sides, CurvePoint event);
+  bool leads_to(Crossing crossing, const LawPieces& sides, CurvePoint& event);
   bool tangent_through(int sample, bool inwards, CurvePoint& event);
   bool grazing_tangent(int sample, const std::vector<Crossing>& together, const std::vector<bool>& beyond,
                        CurvePoint& event);
-  bool leave_grazing_event(Crossing crossing, const LawPieces& sides, CurvePoint& event);
+  bool leave_grazing_event(int sample, const CurvePoint& arrives, CurvePoint& event);
 
   ContactSystem& system_;
   const CurveParameter& parameter_;
