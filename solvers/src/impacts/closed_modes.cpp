@@ -14,11 +14,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-double harmonics_at(const Eigen::VectorXcd& amplitudes, double time, double rate, int derivative) {
+double harmonics_at(const Eigen::VectorXcd& amplitudes, double time) {
   Complex sum = 0.0;
   for (Index n = 0; n < amplitudes.size(); ++n)
-    sum += std::pow(Complex(0.0, double(n) * rate), derivative) * amplitudes[n] *
-           std::polar(1.0, 2.0 * std::numbers::pi * double(n) * time);
+    sum += amplitudes[n] * std::polar(1.0, 2.0 * std::numbers::pi * double(n) * time);
   return sum.real();
 }
 
@@ -92,7 +91,9 @@ void ClosedModes::set_forcing(const Eigen::VectorXd& impulse, double s1, double 
 
 void ClosedModes::add_signal(int contact, const Eigen::RowVectorXd& row, Eigen::VectorXcd harmonics,
                              double allowed) {
-  Signal signal{contact, row.cast<Complex>() * vectors_, std::move(harmonics), allowed, 0.0};
+  HarmonicSeries series(harmonics, rate());
+  Signal signal{contact, row.cast<Complex>() * vectors_, std::move(harmonics), std::move(series), allowed,
+                0.0};
   for (Index n = 0; n < signal.harmonics.size(); ++n)
     signal.harmonics_second += std::pow(double(n) * rate(), 2) * std::abs(signal.harmonics[n]);
   signals_.push_back(std::move(signal));
@@ -100,15 +101,13 @@ void ClosedModes::add_signal(int contact, const Eigen::RowVectorXd& row, Eigen::
 
 Eigen::VectorXcd ClosedModes::modes_of(const Eigen::VectorXd& states, double time) const {
   Eigen::VectorXcd rest = states.cast<Complex>();
-  for (Index i = 0; i < rest.size(); ++i)
-    rest[i] -= harmonics_at(forced_.row(i).transpose(), time, rate(), 0);
+  for (Index i = 0; i < rest.size(); ++i) rest[i] -= harmonics_at(forced_.row(i).transpose(), time);
   return inverse_ * rest;
 }
 
 Eigen::VectorXd ClosedModes::states_of(const Eigen::VectorXcd& modes, double time) const {
   Eigen::VectorXd states = (vectors_ * modes).real();
-  for (Index i = 0; i < states.size(); ++i)
-    states[i] += harmonics_at(forced_.row(i).transpose(), time, rate(), 0);
+  for (Index i = 0; i < states.size(); ++i) states[i] += harmonics_at(forced_.row(i).transpose(), time);
   return states;
 }
 
@@ -126,12 +125,11 @@ Eigen::VectorXd ClosedModes::rates(const Eigen::VectorXd& states) const {
 }
 
 double ClosedModes::value(const Signal& signal, const Eigen::VectorXcd& modes, double time) const {
-  return (signal.row * modes)(0).real() + harmonics_at(signal.harmonics, time, rate(), 0);
+  return (signal.row * modes)(0).real() + signal.series.at(time)[0];
 }
 
 double ClosedModes::slope(const Signal& signal, const Eigen::VectorXcd& modes, double time) const {
-  return (signal.row * exponents_.cwiseProduct(modes))(0).real() +
-         harmonics_at(signal.harmonics, time, rate(), 1);
+  return (signal.row * exponents_.cwiseProduct(modes))(0).real() + signal.series.at(time)[1];
 }
 
 double ClosedModes::force(const Eigen::VectorXcd& modes, double time) const {

@@ -53,6 +53,7 @@ class ClosedModes {
     int contact = -1;
     Eigen::RowVectorXcd row;
     Eigen::VectorXcd harmonics;
+    HarmonicSeries series;  // of the harmonics
     double allowed = 0.0, harmonics_second = 0.0;
   };
   ClosedModes(const ImpactModel& model, int contact) : model_(&model), contact_(contact) {}

@@ -67,6 +67,20 @@ bool ImpactFlow::rebound(int contact) {
   return false;
 }
 
+// Whether a contact has rebounded shortly before a time at which it cannot be told whether it touches: it
+// rests there, or is about to. Sets where and when.
+bool ImpactFlow::comes_to_rest(double time) {
+  constexpr double shortly = 1e-3, slow = 1e-2;  // periods, of the fastest impact
+  if (events_.empty() || time - events_.back().time > shortly) return false;
+  const Event& last = events_.back();
+  const double speed = last.impulse * model_.inverse_mass()(last.contact, last.contact) /
+                       (1.0 + model_.problem().restitution[last.contact]);
+  if (speed > slow * fastest_) return false;
+  end_contact_ = last.contact;
+  end_time_ = time;
+  return true;
+}
+
 bool ImpactFlow::advance_period() {
   const double begin = time_;
   const bool whole = advance_to(begin + 1.0);
@@ -82,7 +96,8 @@ bool ImpactFlow::advance_to(double time) {
     Flight flight(model_, state_, time_, length, allowed_penetration(model_));
     const Touch touch = flight.first_touch();
     if (touch.kind == Touch::Kind::unresolved) {
-      end_ = ImpactStatus::grazing;
+      end_ = comes_to_rest(time_ + touch.time / model_.period()) ? ImpactStatus::chattering
+                                                                 : ImpactStatus::grazing;
       return false;
     }
     const bool free = touch.kind == Touch::Kind::none;

@@ -39,6 +39,7 @@ class ImpactFlow {
  private:
   bool advance_to(double time);
   bool rebound(int contact);
+  bool comes_to_rest(double time);
 
   const ImpactModel& model_;
   int max_impacts_;

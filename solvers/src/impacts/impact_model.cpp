@@ -45,7 +45,10 @@ ImpactModel::ImpactModel(const ImpactsProblem& problem)
   outputs_.bottomRows(contacts) = outputs_.middleRows(contacts, contacts) * exponents_.asDiagonal();
   third_moduli_ = (outputs_.bottomRows(contacts) * exponents_.asDiagonal()).cwiseAbs();
   free_third_.resize(contacts);
-  for (int c = 0; c < contacts; ++c) free_third_[c] = free_magnitude(c, 3);
+  for (int c = 0; c < contacts; ++c) {
+    free_third_[c] = free_magnitude(c, 3);
+    free_.emplace_back(problem.contact_free.row(c).transpose(), turn * problem.frequency);
+  }
   inverse_mass_ = inverse_contact_mass(problem.dynamics);
   for (int c = 0; c < contacts; ++c) {
     displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(problem.gaps[c]));
@@ -71,19 +74,12 @@ bool ImpactModel::is_resonant() const {
 
 ContactState ImpactModel::free_motion(double time) const {
   const Index contacts = shapes_.rows();
-  const Eigen::MatrixXcd& amplitudes = problem_.contact_free;
-  ContactState state{Eigen::VectorXd::Zero(contacts), Eigen::VectorXd::Zero(contacts),
-                     Eigen::VectorXd::Zero(contacts)};
-  for (Index n = 0; n < amplitudes.cols(); ++n) {
-    const double rate = turn * double(n) * problem_.frequency;
-    const Complex phase = std::polar(1.0, turn * double(n) * time);
-    for (Index c = 0; c < contacts; ++c) {
-      if (amplitudes(c, n) == 0.0) continue;
-      const Complex value = amplitudes(c, n) * phase;
-      state.displacement[c] += value.real();
-      state.velocity[c] -= rate * value.imag();
-      state.acceleration[c] -= rate * rate * value.real();
-    }
+  ContactState state{Eigen::VectorXd(contacts), Eigen::VectorXd(contacts), Eigen::VectorXd(contacts)};
+  for (Index c = 0; c < contacts; ++c) {
+    const auto [displacement, velocity, acceleration] = free_[static_cast<std::size_t>(c)].at(time);
+    state.displacement[c] = displacement;
+    state.velocity[c] = velocity;
+    state.acceleration[c] = acceleration;
   }
   return state;
 }

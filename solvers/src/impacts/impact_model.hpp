@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "impacts/harmonic_series.hpp"
 #include "wavebalance/solvers/impacts/impacts_problem.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -65,6 +66,7 @@ class ImpactModel {
 
   ImpactsProblem problem_;
   double period_;
+  std::vector<HarmonicSeries> free_;         // of each contact
   Eigen::VectorXcd exponents_, difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
   Eigen::MatrixXcd shapes_, left_, outputs_;
   Eigen::MatrixXd third_moduli_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "linalg/index.hpp"
 
@@ -49,33 +50,53 @@ CurvePoint upwards(const ImpactStep& step, const CurvePoint& at) {
   return along;
 }
 
+// The impacts without an impulse at a place: several of equal contacts vanish together. The last one first.
+std::vector<Index> without_impulse(const CurvePoint& at) {
+  constexpr double rounding = 1e-9;  // of the impulses' scale
+  const Index count = at.displacement.size() / 2;
+  std::vector<Index> gone;
+  for (Index i = count - 1; i >= 0; --i)
+    if (std::abs(at.displacement[count + i]) <= rounding) gone.push_back(i);
+  return gone;
+}
+
 std::optional<ImpactSwitch> vanishing(const ImpactStep& step) {
-  const auto [gone, share] = first_to_vanish(step);
-  if (gone < 0) return std::nullopt;
+  const auto [first, share] = first_to_vanish(step);
+  if (first < 0) return std::nullopt;
   CurvePoint start = step.last.point;
   start.displacement += share * (step.next.point.displacement - start.displacement);
   start.parameter += share * (step.next.point.parameter - start.parameter);
-  const std::optional<ImpactPlace> grazing = step.path.at_grazing(start, gone);
+  const std::optional<ImpactPlace> grazing = step.path.at_grazing(start, first);
   if (!grazing || !lies_near(step, grazing->point)) return std::nullopt;
   std::vector<int> contacts = step.path.contacts();
-  contacts.erase(contacts.begin() + gone);
+  Eigen::VectorXd unknowns = grazing->point.displacement;
+  const std::vector<Index> gone = without_impulse(grazing->point);
+  for (const Index i : gone) {
+    contacts.erase(contacts.begin() + i);
+    unknowns = without_impact(unknowns, i);
+  }
   ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}};
-  const CurvePoint at = start_at(without_impact(grazing->point.displacement, gone), grazing->point.parameter);
+  const CurvePoint at = start_at(unknowns, grazing->point.parameter);
   std::optional<ImpactPlace> place = found.path->at_value(at, at.parameter);
   if (!place || !found.path->set_tangent(place->point, upwards(step, at))) return std::nullopt;
   // Where the contact is below its gap it touches no more.
   CurvePoint whole = place->point;
-  whole.displacement_tangent = with_impact(whole.displacement_tangent, gone, 0.0);
-  if (step.path.height_slope(gone, whole) > 0.0) reverse(place->point);
+  for (auto i = gone.rbegin(); i != gone.rend(); ++i)
+    whole.displacement_tangent = with_impact(whole.displacement_tangent, *i, 0.0);
+  if (step.path.height_slope(first, whole) > 0.0) reverse(place->point);
   found.place = std::move(*place);
   return found;
 }
 
-// The number and the instant of the impact that the penetrating contact makes, among those of the path.
-std::pair<Index, double> place_of_touch(const ImpactStep& step) {
-  const Eigen::VectorXd& unknowns = step.next.point.displacement;
-  const auto count = Index(step.path.contacts().size());
-  double time = step.next.motion.penetration_time;
+// A contact that touches its obstacle, and where it does, periods.
+struct Contact {
+  int contact = 0;
+  double time = 0.0;
+};
+
+// The number of the impact before which a touch comes, with its instant counted from that of the first.
+std::pair<Index, double> place_of_touch(const Eigen::VectorXd& unknowns, double time) {
+  const Index count = unknowns.size() / 2;
   if (count == 0) return {0, time};
   time = unknowns[0] + (time - unknowns[0] - std::floor(time - unknowns[0]));
   Index place = 0;
@@ -83,30 +104,97 @@ std::pair<Index, double> place_of_touch(const ImpactStep& step) {
   return {place, time};
 }
 
-std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
-  if (step.next.motion.penetrating_contact < 0) return std::nullopt;
-  const auto [added, time] = place_of_touch(step);
+// The contacts that touch their obstacles without an impulse in a motion, but for its impacts and one known
+// touch: equal contacts graze together. Those of highest points that reach the gap.
+std::vector<Contact> touches_beside(const ImpactMotion& motion, const Contact& known) {
+  constexpr int instants = 1024;
+  constexpr double same = 1e-4, rounding = 1e-8;  // periods, of the motion
+  const ImpactModel& model = *motion.model;
+  const auto near = [](double a, double b) { return std::abs(a - b - std::round(a - b)) < same; };
+  const auto height = [&](int contact, double time) {
+    return motion.displacement(Eigen::VectorXd::Constant(1, time))(contact) - model.problem().gaps[contact];
+  };
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / instants);
+  const Eigen::MatrixXd u = motion.displacement(times);
+  std::vector<Contact> found;
+  for (int c = 0; c < model.contacts(); ++c)
+    for (Index k = 0; k < instants; ++k) {
+      if (u(c, k) < u(c, (k + 1) % instants) || u(c, k) <= u(c, (k + instants - 1) % instants)) continue;
+      double low = (double(k) - 1.0) / instants, high = (double(k) + 1.0) / instants;
+      for (int i = 0; i < 50; ++i) {
+        const double third = (high - low) / 3.0;
+        if (height(c, low + third) < height(c, high - third))
+          low += third;
+        else
+          high -= third;
+      }
+      const double time = 0.5 * (low + high);
+      if (height(c, time) < -rounding * model.displacement_scale()) continue;
+      if (c == known.contact && near(time, known.time)) continue;
+      if (std::ranges::any_of(motion.impacts, [&](const Impact& impact) {
+            return impact.contact == c && near(impact.time, time);
+          }))
+        continue;
+      found.push_back({c, time});
+    }
+  return found;
+}
+
+// The path with impacts more, at the place where the first of them has no impulse.
+struct Added {
+  std::unique_ptr<ImpactPath> path;
+  std::optional<ImpactPlace> grazing;
+  Index first = 0;             // its number
+  std::vector<Index> numbers;  // of all that were added, in the order of their insertion
+};
+
+Added with_touches(const ImpactStep& step, const CurvePoint& at, const std::vector<Contact>& touches) {
+  Added added;
   std::vector<int> contacts = step.path.contacts();
-  contacts.insert(contacts.begin() + added, step.next.motion.penetrating_contact);
-  const auto count = Index(contacts.size());
-  ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}};
-  std::optional<ImpactPlace> grazing = found.path->at_grazing(
-      start_at(with_impact(step.next.point.displacement, added, time), step.next.point.parameter), added);
-  if (!grazing) return std::nullopt;
-  CurvePoint along = grazing->point;
-  along.displacement_tangent = Eigen::VectorXd::Unit(2 * count, count + added);
-  along.parameter_tangent = 0.0;
-  if (!found.path->set_tangent(grazing->point, along)) return std::nullopt;
-  if (grazing->point.displacement_tangent[count + added] < 0.0) reverse(grazing->point);
+  Eigen::VectorXd unknowns = at.displacement;
+  for (const Contact& touch : touches) {
+    const auto [place, time] = place_of_touch(unknowns, touch.time);
+    contacts.insert(contacts.begin() + place, touch.contact);
+    unknowns = with_impact(unknowns, place, time);
+    if (!added.numbers.empty() && place <= added.first) ++added.first;
+    if (added.numbers.empty()) added.first = place;
+    added.numbers.push_back(place);
+  }
+  added.path = std::make_unique<ImpactPath>(step.family, step.scales, contacts);
+  added.grazing = added.path->at_grazing(start_at(unknowns, at.parameter), added.first);
+  return added;
+}
+
+CurvePoint without(const CurvePoint& at, const std::vector<Index>& numbers) {
+  Eigen::VectorXd unknowns = at.displacement;
+  for (auto i = numbers.rbegin(); i != numbers.rend(); ++i) unknowns = without_impact(unknowns, *i);
+  return start_at(unknowns, at.parameter);
+}
+
+std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
+  const ImpactMotion& beyond = step.next.motion;
+  if (beyond.penetrating_contact < 0) return std::nullopt;
+  std::vector<Contact> touches{{beyond.penetrating_contact, beyond.penetration_time}};
+  Added added = with_touches(step, step.next.point, touches);
+  if (!added.grazing) return std::nullopt;
   // Without the impact that has no impulse it is a motion of the present path.
-  const CurvePoint at =
-      start_at(without_impact(grazing->point.displacement, added), grazing->point.parameter);
+  CurvePoint at = without(added.grazing->point, added.numbers);
   if (!lies_near(step, at)) return std::nullopt;
   std::optional<ImpactPlace> present = step.path.at_value(at, at.parameter);
   if (!present) return std::nullopt;
+  touches.front().time = added.grazing->point.displacement[added.first];
+  for (const Contact& other : touches_beside(present->motion, touches.front())) touches.push_back(other);
+  if (touches.size() > 1)
+    if (Added all = with_touches(step, present->point, touches); all.grazing) added = std::move(all);
+  std::optional<ImpactPlace>& grazing = added.grazing;
+  CurvePoint along = grazing->point;
+  const auto count = Index(added.path->contacts().size());
+  along.displacement_tangent = Eigen::VectorXd::Unit(2 * count, count + added.first);
+  along.parameter_tangent = 0.0;
+  if (!added.path->set_tangent(grazing->point, along)) return std::nullopt;
+  if (grazing->point.displacement_tangent[count + added.first] < 0.0) reverse(grazing->point);
   grazing->motion = std::move(present->motion);
-  found.place = std::move(*grazing);
-  return found;
+  return ImpactSwitch{std::move(added.path), std::move(*grazing)};
 }
 
 std::optional<ImpactSwitch> passing(const ImpactStep& step) {
