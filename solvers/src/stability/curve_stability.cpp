@@ -73,6 +73,12 @@ double distance_from(SpecialPointType type, Complex multiplier) {
   return std::abs(multiplier - 1.0);
 }
 
+/// Whether a complex multiplier is on the unit circle, as far as samples tell.
+bool is_on_circle(Complex multiplier) {
+  constexpr double near = 1e-3, real = 1e-6;
+  return std::abs(std::abs(multiplier) - 1.0) <= near && multiplier.imag() > real;
+}
+
 class Tracker {
  public:
   Tracker(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve,
@@ -190,7 +196,7 @@ class Tracker {
     if (!middle) {
       for (const SpecialPointType type :
            events(between, reverses_between(a.point.parameter, b.point.parameter)))
-        result_.special_points.push_back(special_point(type, a, b, located));
+        add(special_point(type, a, b, located));
       return;
     }
     examine(a, *middle, halvings + 1);
@@ -247,6 +253,22 @@ class Tracker {
       if (distance > 2.0 * scale) break;
     }
     return above ? Departure::above : Departure::below;
+  }
+
+  // A pair that passes the circle is seen to be on it, and not where a count jumps as kinks of the samples
+  // do. Kinks near a point also repeat it: what coincides is one point.
+  void add(SpecialPoint point) {
+    constexpr double same = 1e-7;
+    const bool pair = point.type == SpecialPointType::neimark_sacker;
+    if (pair && !is_on_circle(point.multiplier)) return;
+    const double value = parameter_of(point, curve_.parameter);
+    const bool known = std::any_of(
+        result_.special_points.begin(), result_.special_points.end(), [&](const SpecialPoint& other) {
+          const bool counts = other.type == point.type || (pair && other.type == SpecialPointType::fold);
+          return counts && other.next_point == point.next_point &&
+                 std::abs(parameter_of(other, curve_.parameter) - value) <= same * std::abs(value);
+        });
+    if (!known || point.type == SpecialPointType::grazing) result_.special_points.push_back(std::move(point));
   }
 
   SpecialPoint special_point(SpecialPointType type, const CurveSample& a, const CurveSample& b,

@@ -13,8 +13,8 @@ StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions option
 void require_stability_arguments(const char* who, const ContactDynamics& dynamics,
                                  const PeriodicStiffness& stiffness, double frequency, int harmonics);
 
-/// All multipliers by the monodromy, by falling modulus, where the determinant takes much more work;
-/// nothing elsewhere, since along the same motion the determinant is the more accurate.
+/// All multipliers by the monodromy, by falling modulus, with friction and where the determinant takes much
+/// more work; nothing elsewhere, since along the same motion the determinant is the more accurate.
 std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
                                                       const PeriodicStiffness& stiffness, double frequency,
                                                       const StabilityOptions& options);

@@ -178,8 +178,10 @@ StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
 std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
                                                       const PeriodicStiffness& of_contacts, double frequency,
                                                       const StabilityOptions& options) {
+  StabilityStatus status;
+  if (!of_contacts.friction.empty()) return by_friction(dynamics, of_contacts, frequency, options, status);
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  if (stiffness.damping || !stiffness.friction.empty() ||
+  if (stiffness.damping ||
       status_before("multipliers", dynamics, stiffness, frequency, options) != StabilityStatus::converged)
     return std::nullopt;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
