@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include "laws.hpp"
 #include "problem.hpp"
 #include "unlocked.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/modes/damped_mode.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
@@ -59,13 +61,9 @@ Backbone rigid_backbone(const solvers::ModalModel& model, const BackboneArgument
   options.samples = of.samples;
   options.cosine_only = of.cosine_only;
   const solvers::NonlinearMode mode(model, options);
-  solvers::BackboneOptions curve;
-  curve.last_ratio = of.largest_frequency_ratio;
-  curve.points = of.points;
-  curve.max_energy = of.largest_energy;
-  curve.observer = observer;
   Backbone result{"no_contact", mode.linear_omega() / (2.0 * std::numbers::pi), {}, {}};
-  result.points = solvers::backbone(mode, curve);
+  result.points =
+      app::rigid_backbone(mode, of.points, of.largest_energy, of.largest_frequency_ratio, observer);
   if (std::any_of(result.points.begin(), result.points.end(),
                   [](const ModePoint& point) { return point.status == solvers::ModeStatus::converged; }))
     result.status =
@@ -83,9 +81,10 @@ Backbone elastic_backbone(const solvers::ModalModel& model, const solvers::TimeP
   const solvers::ElasticMode mode(model, pair, laws, options);
   solvers::ElasticBackboneOptions curve;
   curve.max_energy = of.largest_energy;
-  curve.max_frequency_ratio = of.largest_frequency_ratio;
-  curve.max_step =
-      std::min(curve.max_step, 0.5 * (of.largest_frequency_ratio - 1.0) / curve.frequency_scale / of.points);
+  const bool ends = of.largest_frequency_ratio > 0.0;
+  const double last = ends ? of.largest_frequency_ratio : app::usual_frequency_ratio;
+  curve.max_frequency_ratio = ends ? last : std::numeric_limits<double>::infinity();
+  curve.max_step = std::min(curve.max_step, 0.5 * (last - 1.0) / curve.frequency_scale / of.points);
   curve.initial_step = std::min(curve.initial_step, curve.max_step);
   curve.max_points = 1000 + 20 * of.points;
   curve.observer = observer;

@@ -84,7 +84,7 @@ def backbone(
     *,
     mode: int = 1,
     largest_energy: float = 10.0,
-    largest_frequency_ratio: float = 1.3,
+    largest_frequency_ratio: float | None = None,
     points: int = 200,
     harmonics: int = 10,
     samples: int | None = None,
@@ -106,7 +106,7 @@ def backbone(
     mode:
         The linear mode, from 1.
     largest_energy, largest_frequency_ratio:
-        Where the curve ends: energy over that of grazing, frequency over that of the linear mode.
+        Where the curve ends: energy over that of grazing and, if one is given, frequency over that of the linear mode.
     points:
         About so many.
     harmonics, samples:
@@ -128,7 +128,7 @@ def backbone(
     count = samples if samples is not None else (2 if rigid else 8) * harmonics
     functions = pair if pair is not None else Pair("fourier", 2 * harmonics + 1, max(count, 2 * harmonics + 1))
     arguments = _core.BackboneArguments(
-        mode, largest_energy, largest_frequency_ratio, points, harmonics, count, cosine_only, stability
+        mode, largest_energy, largest_frequency_ratio or 0.0, points, harmonics, count, cosine_only, stability
     )
     return Backbone(_core.backbone(structure, given, functions, [float(one) for one in gaps], arguments))
 

@@ -33,7 +33,9 @@ constexpr Look looks[] = {
 
 /// More than a step of the curve's frequencies.
 double step_of(const app::Scene& scene) {
-  return 1.5 * (scene.analysis.last_frequency_ratio - 1.0) / scene.analysis.points;
+  constexpr double usual_range = 0.3;  // of the frequency ratio, without a last one
+  const double last = scene.analysis.last_frequency_ratio;
+  return 1.5 * (last > 0.0 ? last - 1.0 : usual_range) / scene.analysis.points;
 }
 
 /// A column of one formulation over the energy. Lines end where points are missing between neighbours, and

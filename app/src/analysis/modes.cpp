@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -25,20 +26,17 @@ bool is_solution(const ModePoint& point) {
 
 bool has_motion(const ModePoint& point) { return is_solution(point) && point.amplitudes.size() > 0; }
 
-solvers::BackboneOptions curve_options(const Analysis& analysis, double largest_energy) {
-  solvers::BackboneOptions options;
-  options.last_ratio = analysis.last_frequency_ratio;
-  options.points = analysis.points;
-  options.max_energy = largest_energy;
-  return options;
-}
+bool ends_at_frequency(const Analysis& analysis) { return analysis.last_frequency_ratio > 0.0; }
 
 /// Steps of about the length of the points asked for.
 solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy) {
   solvers::ElasticBackboneOptions options;
   options.max_energy = largest_energy;
-  options.max_frequency_ratio = analysis.last_frequency_ratio;
-  const double length = (analysis.last_frequency_ratio - 1.0) / options.frequency_scale;
+  const bool ends = ends_at_frequency(analysis);
+  options.max_frequency_ratio =
+      ends ? analysis.last_frequency_ratio : std::numeric_limits<double>::infinity();
+  const double length =
+      ((ends ? analysis.last_frequency_ratio : usual_frequency_ratio) - 1.0) / options.frequency_scale;
   options.max_step = std::min(options.max_step, 0.5 * length / analysis.points);
   options.initial_step = std::min(options.initial_step, options.max_step);
   options.max_points = 1000 + 20 * analysis.points;
@@ -51,7 +49,8 @@ std::string early_end_text(const ModePoint& last, double linear_omega, double la
   return fmt::format(
              "ended at frequency ratio {:.4f} and energy ratio {:.4g}, before the energy ratio {} asked for",
              last.omega / linear_omega, last.energy_ratio, number_text(largest_energy)) +
-         (last.omega / linear_omega >= (1.0 - 1e-9) * analysis.last_frequency_ratio
+         (ends_at_frequency(analysis) &&
+                  last.omega / linear_omega >= (1.0 - 1e-9) * analysis.last_frequency_ratio
               ? ": last_frequency_ratio is reached"
               : "");
 }
@@ -63,10 +62,11 @@ void set_rigid_end(Backbone& curve, double linear_omega, double largest_energy, 
     if (point.accepted()) last = &point;
   if (!last || last->energy_ratio >= largest_energy) return;
   curve.early_end = early_end_text(*last, linear_omega, largest_energy, analysis);
-  curve.complete =
-      last == &curve.points.back() && curve.points.size() == static_cast<std::size_t>(analysis.points);
+  curve.complete = ends_at_frequency(analysis) && last == &curve.points.back() &&
+                   curve.points.size() == static_cast<std::size_t>(analysis.points);
   if (curve.complete) return;
-  const ModePoint& next = *(last + 1 <= &curve.points.back() ? last + 1 : last);
+  if (last == &curve.points.back()) return;
+  const ModePoint& next = *(last + 1);
   curve.early_end += next.status == ModeStatus::internal_resonance
                          ? ": beyond it lies the internal resonance " + resonance_name(next.resonance)
                          : ": beyond it the points are " + std::string(to_string(next.status));
@@ -155,6 +155,29 @@ solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const ModeP
 
 }  // namespace
 
+std::vector<ModePoint> rigid_backbone(const solvers::NonlinearMode& mode, int points, double largest_energy,
+                                      double last_ratio, const solvers::Observer& observer) {
+  solvers::BackboneOptions options;
+  options.last_ratio = last_ratio > 0.0 ? last_ratio : usual_frequency_ratio;
+  options.points = points;
+  options.max_energy = largest_energy;
+  bool cancelled = false;
+  options.observer = [&](const solvers::Progress& progress) {
+    cancelled = !solvers::goes_on(observer, progress);
+    return !cancelled;
+  };
+  std::vector<ModePoint> curve = solvers::backbone(mode, options);
+  while (!(last_ratio > 0.0) && !cancelled && curve.back().accepted() &&
+         curve.back().energy_ratio < largest_energy) {
+    options.first_ratio =
+        options.last_ratio + (options.last_ratio - options.first_ratio) / (options.points - 1);
+    options.last_ratio += 2.0 * (options.last_ratio - 1.0);
+    std::vector<ModePoint> more = solvers::backbone(mode, options);
+    std::move(more.begin(), more.end(), std::back_inserter(curve));
+  }
+  return curve;
+}
+
 int Backbone::count(ModeStatus status) const {
   return static_cast<int>(std::count_if(points.begin(), points.end(),
                                         [&](const ModePoint& point) { return point.status == status; }));
@@ -208,9 +231,8 @@ Backbone ModeStudy::backbone(double largest_energy, const solvers::Observer& obs
     curve.points = std::move(found.points);
     set_elastic_end(curve, found.status, mode_.linear_omega(), largest_energy, analysis);
   } else {
-    auto options = curve_options(analysis, largest_energy);
-    options.observer = observer;
-    curve.points = solvers::backbone(mode_, options);
+    curve.points =
+        rigid_backbone(mode_, analysis.points, largest_energy, analysis.last_frequency_ratio, observer);
     set_rigid_end(curve, mode_.linear_omega(), largest_energy, analysis);
   }
   curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
@@ -227,7 +249,8 @@ ModePoint ModeStudy::linear_mode(double energy_ratio) const {
 ModePoint ModeStudy::at_energy(double energy_ratio) const {
   if (elastic_) return elastic_->at_energy(energy_ratio, elastic_options(scene_.analysis, energy_ratio));
   if (energy_ratio <= 1.0) return linear_mode(energy_ratio);
-  const auto points = solvers::backbone(mode_, curve_options(scene_.analysis, energy_ratio));
+  const Analysis& analysis = scene_.analysis;
+  const auto points = rigid_backbone(mode_, analysis.points, energy_ratio, analysis.last_frequency_ratio);
   return solvers::at_energy(mode_, points, energy_ratio);
 }
 

@@ -110,7 +110,9 @@ const Remedies& of_motions() {
 
 std::string next_step(AnalysisType type, const std::string& status, bool exact) {
   if (type == AnalysisType::nonlinear_mode && status.starts_with("ended at"))
-    return "a higher analysis.last_frequency_ratio, other analysis.harmonics and analysis.samples, or more analysis.points";
+    return status.ends_with("last_frequency_ratio is reached")
+               ? "a higher analysis.last_frequency_ratio, or none"
+               : "other analysis.harmonics and analysis.samples, or more analysis.points";
   const Remedies& remedies = type == AnalysisType::forced_response  ? of_responses()
                              : type == AnalysisType::nonlinear_mode ? of_modes()
                              : type == AnalysisType::time_stepping  ? of_time_stepping()

@@ -103,6 +103,9 @@ void check_mode(const Document& document, const Scene& scene) {
   if (analysis.mode > reduced_size(scene))
     fail_rule(document, {"analysis.mode"},
               "expected at most " + std::to_string(reduced_size(scene)) + ", " + size_text(scene));
+  constexpr double least_ratio = 1.001;
+  if (analysis.last_frequency_ratio > 0.0 && analysis.last_frequency_ratio <= least_ratio)
+    fail_rule(document, {"analysis.last_frequency_ratio"}, "expected 0 for none, or a number above 1.001");
   if (analysis.samples < 2 * analysis.harmonics)
     fail_rule(document, {"analysis.samples", "analysis.harmonics"},
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));

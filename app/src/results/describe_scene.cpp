@@ -305,8 +305,11 @@ std::string mode_lines(const Scene& scene) {
                                             number_text(analysis.largest_amplitude))
       : analysis.energy_ratio > 0.0
           ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
-          : fmt::format("{} points up to energy ratio {} or frequency ratio {}", analysis.points,
-                        number_text(analysis.largest_energy), number_text(analysis.last_frequency_ratio));
+          : fmt::format("{} points up to energy ratio {}", analysis.points,
+                        number_text(analysis.largest_energy)) +
+                (analysis.last_frequency_ratio > 0.0
+                     ? " or frequency ratio " + number_text(analysis.last_frequency_ratio)
+                     : "");
   if (is_elastic_mode(scene) || is_damped_mode(scene)) {
     const Time time = mode_time(scene);
     const std::int64_t functions = time.functions;

@@ -193,8 +193,8 @@ Record motion_record(const ModeStudy& study) {
   if (resonant && !found) record.status += " " + resonance_name(point.resonance);
   if (point.status == ModeStatus::no_contact) {
     const Backbone curve = study.backbone(scene.analysis.energy_ratio);
-    record.status += curve.early_end.empty() ? ": no neighbouring points of the curve enclose the energy"
-                                             : ": the curve " + curve.early_end;
+    record.status =
+        curve.early_end.empty() ? "no neighbouring points of the curve enclose the energy" : curve.early_end;
   }
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.unknowns(), response.wall_seconds);

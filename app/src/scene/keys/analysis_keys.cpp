@@ -149,11 +149,13 @@ void add_mode(std::vector<SceneKey>& keys) {
   mode(&Analysis::largest_energy, "largest_energy", "", "the curve ends beyond this energy ratio", above(1),
        optional);
   mode(&Analysis::last_frequency_ratio, "last_frequency_ratio", "",
-       "or beyond this ratio of the frequency to the linear one", above(1.001), optional);
-  mode(&Analysis::points, "points", "",
-       "of the curve, uniform in frequency up to there; about as many with an "
-       "elastic law; with friction or dampers about uniform in the logarithm of the amplitude",
-       within(2, 1'000'000), optional);
+       "or beyond this ratio of the frequency to the linear one; 0: it ends by its energy alone",
+       not_negative, optional);
+  mode(
+      &Analysis::points, "points", "",
+      "of the curve, uniform in frequency up to last_frequency_ratio, or to 1.3 without one, beyond which they are less dense; about "
+      "as many with an elastic law; with friction or dampers about uniform in the logarithm of the amplitude",
+      within(2, 1'000'000), optional);
   mode(
       &Analysis::amplitude_ratio, "amplitude_ratio", "",
       "with friction or dampers, the one motion of this amplitude, over that at which a contact first slips, opens or "

@@ -39,6 +39,16 @@ struct Backbone {
   std::string status() const;
 };
 
+/// Frequency over the linear one up to which points of a curve are spread where no last one is given.
+inline constexpr double usual_frequency_ratio = 1.3;
+
+/// The curve of a rigid mode, solvers::backbone(), with uniform frequencies up to `last_ratio`. Where this is
+/// 0 it goes on beyond usual_frequency_ratio, in intervals twice as long each of so many points, until its
+/// motions have the energy or there are none.
+std::vector<solvers::ModePoint> rigid_backbone(const solvers::NonlinearMode& mode, int points,
+                                               double largest_energy, double last_ratio,
+                                               const solvers::Observer& observer = {});
+
 /// A scene's nonlinear mode and its linear modes, which are computed once. Immutable.
 class ModeStudy {
  public:
@@ -61,7 +71,7 @@ class ModeStudy {
   const solvers::ModalModel& linear_modes() const { return modes_.model; }
   double linear_frequency() const;  ///< Hz
 
-  /// The curve up to analysis.largest_energy or analysis.last_frequency_ratio.
+  /// The curve up to analysis.largest_energy or, where it is given, analysis.last_frequency_ratio.
   Backbone backbone(const solvers::Observer& observer = {}) const;
   /// The same up to another energy ratio.
   Backbone backbone(double largest_energy, const solvers::Observer& observer = {}) const;

@@ -300,8 +300,8 @@ struct Analysis {
   double reference_length = 0.0;  ///< nonlinear_mode: m, in place of the gap of a law that has none; 0: none
   double energy_ratio = 0.0;      ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
   double largest_energy = 10.0;   ///< nonlinear_mode: energy ratio at which the curve ends
-  double last_frequency_ratio = 1.3;  ///< nonlinear_mode: or frequency over the linear one
-  int points = 200;                   ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio
+  double last_frequency_ratio = 0.0;  ///< nonlinear_mode: or frequency over the linear one; 0: any
+  int points = 200;  ///< nonlinear_mode: uniform in frequency up to last_frequency_ratio or 1.3
   /// nonlinear_mode with friction or dampers, of the amplitude over that at which a contact first acts: the
   /// one motion there, 0 for the whole curve; and where the curve ends
   double amplitude_ratio = 0.0, largest_amplitude = 10.0;
