@@ -87,6 +87,7 @@ void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability,
     found.status = point.unstable < 0 ? "not_known" : point.unstable == 0 ? "stable" : "unstable";
     found.by_phases = true;
   }
+  for (const std::size_t next : curve.unexplained) sweep.unexplained.push_back(curve.points[next].value);
   copy_events(curve, measure, stability, sweep);
   if (!curve.points.empty()) phases.peak = phases.points[peak_of(sweep.curve)];
 }

@@ -143,10 +143,12 @@ StartMotion read_start_motion(const fs::path& place) {
 void require_start_fits(const StartMotion& start, const Scene& scene) {
   if (start.contacts.empty()) return;
   const bool balanced = scene.analysis.type == AnalysisType::forced_response ||
-                        scene.analysis.type == AnalysisType::frequency_sweep;
+                        scene.analysis.type == AnalysisType::frequency_sweep ||
+                        scene.analysis.type == AnalysisType::amplitude_sweep;
   if (!balanced)
-    throw std::invalid_argument("--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
-                                "\" has no start; expected forced_response or frequency_sweep");
+    throw std::invalid_argument(
+        "--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
+        "\" has no start; expected forced_response, frequency_sweep or amplitude_sweep");
   if (has_impacts(scene.contact))
     throw std::invalid_argument(
         "--start-from: not with contact.restitution, whose motions start from what the structure settles to");

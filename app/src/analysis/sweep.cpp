@@ -115,17 +115,30 @@ Sweep amplitude_sweep(const Scene& scene, const Observer& observer) {
   return amplitude_sweep(scene, make_model(scene), observer);
 }
 
-Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                      const StartMotion& start) {
+  require_start_fits(start, scene);
+  const auto begin = std::chrono::steady_clock::now();
   const ReferenceLoad load = reference_load(scene.forcing).value();
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
   options.keep_unknowns = keeps_unknowns(scene);
   Sweep sweep;
-  sweep.curve = compose_problem(scene, model).amplitude_sweep(scene.forcing.frequency, options);
+  solvers::ContactProblem problem = compose_problem(scene, model);
+  if (start.contacts.empty()) {
+    sweep.curve = problem.amplitude_sweep(scene.forcing.frequency, options);
+  } else {
+    const StartSamples samples = start_samples(start, scene);
+    options.start.observer = observer;
+    options.start.stay_near_guess = true;
+    auto [curve, first] =
+        problem.amplitude_sweep(scene.forcing.frequency, options, {samples.displacement, samples.force});
+    sweep.curve = std::move(curve);
+    sweep.start_distance = relative_distance(first.displacement, samples.displacement);
+  }
   sweep.amplitude_unit = load.unit;
   add_friction(scene, sweep);
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }
 

@@ -294,28 +294,12 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
     add_isolas(scene, model, sweep, observer);
     return sweep;
   }
-  Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer)
+  Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer, start)
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
   add_phases(scene, model, sweep, observer);
   add_isolas(scene, model, sweep, observer);
   return sweep;
-}
-
-/// Where the solution started, and what to do if that led nowhere.
-void append_start(Record& record, const StartMotion& start, bool found, double distance) {
-  if (start.contacts.empty()) return;
-  record.summary.emplace_back(quantities::start_from, start.source);
-  record.summary.emplace_back(quantities::start_distance, found ? distance : missing);
-  constexpr double as_large_as_the_start = 0.9;
-  if (found && distance > as_large_as_the_start)
-    record.warnings.push_back(fmt::format(
-        "The motion found differs from the start by {:.2g} times the start: it may lie on another branch.",
-        distance));
-  if (!found && !record.interrupted)
-    record.warnings.push_back(
-        "No response was found near the start. One closer to the scene, or a sweep that begins at it, may lead "
-        "there; without a start other ways of finding a response are tried.");
 }
 
 Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
@@ -325,6 +309,10 @@ Record stable_sweep_record(const Scene& scene, const StructureModel& model, cons
   const auto motions = curve_motions(scene, model, sweep, observer);
   Record record = sweep_record(scene, model, sweep, outputs, motions);
   append_start(record, start, !sweep.curve.points.empty(), sweep.start_distance);
+  if (!start.contacts.empty() && !sweep.curve.points.empty())
+    record.warnings.push_back(
+        "The curve was followed from its start towards the end of the interval alone: what lies the other way of the "
+        "start was not sought.");
   return record;
 }
 
@@ -392,6 +380,7 @@ Record analyse(const Scene& scene, const AnalysisOptions& how) {
   const auto start = std::chrono::steady_clock::now();
   require_start_fits(how.start, scene);
   Record record = how.model != nullptr ? record_of(scene, *how.model, how) : composed_record(scene, how);
+  set_warnings(record);
   insert_wall_seconds(record.summary,
                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return record;

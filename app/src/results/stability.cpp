@@ -86,10 +86,23 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
     if (point.type == solvers::SpecialPointType::neimark_sacker)
       places.push_back(parameter_of(point, sweep.curve.parameter));
   if (places.empty()) return;
+  std::sort(places.begin(), places.end());
   record.warnings.push_back(fmt::format(
       "At the Neimark-Sacker point{} {:.6g} {} the motion becomes quasi-periodic: what begins there has no "
       "period and is not followed.",
       places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit));
+}
+
+/// Where no motion of the curve stays.
+void warn_where_all_are_unstable(Record& record, const std::vector<solvers::PointStability>& points) {
+  const auto of = [&](auto&& is) { return std::count_if(points.begin(), points.end(), is); };
+  const auto unstable = of([](const auto&point) { return point.unstable > 0; }),
+             unknown = of([](const auto&point) { return point.unstable < 0; });
+  if (unstable == 0 || unstable + unknown < std::ptrdiff_t(points.size())) return;
+  record.warnings.push_back(fmt::format(
+      "All {}motions of the curve are unstable: a structure that is disturbed leaves them for motions that lie on "
+      "other curves or are not periodic.",
+      unknown > 0 ? fmt::format("{} of {} ", unstable, points.size()) : ""));
 }
 
 /// Whether a curve with this end can turn `count` times: an even number where it leaves the interval in the
@@ -152,9 +165,15 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   if (sweep.stability.points.empty()) return;
   record.summary.emplace_back(quantities::stability,
                               complete ? sweep.stability_of(0).status : std::string("interrupted"));
+  warn_where_all_are_unstable(record, sweep.stability_of(0).points);
   if (!scene.analysis.special_points) return;
   record.summary.emplace_back(quantities::special_points, table_of(sweep));
   append_structure_points(record, sweep);
+  if (!sweep.unexplained.empty())
+    record.warnings.push_back(fmt::format(
+        "Before {:.6g} {} the number of unstable multipliers changes without a special point in the list: one is missing "
+        "there.",
+        fmt::join(sweep.unexplained, ", "), sweep_axis(sweep).unit));
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 

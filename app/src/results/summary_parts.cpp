@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
@@ -227,6 +228,31 @@ void append_phases(Record& record, double tolerance, const Response& response) {
   record.warnings.emplace_back(
       "Contact phases found no motion of the structure near this response, which solves the equations at its samples "
       "alone; whether there is one is not known. More functions may lead to it.");
+}
+
+void append_start(Record& record, const StartMotion& start, bool found, double distance) {
+  if (start.contacts.empty()) return;
+  record.summary.emplace_back(quantities::start_from, start.source);
+  record.summary.emplace_back(quantities::start_distance, found ? distance : missing);
+  constexpr double as_large_as_the_start = 0.9;
+  if (found && distance > as_large_as_the_start)
+    record.warnings.push_back(fmt::format(
+        "The motion found differs from the start by {:.2g} times the start: it may lie on another branch.",
+        distance));
+  if (!found && !record.interrupted)
+    record.warnings.push_back(
+        "No response was found near the start. One closer to the scene, or a sweep that begins at it, may lead "
+        "there; without a start other ways of finding a response are tried.");
+}
+
+void set_warnings(Record& record) {
+  const std::string_view name = quantities::warnings.name;
+  const auto found = std::find_if(record.summary.begin(), record.summary.end(),
+                                  [name](const Entry& entry) { return entry.name == name; });
+  if (found != record.summary.end())
+    *found = Entry(quantities::warnings, record.warnings);
+  else
+    record.summary.emplace_back(quantities::warnings, record.warnings);
 }
 
 }  // namespace wavebalance::app

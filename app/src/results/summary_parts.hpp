@@ -48,6 +48,11 @@ void warn_of_scene(Record& record, const Scene& scene);
 /// that comes nearest to it.
 void warn_of_open_contacts(Record& record, double displacement, double gap);
 
+/// Where the solution started, and what to do if that led nowhere.
+void append_start(Record& record, const StartMotion& start, bool found, double distance);
+/// All warnings of the record in its summary, also those that came after the summary's own.
+void set_warnings(Record& record);
+
 /// The fields of the motion of the leading contact; missing values of an empty one.
 void append_motion(Summary& summary, const solvers::Motion& leading);
 

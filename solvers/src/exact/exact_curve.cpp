@@ -168,8 +168,10 @@ class Tracer {
   }
 
   void note_events(const PathPoint& next) {
-    for (ExactEvent& event : detail::events_between(model_, points_.back(), next,
-                                                    curve_.points.back().multipliers, multipliers_of(next))) {
+    detail::EventsBetween between = detail::events_between(
+        model_, points_.back(), next, curve_.points.back().multipliers, multipliers_of(next));
+    if (!between.explained) curve_.unexplained.push_back(curve_.points.size());
+    for (ExactEvent& event : between.events) {
       event.next_point = curve_.points.size();
       curve_.events.push_back(std::move(event));
     }

@@ -16,6 +16,11 @@ struct Located {
   std::complex<double> multiplier;
 };
 
+struct Places {
+  std::vector<Located> found;
+  bool explained = true;  // whether they are all that the count of multipliers outside the circle needs
+};
+
 // The product of all 1 + sign multiplier, which is smooth and changes its sign where a real one passes.
 double product_of(const Eigen::VectorXcd& multipliers, double sign) {
   std::complex<double> product = 1.0;
@@ -42,6 +47,7 @@ struct Step {
   std::optional<PathPoint> zero(const std::function<double(const PathPoint&)>& function) const {
     return zero_between(model, a, b, held, function);
   }
+  std::optional<PathPoint> at(double share) const { return point_between(model, a, b, held, share); }
 };
 
 void append_real(std::vector<Located>& found, const Step& step, const Eigen::VectorXcd& of_a,
@@ -54,13 +60,20 @@ void append_real(std::vector<Located>& found, const Step& step, const Eigen::Vec
   found.push_back({type, std::move(*at), multiplier});
 }
 
-// Multipliers outside the circle but the one that passes it at a place on the real axis.
-int unstable_beside(const Located& at) {
+// Multipliers that pass the circle at a place, and those outside beside them.
+struct Passing {
+  int beside = 0, near = 0;
+};
+
+Passing passing(const Located& at) {
   constexpr double near = 1e-3;
-  int count = 0;
-  for (const std::complex<double> multiplier : at.point.motion.multipliers())
-    if (std::abs(multiplier) > 1.0 && std::abs(multiplier - at.multiplier) > near) ++count;
-  return count;
+  Passing counts;
+  for (const std::complex<double> multiplier : at.point.motion.multipliers()) {
+    const bool passes = std::abs(upper(multiplier) - at.multiplier) <= near;
+    counts.near += passes;
+    counts.beside += !passes && std::abs(multiplier) > 1.0;
+  }
+  return counts;
 }
 
 // Where a complex pair passes the circle, between two places with so many multipliers outside. One that
@@ -90,7 +103,7 @@ void append_pairs(std::vector<Located>& found, const Step& step, int of_a, int o
   const PathPoint* last = &step.a;
   int before = of_a;
   for (const Located& one : found) {
-    const int beside = unstable_beside(one);
+    const int beside = passing(one).beside;
     append_pair(pairs, {step.model, *last, one.point, step.held}, before, beside);
     last = &one.point;
     before = beside;
@@ -98,6 +111,104 @@ void append_pairs(std::vector<Located>& found, const Step& step, int of_a, int o
   append_pair(pairs, {step.model, *last, step.b, step.held}, before, of_b);
   std::move(pairs.begin(), pairs.end(), std::back_inserter(found));
   sort(found);
+}
+
+// The count of multipliers outside the circle, or -1 where one of them is so near to it that rounding
+// decides.
+int clear_count(const Eigen::VectorXcd& multipliers) {
+  constexpr double rounding = 1e-8;
+  const bool clear = ((multipliers.array().abs() - 1.0).abs() > rounding).all();
+  return clear ? unstable_of(multipliers) : -1;
+}
+
+// Whether the count changes from one neighbour to the next as it does at the places between them. Where
+// several multipliers pass together, or one lies on the circle, nothing is known.
+bool is_explained(const std::vector<Located>& found, const Eigen::VectorXcd& of_a,
+                  const Eigen::VectorXcd& of_b) {
+  int count = clear_count(of_a);
+  for (const Located& one : found) {
+    const Passing counts = passing(one);
+    const int passes = one.type == SpecialPointType::neimark_sacker ? 2 : 1;
+    if (counts.near != passes)
+      count = -1;
+    else if (count >= 0 && count != counts.beside && count != counts.beside + passes)
+      return false;
+    else if (count >= 0)
+      count = 2 * counts.beside + passes - count;
+  }
+  const int last = clear_count(of_b);
+  return count < 0 || last < 0 || count == last;
+}
+
+// Of the multipliers from a place on the unit circle.
+double distance_from(const Eigen::VectorXcd& multipliers, double place) {
+  return (multipliers.array() - place).abs().minCoeff();
+}
+
+// Whether a multiplier may pass a place of the circle between two neighbours and come back: it is near at one
+// of them, and what is left changes by much of itself; in a whole step it may do so unseen.
+bool may_pass_twice(const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, double place, bool whole) {
+  constexpr double near = 0.2, much = 0.5;
+  const double a = distance_from(of_a, place), b = distance_from(of_b, place), least = std::min(a, b);
+  return least < (whole ? near : much) && (whole || std::abs(a - b) > much * least);
+}
+
+// Whether the parameter may turn twice on the way: by the cubic with its values and slopes at both ends.
+bool may_turn_twice(const Step& step) {
+  constexpr double clear = 0.5;
+  const double length = step.b.place - step.a.place, begin = step.a.slope() / step.model.speed(step.a),
+               end = step.b.slope() / step.model.speed(step.b);
+  const double middle = 1.5 * (step.b.value - step.a.value) / length - 0.25 * (begin + end);
+  return middle * begin < 0.0 || std::abs(middle) < clear * std::min(std::abs(begin), std::abs(end));
+}
+
+std::vector<Located> places_within(const Step& step, const Eigen::VectorXcd& of_a,
+                                   const Eigen::VectorXcd& of_b) {
+  std::vector<Located> found;
+  if (step.a.slope() * step.b.slope() < 0.0) {
+    std::optional<PathPoint> at = step.zero([](const PathPoint& point) { return point.slope(); });
+    if (at) {
+      const std::complex<double> multiplier = nearest(at->motion.multipliers(), 1.0);
+      found.push_back({SpecialPointType::fold, std::move(*at), multiplier});
+    }
+  } else {
+    append_real(found, step, of_a, of_b, -1.0, SpecialPointType::branch);
+  }
+  append_real(found, step, of_a, of_b, 1.0, SpecialPointType::period_doubling);
+  if (clear_count(of_a) >= 0 && clear_count(of_b) >= 0)
+    append_pairs(found, step, unstable_of(of_a), unstable_of(of_b));
+  else
+    sort(found);
+  return found;
+}
+
+constexpr int most_halvings = 7;
+
+// The same by halves of the step, where the count changes otherwise than by the places found, or places may
+// have cancelled each other.
+Places places_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                      const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, int halvings) {
+  const bool turns = a.slope() * b.slope() < 0.0;
+  const bool known = clear_count(of_a) >= 0 && clear_count(of_b) >= 0;
+  const Step step{model, a, b, model.fastest(a, !turns)};
+  Places places{places_within(step, of_a, of_b), true};
+  if (!known) return places;
+  places.explained = is_explained(places.found, of_a, of_b);
+  const bool whole = halvings == most_halvings;
+  const bool clear = places.explained && !may_pass_twice(of_a, of_b, -1.0, whole) &&
+                     (turns || (!may_pass_twice(of_a, of_b, 1.0, whole) && !may_turn_twice(step)));
+  if (halvings == 0 || clear) return places;
+  const std::optional<PathPoint> middle = step.at(0.5);
+  if (!middle || !middle->agrees) return places;
+  const Eigen::VectorXcd of_middle = middle->motion.multipliers();
+  Places first = places_between(model, a, *middle, of_a, of_middle, halvings - 1);
+  Places second = places_between(model, *middle, b, of_middle, of_b, halvings - 1);
+  first.explained = first.explained && second.explained;
+  if (places.explained &&
+      (!first.explained || first.found.size() + second.found.size() <= places.found.size()))
+    return places;
+  std::move(second.found.begin(), second.found.end(), std::back_inserter(first.found));
+  return first;
 }
 
 }  // namespace
@@ -118,26 +229,13 @@ int unstable_of(const Eigen::VectorXcd& multipliers) {
   return static_cast<int>((multipliers.array().abs() > 1.0).count());
 }
 
-std::vector<ExactEvent> events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
-                                       const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {
-  std::vector<Located> found;
-  const bool turns = a.slope() * b.slope() < 0.0;
-  const Step step{model, a, b, model.fastest(a, !turns)};
-  if (turns) {
-    std::optional<PathPoint> at = step.zero([](const PathPoint& point) { return point.slope(); });
-    if (at) {
-      const std::complex<double> multiplier = nearest(at->motion.multipliers(), 1.0);
-      found.push_back({SpecialPointType::fold, std::move(*at), multiplier});
-    }
-  } else {
-    append_real(found, step, of_a, of_b, -1.0, SpecialPointType::branch);
-  }
-  append_real(found, step, of_a, of_b, 1.0, SpecialPointType::period_doubling);
-  append_pairs(found, step, unstable_of(of_a), unstable_of(of_b));
-  std::vector<ExactEvent> events;
-  for (Located& one : found)
-    events.push_back({one.type, one.point.value, one.multiplier, std::move(one.point.motion)});
-  return events;
+EventsBetween events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                             const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {
+  Places places = places_between(model, a, b, of_a, of_b, most_halvings);
+  EventsBetween between{{}, places.explained};
+  for (Located& one : places.found)
+    between.events.push_back({one.type, one.point.value, one.multiplier, std::move(one.point.motion)});
+  return between;
 }
 
 }  // namespace wavebalance::solvers::detail

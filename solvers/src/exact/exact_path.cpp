@@ -245,18 +245,23 @@ Prediction through(const std::vector<const PathPoint*>& points, double place) {
   return result;
 }
 
+std::optional<PathPoint> point_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                                       const Held& held, double share) {
+  const double place = a.place + share * (b.place - a.place);
+  Prediction expected = through({&a, &b}, place);
+  std::optional<PathPoint> found =
+      model.solve(expected.value, std::move(expected.iterate), held, model.sign_of(a, held));
+  if (found) found->place = place;
+  return found;
+}
+
 std::optional<PathPoint> zero_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
                                       const Held& held,
                                       const std::function<double(const PathPoint&)>& function) {
   std::optional<PathPoint> last;
-  const double forwards = model.sign_of(a, held);
   const auto at = [&](double share) {
-    const double place = a.place + share * (b.place - a.place);
-    Prediction expected = through({&a, &b}, place);
-    last = model.solve(expected.value, std::move(expected.iterate), held, forwards);
-    if (!last) return missing;
-    last->place = place;
-    return function(*last);
+    last = point_between(model, a, b, held, share);
+    return last ? function(*last) : missing;
   };
   const std::optional<double> share = root(at, {0.0, function(a)}, {1.0, function(b)}, 1e-11);
   if (!share) return std::nullopt;

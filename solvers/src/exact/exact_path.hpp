@@ -94,6 +94,10 @@ Prediction along_tangent(const PathPoint& at, double distance, double speed);
 /// By the polynomial through points with the same phases, which may have other panels.
 Prediction through(const std::vector<const PathPoint*>& points, double place);
 
+/// The point at a share of the way between two neighbours, as zero_between() has it.
+std::optional<PathPoint> point_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+                                       const Held& held, double share);
+
 /// A zero of a function of the points between two neighbours, at which it has different signs, to rounding.
 /// `held`: an unknown that changes monotonically from one to the other. Nothing where a point between them is
 /// not found.

@@ -194,6 +194,15 @@ FrequencySweep ContactProblem::amplitude_sweep(double frequency, const Frequency
   return solvers::amplitude_sweep(condensed_, laws_, options);
 }
 
+std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
+    double frequency, const FrequencySweepOptions& options, const ResponseStart& start) {
+  condensed_.set_load_frequency(frequency);
+  condensed_.set_load_scale(options.from);
+  PeriodicResponse first = forced_response(condensed_, laws_, options.start, start.displacement, start.force);
+  FrequencySweep curve = solvers::amplitude_sweep(condensed_, laws_, options, {first, {}, {}});
+  return {std::move(curve), std::move(first)};
+}
+
 std::optional<PhaseMotion> ContactProblem::motion_here(const ExactCurveOptions& options,
                                                        const ForcedResponseOptions& how,
                                                        const ResponseStart& start) {

@@ -49,8 +49,10 @@ bool has_multipliers(const ExactCurve& curve) {
                      [](const ExactPoint& point) { return point.unstable >= 0; });
 }
 
+// A curve along which the count of multipliers changes without a special point has more of these.
 bool left_its_interval(const ExactCurve& curve) {
-  return curve.status == SweepStatus::reached_end || curve.status == SweepStatus::returned;
+  return (curve.status == SweepStatus::reached_end || curve.status == SweepStatus::returned) &&
+         curve.unexplained.empty();
 }
 
 }  // namespace
@@ -97,7 +99,7 @@ OnStretch StructureCurve::from_both_ends(const Stretch& stretch, ValueRange rang
   const StretchStart end = start_of(stretch, false);
   const Passing of_end = passing(forwards, end);
   const bool first_left = first_decides && left_its_interval(forwards);
-  result.complete = of_end == Passing::against || first_left;
+  result.complete = (of_end == Passing::against && forwards.unexplained.empty()) || first_left;
   if (of_end == Passing::against || (first_left && (!end.exists() || of_end == Passing::along)))
     return result;
   const ExactCurve backwards = followed(range, end);

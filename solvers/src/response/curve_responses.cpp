@@ -10,6 +10,17 @@
 #include <utility>
 
 namespace wavebalance::solvers {
+
+const CurveParameter& curve_parameter(SweepParameter parameter) {
+  static const FrequencyParameter frequency;
+  static const LoadScaleParameter load_scale;
+  if (parameter == SweepParameter::frequency) return frequency;
+  return load_scale;
+}
+
+std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter) {
+  return parameter == SweepParameter::frequency ? std::string_view("Hz") : problem.load_unit();
+}
 namespace {
 
 void require_unknown(const CondensedProblem& problem, const Eigen::VectorXd& unknown) {

@@ -87,6 +87,7 @@ class Sweep {
  private:
   PeriodicResponse first_response() {
     if (start_) {
+      if (parameter_ == SweepParameter::load_scale) problem_.set_load_scale(start_->response.load_scale);
       problem_.set_frequency(start_->response.frequency);
       return start_->response;
     }
@@ -314,18 +315,18 @@ class Sweep {
   std::size_t attempts_back_ = 0;  // from there
 };
 
+FrequencySweep sweep_from(CondensedProblem& problem, const ContactLaws& laws,
+                          const FrequencySweepOptions& options, const SweepStart& start,
+                          SweepParameter parameter) {
+  options.validate();
+  for (const auto* samples : {&start.response.unknown, &start.direction})
+    if (samples->size() != 0 && samples->size() != problem.samples())
+      throw std::invalid_argument("a sweep's start has " + std::to_string(samples->size()) +
+                                  " samples; expected the problem's " + std::to_string(problem.samples()));
+  return Sweep(problem, laws, options, &start, parameter).run();
+}
+
 }  // namespace
-
-const CurveParameter& curve_parameter(SweepParameter parameter) {
-  static const FrequencyParameter frequency;
-  static const LoadScaleParameter load_scale;
-  if (parameter == SweepParameter::frequency) return frequency;
-  return load_scale;
-}
-
-std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter) {
-  return parameter == SweepParameter::frequency ? std::string_view("Hz") : problem.load_unit();
-}
 
 SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point,
                        SweepParameter parameter) {
@@ -387,12 +388,12 @@ FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& law
 
 FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options, const SweepStart& start) {
-  options.validate();
-  for (const auto* samples : {&start.response.unknown, &start.direction})
-    if (samples->size() != 0 && samples->size() != problem.samples())
-      throw std::invalid_argument("frequency_sweep: the start has " + std::to_string(samples->size()) +
-                                  " samples; expected the problem's " + std::to_string(problem.samples()));
-  return Sweep(problem, laws, options, &start).run();
+  return sweep_from(problem, laws, options, start, SweepParameter::frequency);
+}
+
+FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options, const SweepStart& start) {
+  return sweep_from(problem, laws, options, start, SweepParameter::load_scale);
 }
 
 }  // namespace wavebalance::solvers

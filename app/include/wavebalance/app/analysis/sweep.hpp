@@ -67,6 +67,7 @@ struct Sweep {
   /// the curve, then of each branch.
   std::vector<solvers::PhaseMotion> exact_motions = {};
   std::vector<std::vector<solvers::ImpactMotion>> impact_motions = {};
+  std::vector<double> unexplained = {};  ///< of an exact curve: ExactCurve::unexplained, values of the points
   std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
   /// Set by add_phases() with analysis.stability: the special points of the structure.
   std::optional<solvers::StructurePoints> structure_points = {};
@@ -123,7 +124,8 @@ Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Obs
 /// The curve of the scene's responses over reference_load() at forcing.frequency. A change of the amplitude
 /// by 1/20 of the interval has the same length as a change by all that vibrates, at most the gap.
 Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
-Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
+Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
+                      const StartMotion& start = {});
 
 /// The scene's curve over frequency or amplitude with analysis.exact: motions of the structure themselves, by
 /// phases of contact, with their stability and special points. Turning points are its folds, and the errors

@@ -55,6 +55,9 @@ struct ExactCurve {
   SweepStatus status = SweepStatus::no_start;
   std::vector<ExactPoint> points;
   std::vector<ExactEvent> events;
+  /// Numbers of the points before which the count of multipliers outside the circle changes otherwise than by
+  /// the events there: a special point is missing.
+  std::vector<std::size_t> unexplained;
 };
 
 /// About so many floating-point operations a point of a curve takes that is like this motion, with its

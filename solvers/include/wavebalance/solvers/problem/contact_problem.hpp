@@ -100,6 +100,10 @@ class ContactProblem {
   FrequencySweep sweep(const FrequencySweepOptions& options, const PeriodicResponse& first);
   /// amplitude_sweep() at a frequency; from and to are in CondensedProblem::load_unit().
   FrequencySweep amplitude_sweep(double frequency, const FrequencySweepOptions& options);
+  /// The same from the response at options.from that options.start leads to from a start, and that response.
+  std::pair<FrequencySweep, PeriodicResponse> amplitude_sweep(double frequency,
+                                                              const FrequencySweepOptions& options,
+                                                              const ResponseStart& start);
   /// exact_curve() over the frequency, or at a frequency over the load scale, from the motion near the
   /// response at options.from: `how` and `start` as of respond(). Where the response has no motion near, from
   /// the one that settle() finds. Status `no_start` where neither leads to a motion, or without modes.

@@ -150,5 +150,8 @@ FrequencySweep frequency_sweep(CondensedProblem& problem, const ContactLaws& law
 /// another one. Throws std::invalid_argument also for a problem without a frequency.
 FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweepOptions& options);
+/// The same from a response that is known, as frequency_sweep() starts from one.
+FrequencySweep amplitude_sweep(CondensedProblem& problem, const ContactLaws& laws,
+                               const FrequencySweepOptions& options, const SweepStart& start);
 
 }  // namespace wavebalance::solvers
