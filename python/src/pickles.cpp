@@ -105,6 +105,13 @@ solvers::SpecialPoint special_point_of(const SpecialState& state) {
   return point;
 }
 
+using TurnState = std::vector<double>;
+
+TurnState state_of(const solvers::TurningPoint& turn) {
+  return {turn.frequency, turn.max_displacement, turn.max_abs_displacement, double(turn.grazing),
+          turn.load_scale};
+}
+
 using StabilityState = std::vector<int>;
 
 StabilityState state_of(const solvers::PointStability& point) {
@@ -123,7 +130,8 @@ py::tuple state_of(const Curve& one) {
   return py::make_tuple(int(curve.status), curve.closed_at_start, int(curve.parameter), int(curve.form),
                         curve.series_flexibility, curve.condition, curve.rounding_error,
                         states_of(curve.points), states_of(one.stability.points),
-                        states_of(one.stability.special_points), one.wall_seconds);
+                        states_of(one.stability.special_points), one.wall_seconds,
+                        states_of(curve.turning_points));
 }
 
 std::shared_ptr<Curve> restored_curve(const std::shared_ptr<Problem>& problem, const py::object& laws,
@@ -144,6 +152,8 @@ std::shared_ptr<Curve> restored_curve(const std::shared_ptr<Problem>& problem, c
   for (const SpecialState& point : state[9].cast<std::vector<SpecialState>>())
     one->stability.special_points.push_back(special_point_of(point));
   one->wall_seconds = state[10].cast<double>();
+  for (const TurnState& turn : state[11].cast<std::vector<TurnState>>())
+    one->curve.turning_points.push_back({turn.at(0), turn.at(1), turn.at(2), turn.at(3) != 0.0, turn.at(4)});
   return one;
 }
 

@@ -117,6 +117,19 @@ py::list special_points(const Curve& one) {
   return points;
 }
 
+py::list turning_points(const Curve& one) {
+  py::list points;
+  for (const solvers::TurningPoint& point : one.curve.turning_points) {
+    py::dict values;
+    values["frequency"] = point.frequency;
+    values["amplitude"] = point.load_scale;
+    values["max_displacement"] = point.max_displacement;
+    values["grazing"] = point.grazing;
+    points.append(values);
+  }
+  return points;
+}
+
 }  // namespace
 
 void add_sweeps(py::module_& module) {
@@ -146,6 +159,7 @@ void add_sweeps(py::module_& module) {
       .def_property_readonly("contacts", stability_view(&PointStability::contacts))
       .def_property_readonly("stability_status", &stability_status)
       .def_property_readonly("special_points", &special_points)
+      .def_property_readonly("turning_points", &turning_points)
       .def("__len__", [](const Curve& one) { return one.curve.points.size(); })
       .def("_response", &response_of);
   module.def("sweep", &sweep);

@@ -56,6 +56,72 @@ def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds
     )
 
 
+@pytest.fixture(scope="module")
+def isolator():
+    """A mass of 5 kg on a spring of 12 Hz between stops, shaken with 1 g."""
+    stiffness = 5.0 * (2.0 * np.pi * 12.0) ** 2
+    damping = 2.0 * 0.05 * np.sqrt(5.0 * stiffness)
+    return wb.Structure([[5.0]], [[damping]], [[stiffness]], load=[-5.0 * 9.81], contacts=[0])
+
+
+class Changed:
+    """The core of a curve with other attributes."""
+
+    def __init__(self, curve, **attributes):
+        self._core, self._count = curve._core, len(curve)
+        self.__dict__.update(attributes)
+
+    def __getattr__(self, name):
+        return getattr(self._core, name)
+
+    def __len__(self):
+        return self._count
+
+
+def test_a_fold_that_is_missing_from_the_special_points_is_told_and_among_the_turns(oscillator):
+    whole = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+    curve = type(whole)(Changed(whole, special_points=whole.special_points[:1]), whole._problem, whole._laws)
+    assert len(curve.special("fold")) == 1 and len(curve.turning_points) == 2
+    assert curve.warnings == [
+        "The curve turns 2 times; special_points has 1 of type fold. turning_points has all turns."
+    ]
+
+
+def test_a_curve_with_all_turns_as_folds_and_known_stability_has_no_warnings(oscillator):
+    curve = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+    assert curve.warnings == []
+    assert sorted(point["frequency"] for point in curve.turning_points) == pytest.approx(
+        sorted(point["frequency"] for point in curve.special("fold")), rel=1e-6
+    )
+    short = wb.frequency_sweep(
+        oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64), max_points=5, stability=False
+    )
+    assert short.warnings == ['The curve did not reach its end: "point_limit".']
+
+
+@pytest.mark.parametrize("gap", [5.157894736842105e-3, 8.3e-3])
+def test_the_default_pair_passes_samples_of_a_symmetric_law_that_graze_together(isolator, gap):
+    curve = wb.frequency_sweep(isolator, wb.Clearance(stiffness=2.5e5, gap=gap), 5.0, 60.0, stability=False)
+    assert curve.status == "reached_end" and len(curve) < 3000
+
+
+def test_a_curve_that_is_unstable_everywhere_says_so(oscillator):
+    # Beyond the lower fold the branch between both folds alone.
+    whole = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
+    assert not any("All motions" in text for text in whole.warnings)
+
+    between = Changed(whole, unstable=np.ones(len(whole), dtype=np.int32))
+    assert any("All motions" in text for text in type(whole)(between, whole._problem, whole._laws).warnings)
+
+
+def test_a_mode_reaches_its_energy_at_any_frequency(oscillator):
+    for law in (wb.Clearance(stiffness=5.0, gap=0.5), wb.Rigid(0.5)):
+        curve = wb.backbone(oscillator(), law, harmonics=15, samples=120, points=40, largest_energy=9.0)
+        assert curve.status == "reached_energy" and curve.energy_ratio[-1] >= 9.0
+    bounded = wb.backbone(oscillator(), wb.Clearance(stiffness=5.0, gap=0.5), harmonics=15, largest_frequency_ratio=1.1)
+    assert bounded.status == "reached_frequency"
+
+
 def test_multipliers_are_those_of_the_map_over_a_period(oscillator):
     structure, law, frequency = oscillator(load=0.5, damping=0.1), wb.Cubic(1.0), 0.25
     response = wb.forced_response(structure, law, frequency, wb.Pair("fourier", 31, 256))

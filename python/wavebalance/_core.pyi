@@ -234,6 +234,7 @@ class Curve:
     contacts: Integers
     stability_status: list[str]
     special_points: list[dict[str, Any]]
+    turning_points: list[dict[str, Any]]
     def __len__(self) -> int: ...
     def _response(self, index: int) -> Response: ...
 

@@ -48,6 +48,12 @@ class Sweep:
     special_points: list[dict]
         Where the stability or the contact changes: type ("fold", "period_doubling", "neimark_sacker", "grazing",
         "branch"), frequency, amplitude, bracket, multiplier, max_displacement, located.
+    turning_points: list[dict]
+        Every point at which the curve turns: frequency, amplitude, max_displacement, and whether a sample of a contact
+        grazes there. A jump of the structure is at one of them. Some may be of the samples alone, and no folds.
+    warnings: list[str]
+        What the numbers do not show: a curve that ended early, turns that are no folds in `special_points` or the
+        other way round, stability that is not known, motions that are all unstable.
     wall_seconds: float
         Of the curve and its stability, s.
     """
@@ -74,6 +80,28 @@ class Sweep:
         self.stable = np.ma.masked_array(self.unstable == 0, mask=self.unstable < 0)
         self.stability_status: list[str] = core.stability_status
         self.special_points: list[dict[str, Any]] = core.special_points
+        self.turning_points: list[dict[str, Any]] = core.turning_points
+        self.warnings: list[str] = self._warnings(known)
+
+    def _warnings(self, known: bool) -> list[str]:
+        texts = []
+        if self.status != "reached_end":
+            texts.append(f'The curve did not reach its end: "{self.status}".')
+        elif not self.converged:
+            texts.append("Rounding leaves the motions less accurate than 1e-3.")
+        if not known or len(self) == 0:
+            return texts
+        turns, folds = len(self.turning_points), len(self.special("fold"))
+        if turns != folds:
+            texts.append(
+                f"The curve turns {turns} times; special_points has {folds} of type fold. turning_points has all turns."
+            )
+        if np.any(self.unstable < 0):
+            count = np.count_nonzero(self.unstable < 0)
+            texts.append(f"The stability of {count} of {len(self)} points is not known; stability_status has the reasons.")
+        elif np.all(self.unstable > 0):
+            texts.append("All motions of the curve are unstable: a structure that is disturbed leaves them.")
+        return texts
 
     def __reduce__(self) -> Any:
         return _restored_sweep, (self._problem, self._laws, _core.curve_state(self._core))
