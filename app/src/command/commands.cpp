@@ -50,8 +50,9 @@ std::string summary_text(const Summary& summary) {
 
 void say_not_converged(const Scene& scene, const std::string& status) {
   std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", status.c_str());
-  const std::string step = next_step(scene.analysis.type, status, scene.analysis.exact);
-  if (!step.empty()) std::fprintf(stderr, "wavebalance: what may help: %s\n", step.c_str());
+  std::string texts;
+  for (const NextStep& step : next_steps(scene, status)) texts += (texts.empty() ? "" : "; ") + step.text;
+  if (!texts.empty()) std::fprintf(stderr, "wavebalance: what may help: %s\n", texts.c_str());
 }
 
 void report(const RunArguments& arguments, const Scene& scene, const Record& record,
@@ -66,7 +67,7 @@ void report(const RunArguments& arguments, const Scene& scene, const Record& rec
   for (const auto& warning : record.warnings)
     std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
   if (record.interrupted)
-    std::fputs("wavebalance: interrupted; the record holds the points so far\n", stderr);
+    std::fputs("wavebalance: interrupted; the record holds what was found so far\n", stderr);
   else if (!record.converged)
     say_not_converged(scene, record.status);
 }
@@ -136,9 +137,10 @@ int run_scene(const RunArguments& arguments) {
   check_run_output(arguments, scene);
   OutputFiles files(arguments.output);
   InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
-                       scene.analysis.type == AnalysisType::amplitude_sweep);
+                       scene.analysis.type == AnalysisType::amplitude_sweep ||
+                       scene.analysis.type == AnalysisType::motions);
   const Record record = solve(scene, start, guard, arguments);
-  if (record.interrupted && record.sweep.empty()) guard.end_program();
+  if (record.interrupted && record.sweep.empty() && record.files.empty()) guard.end_program();
   const RunFiles results = run_files(arguments, scene, record);
   if (!results.no_picture.empty())
     std::fprintf(stderr, "wavebalance: no picture: %s\n", results.no_picture.c_str());

@@ -55,9 +55,9 @@ std::string footer() {
          "  0    The scene is solved.\n"
          "  2    The input is wrong, or the output cannot be written. Nothing is written.\n"
          "  3    The solution has not converged. The record is written and says so.\n"
-         "  130  The command was interrupted (Ctrl-C). Sweeps, comparisons and studies write what they have, with\n"
-         "       the status \"interrupted\". Other analyses write nothing. A second Ctrl-C ends all of them at once,\n"
-         "       and nothing is written.";
+         "  130  The command was interrupted (Ctrl-C). Sweeps, searches for motions, comparisons and studies write\n"
+         "       what they have, with the status \"interrupted\". Other analyses write nothing. A second Ctrl-C ends\n"
+         "       all of them at once, and nothing is written.";
 }
 
 void add_list(CLI::App& command, const std::string& name, std::vector<std::string>& values,

@@ -1,127 +1,140 @@
 #include "command/next_steps.hpp"
 
 #include <map>
+#include <optional>
+
+#include "command/scene_moves.hpp"
 
 namespace wavebalance::app {
 namespace {
 
-using Remedies = std::map<std::string, std::string>;
+using namespace moves;
+
+using Remedies = std::map<std::string, std::vector<Move>>;
 
 const Remedies& of_responses() {
-  static const std::string other_sizes =
-      "another time.functions (odd for Fourier), more time.quadrature_points, or time.tolerance in place of both";
-  static const std::string balance = "time.method = \"balance\"";
-  static const Remedies all{
-      {"stalled", other_sizes},
-      {"iteration_limit", other_sizes},
-      {"effort_limit", other_sizes},
-      {"inaccurate", "another forcing.frequency, more damping, or a contact that the load moves"},
-      {"singular", "damping, such as structure.stiffness_damping, or another forcing.frequency"},
-      {"unbalanced", "a static load that presses the structure against a contact (forcing.terms)"},
-      {"size_limit", "a larger time.tolerance"},
-      {"stagnated", "a larger time.tolerance"},
-      {"no_start",
-       "time.method = \"balance\" with other time.functions, or analysis.type = \"time_stepping\""},
-      {"not_found",
-       "time.method = \"balance\" with more time.functions, or analysis.type = \"time_stepping\""},
-      {"tolerance_missed", "a larger time.tolerance"},
-      {"rigid_contact", balance},
-      {"velocity_and_no_mass", balance},
-      {"structural_damping", balance},
-      {"no_modes", balance},
-      {"resonant", "another forcing.frequency, or damping such as structure.stiffness_damping"},
-      {"chattering",
-       "analysis.type = \"motions\", contact.restitution = 0, a stiff \"linear\" law, or a larger contact.restitution"},
-      {"lasting_contact", "a stiff \"linear\" law"},
-      {"too_many_impacts", "a stiff \"linear\" law, more damping, or a smaller contact.restitution"},
-      {"grazing", "another forcing.frequency, or another contact.gap"},
-      {"not_settled", "analysis.type = \"motions\", more damping, or another forcing.frequency"},
-      {"not_converged",
-       "time.functions and time.quadrature_points in place of time.tolerance, or more damping"}};
+  static const std::vector<Move> sizes{more_functions, odd_functions, more_points, tolerance_in_place};
+  static const std::vector<Move> elsewhere{balance, integrate};
+  static const Remedies all{{"stalled", sizes},
+                            {"iteration_limit", sizes},
+                            {"effort_limit", sizes},
+                            {"inaccurate", {other_frequency, more_damping, moved_contact}},
+                            {"singular", {more_damping, other_frequency}},
+                            {"unbalanced", {static_load}},
+                            {"size_limit", {larger_tolerance}},
+                            {"stagnated", {larger_tolerance}},
+                            {"no_start", elsewhere},
+                            {"no_motion_near", elsewhere},
+                            {"tolerance_missed", {larger_tolerance}},
+                            {"rigid_contact", {balance}},
+                            {"velocity_and_no_mass", {balance}},
+                            {"structural_damping", {balance}},
+                            {"no_modes", {balance}},
+                            {"resonant", {other_frequency, more_damping}},
+                            {"chattering", {no_rebound, stiff_law, more_rebound}},
+                            {"lasting_contact", {stiff_law}},
+                            {"too_many_impacts", {stiff_law, more_damping, less_rebound}},
+                            {"grazing", {other_frequency, other_gap}},
+                            {"not_settled", {all_motions, more_damping, other_frequency}},
+                            {"not_converged", {sizes_in_place, more_damping}}};
   return all;
 }
 
 const Remedies& of_sweeps() {
-  static const Remedies all{
-      {"returned", "both ends of the interval exchanged, or a start outside the resonance"},
-      {"no_start", "another start of the interval, away from the resonance"},
-      {"closed", "another start or direction of the interval, or more time.quadrature_points"},
-      {"lost",
-       "analysis.exact = true, a smaller analysis.largest_step, more time.quadrature_points, or an odd time.functions"},
-      {"missed_part",
-       "analysis.exact = true, a smaller analysis.largest_step, or more time.quadrature_points"},
-      {"unbounded", "more damping, or time.nyquist = \"drop\""},
-      {"point_limit", "a larger analysis.max_points, or analysis.exact = true"}};
+  static const Remedies all{{"returned", {reversed, other_start}},
+                            {"no_start", {other_start}},
+                            {"closed", {other_start, reversed, more_points}},
+                            {"lost", {damping_depth, exact_curve, smaller_step, more_points, odd_functions}},
+                            {"missed_part", {damping_depth, exact_curve, smaller_step, more_points}},
+                            {"unbounded", {more_damping, dropped_nyquist}},
+                            {"point_limit", {more_curve_points, damping_depth, exact_curve}}};
   return all;
 }
 
 const Remedies& of_exact_sweeps() {
-  static const Remedies all{
-      {"returned", "both ends of the interval exchanged, or a start outside the resonance"},
-      {"no_start", "another start of the interval, away from the resonance, or analysis.exact = false"},
-      {"lost", "a smaller analysis.largest_step, or analysis.exact = false"},
-      {"point_limit", "a larger analysis.max_points"}};
+  static const Remedies all{{"returned", {reversed, other_start}},
+                            {"no_start", {damping_depth, other_start, curve_of_balance}},
+                            {"lost", {damping_depth, smaller_step}},
+                            {"point_limit", {more_curve_points}}};
   return all;
 }
 
 const Remedies& of_modes() {
-  static const Remedies all{{"cycling", "analysis.samples = 2 x analysis.harmonics"},
-                            {"singular", "analysis.samples = 2 x analysis.harmonics"},
-                            {"lost", "more analysis.points, or other analysis.harmonics"},
-                            {"point_limit", "more analysis.points"}};
+  static const std::vector<Move> twice{samples_of_harmonics};
+  static const Remedies all{{"cycling", twice},
+                            {"singular", twice},
+                            {"ended", {higher_ratio, more_harmonics, more_mode_points}},
+                            {"lost", {more_mode_points, more_harmonics}},
+                            {"point_limit", {more_mode_points}}};
   return all;
 }
 
 const Remedies& of_time_stepping() {
   static const Remedies all{
-      {"iteration_limit",
-       "more analysis.max_periods, a larger analysis.tolerance, more damping, or for large matrices "
-       "structure.kept_modes"},
-      {"subharmonic", "analysis.type = \"forced_response\" with analysis.subharmonic"},
-      {"step_failure", "a softer contact"}};
+      {"iteration_limit", {more_periods, larger_step_tolerance, more_damping, fewer_modes}},
+      {"subharmonic", {response_of_periods, all_motions}},
+      {"step_failure", {softer_contact}}};
   return all;
 }
 
 const Remedies& of_shooting() {
-  static const std::string others = "analysis.type = \"forced_response\" or \"time_stepping\"",
-                           balance = "analysis.type = \"forced_response\"";
-  static const Remedies all{{"no_start", others},
-                            {"not_found", others},
-                            {"tolerance_missed", "a larger time.tolerance"},
-                            {"rigid_contact", balance},
-                            {"velocity_and_no_mass", balance},
-                            {"structural_damping", balance},
-                            {"no_modes", balance},
-                            {"resonant", of_responses().at("resonant")}};
+  static const Remedies all{{"no_start", {response, integrate}},
+                            {"no_motion_near", {response, integrate}},
+                            {"tolerance_missed", {larger_tolerance}},
+                            {"rigid_contact", {response}},
+                            {"velocity_and_no_mass", {response}},
+                            {"structural_damping", {response}},
+                            {"no_modes", {response}},
+                            {"resonant", {other_frequency, more_damping}}};
   return all;
 }
 
 const Remedies& of_motions() {
-  static const Remedies all{
-      {"not_settled",
-       "a larger analysis.longest_period, more analysis.random_starts, more damping, or analysis.type = "
-       "\"forced_response\""},
-      {"not_solved", "analysis.type = \"forced_response\" with time.method = \"balance\""},
-      {"no_modes", "analysis.type = \"forced_response\""}};
+  static const Remedies all{{"no_motion", {longer_period, more_starts, more_damping, response}},
+                            {"no_modes", {response}}};
   return all;
+}
+
+const Remedies& of_analysis(const Analysis& analysis) {
+  switch (analysis.type) {
+    case AnalysisType::forced_response:
+      return of_responses();
+    case AnalysisType::nonlinear_mode:
+      return of_modes();
+    case AnalysisType::time_stepping:
+      return of_time_stepping();
+    case AnalysisType::shooting:
+      return of_shooting();
+    case AnalysisType::motions:
+      return of_motions();
+    case AnalysisType::frequency_sweep:
+    case AnalysisType::amplitude_sweep:
+      break;
+  }
+  return analysis.exact ? of_exact_sweeps() : of_sweeps();
 }
 
 }  // namespace
 
-std::string next_step(AnalysisType type, const std::string& status, bool exact) {
-  if (type == AnalysisType::nonlinear_mode && status.starts_with("ended at"))
-    return status.ends_with("last_frequency_ratio is reached")
-               ? "a higher analysis.last_frequency_ratio, or none"
-               : "other analysis.harmonics and analysis.samples, or more analysis.points";
-  const Remedies& remedies = type == AnalysisType::forced_response  ? of_responses()
-                             : type == AnalysisType::nonlinear_mode ? of_modes()
-                             : type == AnalysisType::time_stepping  ? of_time_stepping()
-                             : type == AnalysisType::shooting       ? of_shooting()
-                             : type == AnalysisType::motions        ? of_motions()
-                             : exact                                ? of_exact_sweeps()
-                                                                    : of_sweeps();
-  const auto found = remedies.find(status);
-  return found == remedies.end() ? "" : found->second;
+std::vector<NextStep> next_steps(const Scene& scene, const std::string& status) {
+  const Remedies& remedies = of_analysis(scene.analysis);
+  const auto found = remedies.find(status.starts_with("ended at") ? "ended" : status);
+  std::vector<NextStep> steps;
+  if (found == remedies.end()) return steps;
+  for (const Move& move : found->second)
+    if (auto step = move(scene); step && accepts(scene, step->change)) steps.push_back(std::move(*step));
+  return steps;
+}
+
+std::vector<std::string> statuses_with_next_steps(AnalysisType type) {
+  std::vector<std::string> statuses;
+  for (const bool exact : {false, true}) {
+    Analysis analysis;
+    analysis.type = type;
+    analysis.exact = exact;
+    for (const auto& [status, moves] : of_analysis(analysis)) statuses.push_back(status);
+  }
+  return statuses;
 }
 
 }  // namespace wavebalance::app

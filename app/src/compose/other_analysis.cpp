@@ -14,6 +14,7 @@ namespace wavebalance::app {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
+constexpr std::string_view structure_section = "structure";
 
 /// Sets a key that decides which others belong to a scene, unless its value is none.
 void set_text(Scene& scene, const Document& document, const std::string& name) {
@@ -24,6 +25,24 @@ void set_text(Scene& scene, const Document& document, const std::string& name) {
   const auto* text = std::get_if<std::string>(&entry->value);
   if (text != nullptr && std::find(key->choices.begin(), key->choices.end(), *text) != key->choices.end())
     key->set(scene, *text);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Whether a change names a key, to set it or to leave it out.
+bool names_key(const SceneChange& change, const std::string& key) {
+  return contains(change.unset, key) ||
+         std::any_of(change.set.begin(), change.set.end(),
+                     [&](const std::string& one) { return one.substr(0, one.find('=')) == key; });
+}
+
+/// Whether the key at fault only has to go, as it belongs to what the change replaced. One of the structure
+/// that is set stays, since without it the structure is another one.
+bool is_left_over(const SceneError::Details& fault, const SceneChange& change) {
+  const bool set = split_name(fault.key).first == structure_section && fault.found != "false";
+  return fault.allowed.starts_with("does not belong to") && !names_key(change, fault.key) && !set;
 }
 
 /// Whether a law of the document has friction.
@@ -61,13 +80,34 @@ std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file,
   std::vector<std::string> names;
   for (const DocumentEntry& entry : given.entries) {
     const SceneKey* key = find_scene_key(entry.full_name());
-    const bool stray = key != nullptr && key->belongs.broken_by(scene) == "analysis.type";
+    const bool stray = key != nullptr && entry.section != structure_section &&
+                       key->belongs.broken_by(scene) == "analysis.type";
     if (stray || (free_motion && acts_on_free_motion(entry))) names.push_back(entry.full_name());
   }
   const bool terms = std::any_of(given.sections.begin(), given.sections.end(),
                                  [](const DocumentSection& one) { return is_term_section(one.name); });
   if (free_motion && terms) names.emplace_back("forcing.terms");
   return names;
+}
+
+bool accepts(const Scene& scene, const SceneChange& change) {
+  constexpr int most_left_over = 100;
+  const std::string text = write_scene(scene) + "\n" + change.added + "\n";
+  std::vector<std::string> set = change.set, removed;
+  if (!change.analysis.empty()) set.push_back("analysis.type=" + change.analysis);
+  const Document document = parse_document(text, "scene");
+  for (const DocumentEntry& entry : document.entries)
+    if (contains(change.unset, entry.full_name())) removed.push_back(entry.full_name());
+  for (int i = 0; i < most_left_over; ++i) {
+    try {
+      parse_scene(text, "scene", set, removed, &scene);
+      return true;
+    } catch (const SceneError& error) {
+      if (!is_left_over(error.details(), change) || contains(removed, error.details().key)) return false;
+      removed.push_back(error.details().key);
+    }
+  }
+  return false;
 }
 
 }  // namespace wavebalance::app

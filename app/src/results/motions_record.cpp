@@ -119,7 +119,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.warnings = model.warnings;
   record.converged = all.status == "converged";
   record.interrupted = all.status == "cancelled";
-  record.status = all.status;
+  record.status = record.interrupted ? "interrupted" : all.status;
   record.summary = solution_entries(record.converged, record.status,
                                     largest(all, [](const FoundMotion& one) { return one.residual; }),
                                     iterations, unknowns, all.wall_seconds);

@@ -147,7 +147,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   else if (scene.analysis.phases && response.converged && !is_by_phases(response))
     record.summary.emplace_back(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
-  append_settled(record, response);
+  append_settled(record, scene, response);
   append_other_motions(record, scene, response);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);

@@ -10,6 +10,7 @@
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -92,9 +93,11 @@ void warn_of_scene(Record& record, const Scene& scene) {
 }
 
 void warn_of_open_contacts(Record& record, double displacement, double gap) {
+  const int digits =
+      std::abs(displacement - gap) > 1e-3 * std::abs(gap) ? 4 : 12;  // which show that they differ
   record.warnings.push_back(
-      fmt::format("No contact closes: the largest displacement is {:.4g} mm where the gap is {:.4g} mm.",
-                  1e3 * displacement, 1e3 * gap));
+      fmt::format("No contact closes: the largest displacement is {:.{}g} mm where the gap is {:.{}g} mm.",
+                  1e3 * displacement, digits, 1e3 * gap, digits));
 }
 
 void append_motion(Summary& summary, const solvers::Motion& leading) {
@@ -139,13 +142,15 @@ void append_attractor(Record& record, int periods, const Response& response) {
                         attractor, attractor));
 }
 
-void append_settled(Record& record, const Response& response) {
+void append_settled(Record& record, const Scene& scene, const Response& response) {
   if (!response.settled) return;
   const SettledBeside& beside = *response.settled;
   record.summary.emplace_back(quantities::settled_periods, std::int64_t{beside.periods});
   record.summary.emplace_back(quantities::settled_max_displacement,
                               beside.periods > 0 ? beside.max_displacement : missing);
-  const std::string others = " Other motions were not sought; analysis.type = \"motions\" seeks them.";
+  const std::string others =
+      std::string(" Other motions were not sought") +
+      (accepts(scene, {.analysis = "motions"}) ? "; analysis.type = \"motions\" seeks them." : ".");
   if (beside.periods > 0)
     record.warnings.push_back(fmt::format(
         "From rest the structure settles to {} motion, which repeats after {} of the load and has a largest "

@@ -33,7 +33,7 @@ void append_period(Record& record, int periods, int motion_periods);
 void append_attractor(Record& record, int periods, const Response& response);
 
 /// What the structure settles to beside an unstable response, and what was not sought.
-void append_settled(Record& record, const Response& response);
+void append_settled(Record& record, const Scene& scene, const Response& response);
 
 /// Whether motions beside the response were sought.
 void append_other_motions(Record& record, const Scene& scene, const Response& response);

@@ -243,7 +243,8 @@ TEST(CommandRun, InterruptedSweepLeavesItsPoints) {
   command.send(SIGINT);
   const Outcome outcome = command.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("the record holds the points so far"), std::string::npos) << outcome.errors;
+  EXPECT_NE(outcome.errors.find("the record holds what was found so far"), std::string::npos)
+      << outcome.errors;
   const std::string summary = read_file(folder / "out" / "summary.json");
   EXPECT_NE(summary.find("\"converged\": false"), std::string::npos);
   EXPECT_NE(summary.find("\"status\": \"interrupted\""), std::string::npos);

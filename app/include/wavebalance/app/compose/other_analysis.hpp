@@ -3,13 +3,29 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/scene/scene.hpp"
+
 namespace wavebalance::app {
 
 /// The keys of a scene's file that do not belong to an analysis of the type `type`, each "section.key", or
 /// "forcing.terms" for all of its terms: those that have no meaning in it, of a nonlinear mode without
-/// friction dampings and loads too. Of overrides those of type, law and method count. Throws SceneError for a
-/// file that cannot be read or is not TOML.
+/// friction dampings and loads too. Other keys of the structure are not among them, since without them it is
+/// another structure: the analysis refuses them. Of overrides those of type, law and method count. Throws
+/// SceneError for a file that cannot be read or is not TOML.
 std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file, const std::string& type,
                                               const std::vector<std::string>& overrides = {});
+
+/// A change of a scene as `--analysis`, `--set` and `--unset` make it, and tables that are added to its file.
+struct SceneChange {
+  std::string analysis = {};            ///< another analysis.type; empty: the same
+  std::vector<std::string> set = {};    ///< each "section.key=value"
+  std::vector<std::string> unset = {};  ///< each "section.key"
+  std::string added = {};               ///< TOML, as "[[forcing.terms]]\nharmonic = 0"
+};
+
+/// Whether the scene with this change passes the rules of a file. Keys that the change does not name and that
+/// do not belong to the changed scene are left out, but not keys of the structure that are set. Matrices are
+/// not read again, unless kept_modes is what changes.
+bool accepts(const Scene& scene, const SceneChange& change);
 
 }  // namespace wavebalance::app

@@ -1,0 +1,298 @@
+#include "command/scene_moves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wavebalance/app/scene/contacts.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
+
+namespace wavebalance::app::moves {
+namespace {
+
+using Step = std::optional<NextStep>;
+
+std::string setting(const std::string& key, const SceneValue& value) { return key + "=" + toml_text(value); }
+
+/// A key with a value that is named.
+Step set_to(const std::string& key, const SceneValue& value) {
+  return NextStep{key + " = " + toml_text(value), {.set = {setting(key, value)}}};
+}
+
+/// A key that is named without the value, as the one that is tried is one of many.
+Step changed(const std::string& words, const std::string& key, const SceneValue& value) {
+  return NextStep{words + " " + key, {.set = {setting(key, value)}}};
+}
+
+Step in_words(const std::string& words) { return NextStep{words, {}}; }
+
+bool has_wavelets(const Time& time) {
+  const auto wavelets = [](const std::string& basis) { return !basis.empty() && is_wavelet(basis); };
+  return wavelets(time.trial) || wavelets(time.weight);
+}
+
+bool is_sweep(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::frequency_sweep ||
+         scene.analysis.type == AnalysisType::amplitude_sweep;
+}
+
+/// Bases and sizes of a scene that has none; impacts take none.
+std::vector<std::string> usual_bases(const Scene& scene) {
+  if (has_impacts(scene.contact) || !scene.time.trial.empty()) return {};
+  return {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"};
+}
+
+/// More basis functions, and points for them.
+Step functions_step(const Scene& scene, int functions) {
+  const Time& time = scene.time;
+  const int least = 4 * functions, points = std::max(time.quadrature_points, least);
+  const int taken = has_wavelets(time) ? std::max(2 * time.quadrature_points, least) : points;
+  Step step = set_to("time.functions", std::int64_t{functions});
+  step->change.set.push_back(setting("time.quadrature_points", std::int64_t{taken}));
+  return step;
+}
+
+std::string name_of_interval(const Scene& scene, const char* end) {
+  return std::string("analysis.") +
+         (scene.analysis.type == AnalysisType::amplitude_sweep ? "amplitude_" : "frequency_") + end;
+}
+
+std::pair<double, double> interval_of(const Analysis& analysis) {
+  if (analysis.type == AnalysisType::amplitude_sweep) return {analysis.amplitude_from, analysis.amplitude_to};
+  return {analysis.frequency_from, analysis.frequency_to};
+}
+
+constexpr std::string_view depth_name = "damping_depth";
+
+/// The contact whose damper sets in at once, or nullptr.
+const SceneContact* sudden_damper(const std::vector<SceneContact>& contacts) {
+  const std::vector<std::string_view>& laws = find_scene_key("contact.damping_depth")->laws;
+  const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const SceneContact& one) {
+    if (std::find(laws.begin(), laws.end(), one.law) == laws.end()) return false;
+    const auto given = one.values.find(depth_name);
+    return given == one.values.end() || std::get<double>(given->second) == 0.0;
+  });
+  return found == contacts.end() ? nullptr : &*found;
+}
+
+double restitution_of(const Contact& contact) {
+  const auto found = contact.values.find("restitution");
+  return found == contact.values.end() ? 0.0 : std::get<double>(found->second);
+}
+
+}  // namespace
+
+Step more_functions(const Scene& scene) {
+  const int now = scene.time.functions;
+  return functions_step(scene, has_wavelets(scene.time) ? 2 * now : 2 * now + 1);
+}
+
+Step odd_functions(const Scene& scene) {
+  const int now = scene.time.functions;
+  if (now % 2 == 1 || has_wavelets(scene.time)) return std::nullopt;
+  Step step = functions_step(scene, now + 1);
+  step->text = "an odd time.functions";
+  return step;
+}
+
+Step more_points(const Scene& scene) {
+  return set_to("time.quadrature_points", std::int64_t{4} * scene.time.quadrature_points);
+}
+
+Step tolerance_in_place(const Scene& scene) {
+  if (scene.time.tolerance > 0.0) return std::nullopt;
+  return NextStep{"time.tolerance in place of time.functions and time.quadrature_points",
+                  {.set = {"time.tolerance=1e-3"}, .unset = {"time.functions", "time.quadrature_points"}}};
+}
+
+Step sizes_in_place(const Scene& scene) {
+  if (!(scene.time.tolerance > 0.0)) return std::nullopt;
+  return NextStep{"time.trial, time.weight and time.functions in place of time.tolerance",
+                  {.set = {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"},
+                   .unset = {"time.tolerance"}}};
+}
+
+Step larger_tolerance(const Scene& scene) {
+  return changed("a larger", "time.tolerance", std::min(10.0 * scene.time.tolerance, 0.5));
+}
+
+Step dropped_nyquist(const Scene& scene) {
+  if (scene.time.functions % 2 == 1) return std::nullopt;
+  return set_to("time.nyquist", std::string("drop"));
+}
+
+Step balance(const Scene& scene) {
+  if (scene.time.method == TimeMethod::balance) return std::nullopt;
+  return NextStep{"time.method = \"balance\" with time.trial, time.weight and time.functions",
+                  {.set = {"time.method=\"balance\"", "time.trial=\"fourier\"", "time.weight=\"fourier\"",
+                           "time.functions=127"},
+                   .unset = {"time.tolerance"}}};
+}
+
+Step integrate(const Scene&) {
+  return NextStep{"analysis.type = \"time_stepping\"", {.analysis = "time_stepping"}};
+}
+
+Step response(const Scene& scene) {
+  const std::vector<std::string> bases = usual_bases(scene);
+  return NextStep{std::string("analysis.type = \"forced_response\"") +
+                      (bases.empty() ? "" : " with time.trial, time.weight and time.functions"),
+                  {.analysis = "forced_response", .set = bases, .unset = {"time.tolerance"}}};
+}
+
+Step response_of_periods(const Scene& scene) {
+  Step step = response(scene);
+  step->text += usual_bases(scene).empty() ? " with analysis.subharmonic" : ", and analysis.subharmonic";
+  step->change.set.emplace_back("analysis.subharmonic=2");
+  return step;
+}
+
+Step all_motions(const Scene&) { return NextStep{"analysis.type = \"motions\"", {.analysis = "motions"}}; }
+
+Step more_damping(const Scene& scene) {
+  const Structure& structure = scene.structure;
+  if (structure.modal_damping > 0.0)
+    return changed("a larger", "structure.modal_damping", std::min(1.0, 2.0 * structure.modal_damping));
+  if (structure.stiffness_damping > 0.0)
+    return changed("a larger", "structure.stiffness_damping", 2.0 * structure.stiffness_damping);
+  if (!structure.matrices.damping.empty() || structure.loss_factor > 0.0) return in_words("more damping");
+  return changed("damping, such as", "structure.stiffness_damping", 1e-6);
+}
+
+Step fewer_modes(const Scene& scene) {
+  if (scene.structure.kept_modes >= 0) return std::nullopt;
+  return set_to("structure.kept_modes", std::int64_t{8});
+}
+
+Step other_frequency(const Scene& scene) {
+  return changed("another", "forcing.frequency", 1.01 * scene.forcing.frequency);
+}
+
+Step static_load(const Scene&) {
+  return NextStep{"a static load that presses the structure against a contact (forcing.terms)",
+                  {.added = "[[forcing.terms]]\nharmonic = 0\namplitude = 1.0"}};
+}
+
+Step other_gap(const Scene& scene) {
+  if (!scene.contact.gaps.empty()) return std::nullopt;
+  return changed("another", "contact.gap", 1.01 * scene.contact.gap);
+}
+
+Step moved_contact(const Scene&) { return in_words("a contact that the load moves"); }
+
+Step softer_contact(const Scene&) { return in_words("a softer contact"); }
+
+Step damping_depth(const Scene& scene) {
+  constexpr double of_gap = 0.01;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const SceneContact* damper = sudden_damper(contacts);
+  if (damper == nullptr) return std::nullopt;
+  const bool own = damper->pair && damper->law != scene.contact.law;
+  const std::string key = (own ? pair_section(*damper->pair) : "contact") + "." + std::string(depth_name);
+  if (damper->gap > 0.0) return set_to(key, of_gap * damper->gap);
+  return changed("a positive", key, 1e-6);
+}
+
+Step no_rebound(const Scene& scene) {
+  if (restitution_of(scene.contact) == 0.0) return std::nullopt;
+  return set_to("contact.restitution", 0.0);
+}
+
+Step more_rebound(const Scene& scene) {
+  return changed("a larger", "contact.restitution", 0.5 * (1.0 + restitution_of(scene.contact)));
+}
+
+Step less_rebound(const Scene& scene) {
+  if (restitution_of(scene.contact) == 0.0) return std::nullopt;
+  return changed("a smaller", "contact.restitution", 0.5 * restitution_of(scene.contact));
+}
+
+Step stiff_law(const Scene& scene) {
+  if (!is_rigid(scene.contact.law)) return std::nullopt;
+  NextStep step{"a stiff contact.law = \"linear\" in place of contact.restitution",
+                {.set = {"contact.law=\"linear\"", "contact.stiffness=1e9"},
+                 .unset = {"contact.restitution", "contact.mass"}}};
+  if (!integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::motions) {
+    step.text += ", with time.trial, time.weight and time.functions";
+    step.change.set.insert(step.change.set.end(),
+                           {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"});
+  }
+  return step;
+}
+
+Step reversed(const Scene& scene) {
+  const auto [from, to] = interval_of(scene.analysis);
+  return NextStep{
+      "both ends of the interval exchanged",
+      {.set = {setting(name_of_interval(scene, "from"), to), setting(name_of_interval(scene, "to"), from)}}};
+}
+
+Step other_start(const Scene& scene) {
+  constexpr double part = 0.1;
+  const auto [from, to] = interval_of(scene.analysis);
+  const double outward = from - part * (to - from),
+               start = outward > 0.0 ? outward : from + part * (to - from);
+  Step step = changed("another", name_of_interval(scene, "from"), start);
+  step->text += ", away from the resonance";
+  return step;
+}
+
+Step exact_curve(const Scene& scene) {
+  // A damper that sets in at once makes the force jump where a contact closes, and an exact curve ends there.
+  if (scene.analysis.exact || sudden_damper(contacts_of(scene)) != nullptr) return std::nullopt;
+  return set_to("analysis.exact", true);
+}
+
+Step curve_of_balance(const Scene&) { return set_to("analysis.exact", false); }
+
+Step smaller_step(const Scene& scene) {
+  Step step = changed("a smaller", "analysis.largest_step", 0.5 * scene.analysis.largest_step);
+  step->change.set.push_back(
+      setting("analysis.first_step", std::min(scene.analysis.first_step, 0.5 * scene.analysis.largest_step)));
+  return step;
+}
+
+Step more_curve_points(const Scene& scene) {
+  return changed("a larger", "analysis.max_points", std::int64_t{4} * scene.analysis.max_points);
+}
+
+Step samples_of_harmonics(const Scene& scene) {
+  const std::int64_t samples = std::int64_t{2} * scene.analysis.harmonics;
+  if (scene.analysis.samples == samples) return std::nullopt;
+  return set_to("analysis.samples", samples);
+}
+
+Step more_harmonics(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  if (!scene.time.trial.empty()) return more_functions(scene);
+  Step step = changed("other", "analysis.harmonics", std::int64_t{2} * analysis.harmonics);
+  step->text += " and analysis.samples";
+  step->change.set.push_back(setting("analysis.samples", std::int64_t{2} * analysis.samples));
+  return step;
+}
+
+Step more_mode_points(const Scene& scene) {
+  return changed("more", "analysis.points", std::int64_t{2} * scene.analysis.points);
+}
+
+Step higher_ratio(const Scene& scene) {
+  return changed("a higher", "analysis.last_frequency_ratio", 2.0 * scene.analysis.last_frequency_ratio);
+}
+
+Step more_periods(const Scene& scene) {
+  return changed("more", "analysis.max_periods", std::int64_t{2} * scene.analysis.max_periods);
+}
+
+Step larger_step_tolerance(const Scene& scene) {
+  return changed("a larger", "analysis.tolerance", std::min(10.0 * scene.analysis.tolerance, 0.5));
+}
+
+Step longer_period(const Scene& scene) {
+  return changed("a larger", "analysis.longest_period", std::int64_t{2} * scene.analysis.longest_period);
+}
+
+Step more_starts(const Scene& scene) {
+  return changed("more", "analysis.random_starts", std::int64_t{2} * scene.analysis.random_starts + 10);
+}
+
+}  // namespace wavebalance::app::moves
