@@ -19,6 +19,10 @@ exception. Bad input raises :class:`SceneError` or another ``ValueError`` with t
 solve with ``KeyboardInterrupt``. Solves release the interpreter's lock, so that threads run beside each other.
 """
 
+from ._compiled import require_core
+
+require_core()
+
 from . import laws, wavelets
 from ._core import InadmissiblePair, SceneError, SingularSystem
 from ._progress import progress
@@ -34,6 +38,7 @@ from .laws import (
     HuntCrossley,
     KelvinVoigt,
     Law,
+    Linear,
     NoContact,
     Penalty,
     Polynomial,
@@ -62,6 +67,7 @@ __all__ = [
     "InadmissiblePair",
     "KelvinVoigt",
     "Law",
+    "Linear",
     "Motion",
     "NoContact",
     "Pair",

@@ -22,6 +22,7 @@ __all__ = [
     "HuntCrossley",
     "KelvinVoigt",
     "Law",
+    "Linear",
     "NoContact",
     "Penalty",
     "Polynomial",
@@ -106,6 +107,9 @@ class Penalty(Law):
 
     def __init__(self, stiffness: float, gap: float = 0.0) -> None:
         self._make(stiffness=stiffness, gap=gap)
+
+
+Linear = Penalty  # as a scene calls this law
 
 
 class Exponential(Law):
