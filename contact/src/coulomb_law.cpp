@@ -200,7 +200,7 @@ LawDescription CoulombLaw::description() {
           "slider of the limit friction N, N = normal_load, or max(normal_load + normal_stiffness (u - "
           "normal_gap), 0) of the displacement u along a normal direction",
       .parameters =
-          {{"friction", "", "coefficient of friction", at_least_zero},
+          {{"friction", "", "coefficient of friction", LawRange{.lower = 0.0, .upper = 1e3}},
            may_lack(
                {"tangential_stiffness", "N/m",
                 "stiffness along the tangents while the contact sticks; without it friction is rigid, and the "

@@ -137,6 +137,7 @@ CostEstimate estimate_cost(const Scene& scene) {
   CostEstimate cost;
   cost.bytes = structure_bytes(scene, sizes) + output_bytes(scene, sizes);
   if (seeks_phases(scene)) cost.bytes += phases_bytes(sizes);
+  cost.unforeseen = names_friction(scene.contact);
   if (!is_balance(scene) || solves_by_phases(scene) || scene.analysis.exact || scene.time.tolerance > 0.0) {
     cost.seconds = std::numeric_limits<double>::quiet_NaN();
     return cost;
@@ -148,11 +149,13 @@ CostEstimate estimate_cost(const Scene& scene) {
   cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
                  3e-6 * sizes.contacts * sizes.output_points;
   add_stability(scene, sizes, cost);
+  if (cost.unforeseen) cost.seconds = std::numeric_limits<double>::quiet_NaN();
   return cost;
 }
 
 std::string cost_text(const CostEstimate& cost) {
   const std::string memory = memory_text(cost.bytes) + " of memory";
+  if (cost.unforeseen) return "a time that cannot be foreseen with friction, and about " + memory;
   if (std::isnan(cost.seconds)) return "about " + memory;
   if (!(cost.most_stability_seconds > 0.0)) return "about " + duration_text(cost.seconds) + " and " + memory;
   return fmt::format("about {} for the curve, {} to {} for its stability, and {}",

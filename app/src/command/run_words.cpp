@@ -248,8 +248,8 @@ std::string status_sentence(const std::string& status) {
       {"coupled_massless",
        "Stability is not known: contacts without mass and damping deflect each other at once."},
       {"too_many_states",
-       "Stability is not known: with a damped contact law it takes all states of the structure, of which there are "
-       "too many."},
+       "Stability is not known: with friction or a damped contact law it takes all states of the structure, of which "
+       "there are too many. structure.kept_modes reduces them."},
       {"no_modes", "Stability is not known: the modes of the structure could not be computed."},
       {"effort_limit",
        "Stability is not known everywhere: the count of multipliers took too many operations."},

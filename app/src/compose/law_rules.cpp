@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -143,6 +144,39 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
               "a slider without a normal direction has no side; expected \"positive\"");
 }
 
+/// A weighted sum of degrees of freedom.
+struct WeightedDofs {
+  const std::vector<int>& dofs;
+  const std::vector<double>& weights;
+
+  double operator*(const WeightedDofs& other) const {
+    double product = 0.0;
+    for (std::size_t i = 0; i < dofs.size(); ++i)
+      for (std::size_t j = 0; j < other.dofs.size(); ++j)
+        if (dofs[i] == other.dofs[j]) product += weights[i] * other.weights[j];
+    return product;
+  }
+  double cosine(const WeightedDofs& other) const {
+    return (*this * other) / std::sqrt((*this * *this) * (other * other));
+  }
+};
+
+/// Normal and tangents of a contact are independent directions.
+void check_independent(const Document& document, const ContactPair& pair, const std::string& section) {
+  constexpr double least = 1e-12;  // of the squared volume that unit vectors span
+  if (pair.tangent.empty()) return;
+  const WeightedDofs normal{pair.dofs, pair.coefficients}, first{pair.tangent, pair.tangent_coefficients},
+      second{pair.second_tangent, pair.second_tangent_coefficients};
+  const double a = normal.cosine(first);
+  if (1.0 - a * a < least)
+    fail_rule(document, {section + ".tangent"}, "is the direction of dofs, the normal; expected another one");
+  if (pair.second_tangent.empty()) return;
+  const double b = normal.cosine(second), c = first.cosine(second);
+  if (1.0 + 2.0 * a * b * c - a * a - b * b - c * c < least * (1.0 - a * a))
+    fail_rule(document, {section + ".second_tangent"},
+              "is a direction of dofs and tangent; expected one that is independent of them");
+}
+
 /// Tangents belong to a law with friction, and a blade's is not radial.
 void check_tangents(const Document& document, const Scene& scene) {
   if (scene.contact.tangent == Direction::z)
@@ -150,6 +184,7 @@ void check_tangents(const Document& document, const Scene& scene) {
               "the tip's nodes meet the casing along z, the radial direction; expected \"x\" or \"y\"");
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
+    if (has_friction(pair.law)) check_independent(document, pair, pair_section(i));
     if (has_friction(pair.law)) continue;
     const std::string key = pair_section(i) + (pair.tangent.empty() ? ".second_tangent" : ".tangent");
     if (!pair.tangent.empty() || !pair.second_tangent.empty())

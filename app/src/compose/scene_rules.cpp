@@ -281,8 +281,8 @@ void check_impacts(const Document& document, const Scene& scene) {
          "a contact without mass has no impacts; expected false, or no contact.restitution");
   refuse(
       scene.structure.matrices.free, "structure.free",
-      "not with contact.restitution: impacts of a structure that is free to move have no periodic Green function; "
-      "expected false");
+      "not with contact.restitution: impacts are not solved for a structure that is free to move; expected false "
+      "and, in structure.stiffness, a spring to ground so soft that its force is small beside the loads");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
   refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",

@@ -39,6 +39,11 @@ void check_damping(const Document& document, const Scene& scene) {
 /// Contacts with mass alone hold a structure that is free to move.
 void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
+  if (names_friction(scene.contact))
+    fail_rule(
+        document, {"structure.free", "contact.law"},
+        "not with friction, which is not solved for a structure that is free to move; expected false and, in "
+        "structure.stiffness, a soft spring to ground, of 1e-5 of contact.tangential_stiffness for example");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"structure.free", "contact.law"},

@@ -371,7 +371,10 @@ std::string matrices_lines(const Scene& scene) {
   if (structure_dofs(scene) > most)
     return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);
   const StructureFacts facts = structure_facts(scene);
-  return "modes      " + five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios) +
+  const bool rigid = facts.frequencies_hz.size() == 0;
+  return "modes      " +
+         (rigid ? "0 Hz alone"
+                : five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios)) +
          "\ncompliance " + compliance_text(facts) + "\n" + rest_lines(scene);
 }
 

@@ -230,7 +230,7 @@ Record motion_record(const ModeStudy& study) {
 
 /// Modes of equal or nearly equal frequency, of which a mode follows one combination or runs into another.
 void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
-  constexpr double near = 1e-2;
+  constexpr double near = 1e-2, rounding = 1e-12;
   const Eigen::VectorXd omega = study.linear_modes().omega_squared.cwiseSqrt();
   const Eigen::Index mode = study.scene().analysis.mode - 1,
                      last = omega.size() - study.linear_modes().springs;
@@ -239,8 +239,9 @@ void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
     const double apart = std::abs(omega[other] - omega[mode]) / omega[mode];
     if (apart > near) continue;
     record.warnings.push_back(fmt::format(
-        "The linear frequencies of modes {} and {} differ by {:.1g} of themselves: {}",
-        std::min(mode, other) + 1, std::max(mode, other) + 1, apart,
+        "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
+        std::max(mode, other) + 1,
+        apart <= rounding ? "are equal" : fmt::format("differ by {:.1g} %", 100.0 * apart),
         apart <= 2.0 * equal_frequencies
             ? "they were combined so that the first of them moves the contacts most."
             : "beyond contact each may run into the other, and energies are those of the linear mode that was asked for."));

@@ -83,17 +83,31 @@ class PairReader {
   }
 
   void read_law() {
-    const std::string& law = scene_.contact.law;
     const DocumentEntry* own = entry("law");
-    if (own != nullptr && (law == no_law || is_rigid(law)))
-      fail_at(document_, *own,
-              "does not belong to a scene with contact.law = \"" + law +
-                  "\"; only with another contact.law than \"none\" and \"rigid\"");
-    if (own != nullptr)
+    if (own != nullptr) {
       take("law");
-    else
-      pair_.law = law;
+      check_mixture(*own);
+    } else {
+      pair_.law = scene_.contact.law;
+    }
     for (const SharedParameter& one : law_parameters()) read_parameter(one.first.name);
+  }
+
+  /// Laws of pairs are beside an elastic or damped law of the scene.
+  void check_mixture(const DocumentEntry& own) const {
+    if (scene_.contact.law == no_law)
+      fail_at(
+          document_, own,
+          "does not belong to a scene with contact.law = \"none\", which has no contact; expected another "
+          "contact.law, or none, where all pairs have a law");
+    if (!is_rigid(scene_.contact.law)) return;
+    const std::string why = has_friction(pair_.law) ? "friction beside a rigid contact is not solved"
+                                                    : "another law beside a rigid contact is not solved";
+    fail_at(
+        document_, own,
+        why +
+            "; expected a stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of "
+            "contact.law = \"rigid\"");
   }
 
   void read_parameter(std::string_view name) {
@@ -124,6 +138,37 @@ bool is_pair_section(std::string_view section) { return section.starts_with("con
 
 std::size_t count_pairs(const Document& document) {
   return count_tables(document, "contact.pairs", most_pairs);
+}
+
+namespace {
+
+/// The first of the laws of pairs that is one; nullptr where there is none.
+const DocumentEntry* first_law(const Document& document) {
+  const std::vector<SceneKey> keys = pair_keys(0);
+  const auto law =
+      std::find_if(keys.begin(), keys.end(), [](const SceneKey& key) { return key.name == "law"; });
+  const auto found =
+      std::find_if(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
+        const auto* text = std::get_if<std::string>(&entry.value);
+        return is_pair_section(entry.section) && entry.key == "law" && text != nullptr &&
+               std::find(law->choices.begin(), law->choices.end(), *text) != law->choices.end();
+      });
+  return found == document.entries.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Document with_law_of_pairs(Document document) {
+  const DocumentEntry* law = document.find("contact", "law") == nullptr ? first_law(document) : nullptr;
+  if (law == nullptr) return document;
+  for (const DocumentSection& section : document.sections)
+    if (is_pair_section(section.name) && document.find(section.name, "law") == nullptr)
+      throw SceneError(
+          {document.name, section.line, "", section.name + ".law", "",
+           "missing, where other pairs have one; expected a law here, or contact.law, which holds "
+           "for pairs without one"});
+  document.entries.push_back({"contact", "law", law->value, law->found, law->line, law->override});
+  return document;
 }
 
 void read_pairs(const Document& document, Scene& scene) {

@@ -91,6 +91,8 @@ bool is_former(const DocumentEntry& entry) {
   if (!is_section(entry.section) && !is_table_section(entry.section))
     fail_at(document, entry, unknown_section_text(entry.section));
   const auto shown = [&](const std::string& name) { return entry.section + "." + name; };
+  if (const std::string_view meant = name_for(entry.section, entry.key); !meant.empty())
+    fail_at(document, entry, "unknown key; did you mean " + shown(std::string(meant)) + "?");
   fail_at(document, entry, "unknown key" + unknown_text(entry.key, known_names(entry.section), shown));
 }
 
@@ -118,8 +120,9 @@ SceneValue checked_text(const Document& document, const DocumentEntry& entry, co
     return *text;
   std::string allowed = "expected " + key.expected();
   if (text != nullptr) {
-    const std::string close =
-        closest(*text, std::vector<std::string>(key.choices.begin(), key.choices.end()));
+    std::string close(name_for(key.name, *text));
+    if (close.empty())
+      close = closest(*text, std::vector<std::string>(key.choices.begin(), key.choices.end()));
     if (!close.empty()) allowed += "; did you mean \"" + close + "\"?";
   }
   fail_at(document, entry, allowed);
@@ -288,11 +291,12 @@ SceneValue checked_value(const Document& document, const DocumentEntry& entry, c
   return checked(document, entry, key);
 }
 
-Scene read_scene(const Document& document) {
+Scene read_scene(const Document& given) {
   Scene scene;
-  scene.contact.pairs.resize(count_pairs(document));
-  scene.forcing.terms.resize(count_terms(document));
-  reject_unknown(document);
+  scene.contact.pairs.resize(count_pairs(given));
+  scene.forcing.terms.resize(count_terms(given));
+  reject_unknown(given);
+  const Document document = with_law_of_pairs(given);
   const auto read = [&](const auto& wanted) {
     for (const SceneKey& key : scene_keys())
       if (wanted(key)) read_key(document, key, scene);

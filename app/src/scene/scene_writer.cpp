@@ -1,6 +1,7 @@
 #include "wavebalance/app/scene/scene_writer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_document.hpp"
@@ -116,11 +117,12 @@ Document document_of(const Scene& scene, const std::string& name) {
 std::string write_scene(const Scene& scene) {
   std::string text;
   std::string_view section;
+  std::string terms = term_lines(scene);  // which may be all that there is of the loads
   for (const SceneKey& key : scene_keys()) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
     if (key.section != section) {
       if (section == "contact") text += pair_lines(scene);
-      if (section == "forcing") text += term_lines(scene);
+      if (key.section == "time" || key.section == "analysis") text += std::exchange(terms, "");
       text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     }
     section = key.section;

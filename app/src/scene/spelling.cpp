@@ -38,6 +38,26 @@ std::string closest(std::string_view word, const std::vector<std::string>& names
   return best;
 }
 
+std::string_view name_for(std::string_view place, std::string_view word) {
+  struct Synonym {
+    std::string_view place, word, name;
+  };
+  static constexpr Synonym all[] = {{"analysis", "frequency_start", "frequency_from"},
+                                    {"analysis", "frequency_end", "frequency_to"},
+                                    {"analysis", "frequency_stop", "frequency_to"},
+                                    {"analysis", "amplitude_start", "amplitude_from"},
+                                    {"analysis", "amplitude_end", "amplitude_to"},
+                                    {"time", "harmonics", "functions = 2 x harmonics + 1"},
+                                    {"time", "samples", "quadrature_points"},
+                                    {"law", "unilateral", "linear"},
+                                    {"law", "penalty", "linear"},
+                                    {"law", "friction", "coulomb"},
+                                    {"law", "jenkins", "coulomb"}};
+  for (const Synonym& one : all)
+    if (one.place == place && one.word == word) return one.name;
+  return "";
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;

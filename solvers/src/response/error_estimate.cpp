@@ -110,6 +110,7 @@ double missed_contacts(CondensedProblem& problem, const PeriodicResponse& respon
   for (int contact = 0; contact < problem.contacts(); ++contact) {
     const Eigen::VectorXd u = response.unknown.segment(contact * points, points);
     const AnyContactLaw& law = of_unknown[contact];
+    if (law.acts_over_period()) continue;  // which has no force at one instant
     if (missed_force(u, law, 0.0) > 0.0)
       pulses[contact * points] = missed_force(u, law, point_compliance(problem, contact));
   }

@@ -39,7 +39,7 @@ void add_sweep(std::vector<SceneKey>& keys) {
                  "where the branch ends, above or below its start", positive);
   sweep(
       &Analysis::largest_step, "largest_step", "Hz or N",
-      "no step along the branch is larger; a change by the whole vibration, or by the gap where that is less, counts as a 20th of the interval",
+      "longest step of arc length; in it a change of the displacement by one amplitude, or by the gap where that is less, counts as a 20th of the interval",
       positive, derived("an 80th of the interval", interval_over(80)));
   sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
         derived("a 1000th of the interval, or largest_step where that is less", first_step_by_default));

@@ -34,10 +34,12 @@ void add_bar(std::vector<SceneKey>& keys) {
 
 void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
-  matrices(&MatricesStructure::mass, "mass", "kg",
-           "mass matrix M, symmetric and positive definite: a file in the format of Matrix Market (.mtx), "
-           "CalculiX (.sti, .mas) or Harwell-Boeing (.rsa, .rua; Ansys, LS-DYNA), known by its first lines",
-           path);
+  matrices(
+      &MatricesStructure::mass, "mass", "kg",
+      "mass matrix M, symmetric and positive definite: a file in the format of Matrix Market (.mtx), "
+      "CalculiX (.sti, .mas), coordinates of Abaqus or Harwell-Boeing (.rsa, .rua; Ansys, LS-DYNA), known by its first "
+      "lines",
+      path);
   matrices(
       &MatricesStructure::stiffness, "stiffness", "N/m",
       "stiffness matrix K, likewise; the structure must not be free to move unless structure.free says so",

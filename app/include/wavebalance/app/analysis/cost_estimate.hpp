@@ -10,7 +10,8 @@ struct CostEstimate {
   double seconds = 0.0;  ///< processor time of a response or a curve; NaN where only the solution shows it
   /// That of the stability and the structure's own curve beside a curve, at least and at most; zero without.
   double least_stability_seconds = 0.0, most_stability_seconds = 0.0;
-  double bytes = 0.0;  ///< resident memory at its peak
+  double bytes = 0.0;       ///< resident memory at its peak
+  bool unforeseen = false;  ///< the time is NaN since it depends on how often contacts slip, stick and open
 };
 
 /// From the sizes of a scene alone: C contacts, M functions, N quadrature points, P output points, n degrees
@@ -31,9 +32,9 @@ struct CostEstimate {
 /// three contacts it had taken 170 times when it was stopped, as that curve may have many phases; it is
 /// bounded by the operations that it may take, here estimated at 300 s. Responses that Newton's method does
 /// not find take more time. Sizes that a tolerance chooses, periods of time stepping and points of a mode are
-/// not known: the time is NaN, and memory that of the structure and the output. With laws of the velocity at
-/// 10 to 200 contacts memory was within a factor of 1.5, too. O(1), but matrices that have not been read are
-/// read.
+/// not known, and with friction curves take more time by factors that differ widely: the time is NaN, and
+/// memory that of the structure and the output. With laws of the velocity at 10 to 200 contacts memory was
+/// within a factor of 1.5, too. O(1), but matrices that have not been read are read.
 CostEstimate estimate_cost(const Scene& scene);
 
 /// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes
