@@ -25,13 +25,14 @@ const Remedies& of_responses() {
                             {"stagnated", {larger_tolerance}},
                             {"no_start", elsewhere},
                             {"no_motion_near", elsewhere},
+                            {"not_found", elsewhere},
                             {"tolerance_missed", {larger_tolerance}},
                             {"rigid_contact", {balance}},
                             {"velocity_and_no_mass", {balance}},
                             {"structural_damping", {balance}},
                             {"no_modes", {balance}},
                             {"resonant", {other_frequency, more_damping}},
-                            {"chattering", {no_rebound, stiff_law, more_rebound}},
+                            {"chattering", {all_motions, no_rebound, stiff_law, more_rebound}},
                             {"lasting_contact", {stiff_law}},
                             {"too_many_impacts", {stiff_law, more_damping, less_rebound}},
                             {"grazing", {other_frequency, other_gap}},
@@ -63,7 +64,8 @@ const Remedies& of_modes() {
   static const std::vector<Move> twice{samples_of_harmonics};
   static const Remedies all{{"cycling", twice},
                             {"singular", twice},
-                            {"ended", {higher_ratio, more_harmonics, more_mode_points}},
+                            {"ended", {more_harmonics, more_mode_points, higher_ratio}},
+                            {"ended at the ratio", {higher_ratio}},
                             {"lost", {more_mode_points, more_harmonics}},
                             {"point_limit", {more_mode_points}}};
   return all;
@@ -73,6 +75,7 @@ const Remedies& of_time_stepping() {
   static const Remedies all{
       {"iteration_limit", {more_periods, larger_step_tolerance, more_damping, fewer_modes}},
       {"subharmonic", {response_of_periods, all_motions}},
+      {"tolerance_missed", {larger_step_tolerance}},
       {"step_failure", {softer_contact}}};
   return all;
 }
@@ -80,6 +83,7 @@ const Remedies& of_time_stepping() {
 const Remedies& of_shooting() {
   static const Remedies all{{"no_start", {response, integrate}},
                             {"no_motion_near", {response, integrate}},
+                            {"not_found", {response, integrate}},
                             {"tolerance_missed", {larger_tolerance}},
                             {"rigid_contact", {response}},
                             {"velocity_and_no_mass", {response}},
@@ -91,6 +95,8 @@ const Remedies& of_shooting() {
 
 const Remedies& of_motions() {
   static const Remedies all{{"no_motion", {longer_period, more_starts, more_damping, response}},
+                            {"not_settled", {longer_period, more_starts, more_damping, response}},
+                            {"not_solved", {response}},
                             {"no_modes", {response}}};
   return all;
 }
@@ -116,9 +122,19 @@ const Remedies& of_analysis(const Analysis& analysis) {
 
 }  // namespace
 
+namespace {
+
+/// The status without its numbers.
+std::string known_status(const std::string& status) {
+  if (!status.starts_with("ended at")) return status;
+  return status.find("last_frequency_ratio") == std::string::npos ? "ended" : "ended at the ratio";
+}
+
+}  // namespace
+
 std::vector<NextStep> next_steps(const Scene& scene, const std::string& status) {
   const Remedies& remedies = of_analysis(scene.analysis);
-  const auto found = remedies.find(status.starts_with("ended at") ? "ended" : status);
+  const auto found = remedies.find(known_status(status));
   std::vector<NextStep> steps;
   if (found == remedies.end()) return steps;
   for (const Move& move : found->second)

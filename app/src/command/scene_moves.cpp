@@ -199,6 +199,7 @@ Step no_rebound(const Scene& scene) {
 }
 
 Step more_rebound(const Scene& scene) {
+  if (!has_impacts(scene.contact)) return std::nullopt;
   return changed("a larger", "contact.restitution", 0.5 * (1.0 + restitution_of(scene.contact)));
 }
 
@@ -208,10 +209,10 @@ Step less_rebound(const Scene& scene) {
 }
 
 Step stiff_law(const Scene& scene) {
-  if (!is_rigid(scene.contact.law)) return std::nullopt;
-  NextStep step{"a stiff contact.law = \"linear\" in place of contact.restitution",
-                {.set = {"contact.law=\"linear\"", "contact.stiffness=1e9"},
-                 .unset = {"contact.restitution", "contact.mass"}}};
+  if (!has_impacts(scene.contact)) return std::nullopt;
+  NextStep step{
+      "a stiff contact.law = \"linear\" in place of contact.restitution",
+      {.set = {"contact.law=\"linear\"", "contact.stiffness=1e9"}, .unset = {"contact.restitution"}}};
   if (!integrates_in_time(scene.analysis.type) && scene.analysis.type != AnalysisType::motions) {
     step.text += ", with time.trial, time.weight and time.functions";
     step.change.set.insert(step.change.set.end(),
@@ -276,6 +277,7 @@ Step more_mode_points(const Scene& scene) {
 }
 
 Step higher_ratio(const Scene& scene) {
+  if (!(scene.analysis.last_frequency_ratio > 0.0)) return std::nullopt;
   return changed("a higher", "analysis.last_frequency_ratio", 2.0 * scene.analysis.last_frequency_ratio);
 }
 

@@ -184,7 +184,6 @@ void check_tangents(const Document& document, const Scene& scene) {
               "the tip's nodes meet the casing along z, the radial direction; expected \"x\" or \"y\"");
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
-    if (has_friction(pair.law)) check_independent(document, pair, pair_section(i));
     if (has_friction(pair.law)) continue;
     const std::string key = pair_section(i) + (pair.tangent.empty() ? ".second_tangent" : ".tangent");
     if (!pair.tangent.empty() || !pair.second_tangent.empty())
@@ -202,6 +201,9 @@ void check_laws(const Document& document, const Scene& scene) {
   if (has_friction(scene)) check_friction_analysis(document, scene);
   for (const SceneContact& contact : contacts)
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    if (has_friction(scene.contact.pairs[i].law))
+      check_independent(document, scene.contact.pairs[i], pair_section(i));
   check_rigid_friction(document, scene);
   check_laws_exist(document, contacts);
   for (const SceneContact& contact : contacts)

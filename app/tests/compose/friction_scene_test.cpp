@@ -272,7 +272,7 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
     const char *scene, *setting, *key, *expected;
   };
   for (const Case& one : {
-           Case{"slider.toml", "contact.friction=-0.1", "contact.friction", ">= 0"},
+           Case{"slider.toml", "contact.friction=-0.1", "contact.friction", "in 0..1000"},
            Case{"slider.toml", "contact.tangential_stiffness=0", "contact.tangential_stiffness", "> 0"},
            Case{"slider.toml", "contact.normal_load=-1", "contact.normal_load", ">= 0"},
            Case{"slider.toml", "contact.normal_load=0", "contact.normal_load", "> 0"},
