@@ -24,7 +24,6 @@ const Remedies& of_responses() {
                             {"size_limit", {larger_tolerance}},
                             {"stagnated", {larger_tolerance}},
                             {"no_start", elsewhere},
-                            {"no_motion_near", elsewhere},
                             {"not_found", elsewhere},
                             {"tolerance_missed", {larger_tolerance}},
                             {"rigid_contact", {balance}},
@@ -82,7 +81,6 @@ const Remedies& of_time_stepping() {
 
 const Remedies& of_shooting() {
   static const Remedies all{{"no_start", {response, integrate}},
-                            {"no_motion_near", {response, integrate}},
                             {"not_found", {response, integrate}},
                             {"tolerance_missed", {larger_tolerance}},
                             {"rigid_contact", {response}},
@@ -94,8 +92,7 @@ const Remedies& of_shooting() {
 }
 
 const Remedies& of_motions() {
-  static const Remedies all{{"no_motion", {longer_period, more_starts, more_damping, response}},
-                            {"not_settled", {longer_period, more_starts, more_damping, response}},
+  static const Remedies all{{"not_settled", {longer_period, more_starts, more_damping, response}},
                             {"not_solved", {response}},
                             {"no_modes", {response}}};
   return all;
@@ -119,10 +116,6 @@ const Remedies& of_analysis(const Analysis& analysis) {
   }
   return analysis.exact ? of_exact_sweeps() : of_sweeps();
 }
-
-}  // namespace
-
-namespace {
 
 /// The status without its numbers.
 std::string known_status(const std::string& status) {
