@@ -63,7 +63,7 @@ const Remedies& of_modes() {
   static const std::vector<Move> twice{samples_of_harmonics};
   static const Remedies all{{"cycling", twice},
                             {"singular", twice},
-                            {"ended", {more_harmonics, more_mode_points, higher_ratio}},
+                            {"ended", {more_harmonics, more_mode_points}},
                             {"ended at the ratio", {higher_ratio}},
                             {"lost", {more_mode_points, more_harmonics}},
                             {"point_limit", {more_mode_points}}};
