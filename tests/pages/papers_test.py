@@ -181,6 +181,11 @@ def test_curves_zoom_tell_values_and_hide(look, browser, results):
     for key, text in (("0", whole), ("+", None), ("0", whole)):
         browser.send("Input.dispatchKeyEvent", type="keyDown", key=key, text=key)
         assert (browser.value(path) == whole) == (text is not None)
+    values = "document.querySelector('.plot .values').innerText.split('\\n')"
+    for key, said in (("ArrowRight", ["sine", "Time (periods): 0", "utip (mm): 0"]), ("ArrowLeft", ["sine", "Time (periods): 1", None]),
+                      ("ArrowDown", ["half", "Time (periods): 0", "utip (mm): 0.5"])):
+        browser.send("Input.dispatchKeyEvent", type="keyDown", key=key)
+        assert [told for told, wanted in zip(browser.value(values), said) if wanted] == [wanted for wanted in said if wanted], key
     browser.mouse("mouseWheel", browser.place("document.querySelector('.plot svg')"), deltaX=0, deltaY=200)
     browser.until("scrollY > 0")
     assert browser.value(path) == whole

@@ -145,7 +145,7 @@
       title(root, this.data.x.label, this.width + margin.right, (i, n) => `translate(${this.width / 2},${this.height + (n === 1 ? 36 : 31 + 13 * i)})`);
       title(root, this.data.y.label, this.height + 2 * margin.top,
         (i, n) => `translate(${n === 1 ? -46 : 13 * i - 53},${this.height / 2})rotate(-90)`);
-      this.values = element("div", { class: "values", hidden: "" });
+      this.values = element("div", { class: "values", role: "status", hidden: "" });
       box.append(this.values);
     }
 
@@ -176,8 +176,22 @@
       else if (event.key === "0") this.reset();
       else if (moves[event.key] && scale > 1)
         this.svg.call(this.zoom.translateBy, ...moves[event.key].map((pixels) => pixels / scale));
+      else if (moves[event.key]) this.step(event.key);
       else return;
       event.preventDefault();
+    }
+
+    // Arrow keys to the sides tell one point of a curve after another, those up and down another curve.
+    step(key) {
+      const curves = this.shown().filter((series) => series.y.some((value, i) => finite(this.x, series.x[i]) && finite(this.y, value)));
+      if (curves.length === 0) return;
+      const by = { ArrowUp: -1, ArrowDown: 1 }[key] ?? 0;
+      const series = curves[(Math.max(0, curves.indexOf(this.told)) + by + curves.length) % curves.length];
+      if (series !== this.told) this.index = key === "ArrowLeft" ? series.x.length : -1;
+      this.told = series;
+      const there = (i) => finite(this.x, series.x[i]) && finite(this.y, series.y[i]);
+      do this.index = (this.index + (key === "ArrowLeft" ? -1 : 1) + series.x.length) % series.x.length; while (!there(this.index));
+      this.tell({ series, at: [this.x(series.x[this.index]), this.y(series.y[this.index])], told: series.told?.[this.index] });
     }
 
     draw() {
@@ -265,7 +279,12 @@
       const inside = u >= 0 && v >= 0 && u <= this.width && v <= this.height;
       const found = this.shown().map((series) => this.nearest(series, u, v));
       const best = inside ? found.reduce((a, b) => (b.distance < a.distance ? b : a), { distance: reach }) : {};
-      if (!best.at) return this.leave();
+      if (best.at) this.tell(best);
+      else this.leave();
+    }
+
+    // Shows the values at a place of a curve.
+    tell(best) {
       const [x, y] = best.at;
       this.dot.attr("cx", x).attr("cy", y).attr("fill", best.series.colour).attr("visibility", "visible");
       const line = (label, value) => element("div", {}, ...html(label || "value"), `: ${number(value)}`);
@@ -344,7 +363,7 @@
     const name = source.slice(source.lastIndexOf("/") + 1, -".figure.js".length);
     const picture = figure.querySelector("a");
     const box = element("div", { class: "curves", hidden: "" });
-    const hint = element("span", { class: "hint", hidden: "" }, "Point at a curve for its values. Ctrl + wheel or a " +
+    const hint = element("span", { class: "hint", hidden: "" }, "Point at a curve for its values, or use the arrow keys. Ctrl + wheel or a " +
       "pinch zooms, dragging moves, a double click resets; a name hides its curve.");
     const button = element("button", { type: "button", "aria-pressed": "false" }, "Zoom and read values");
     const again = element("button", { type: "button", hidden: "" }, "Reset");
