@@ -45,6 +45,18 @@ void check_laws_exist(const Document& document, const std::vector<SceneContact>&
   }
 }
 
+/// A law that acts on both sides acts twice where a pair has an obstacle on each.
+void check_sides(const Document& document, const Scene& scene, const std::vector<SceneContact>& contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const SceneContact& contact = contacts[i];
+    const bool both = contact.pair && scene.contact.pairs[*contact.pair].side == ObstacleSide::both;
+    if (!both || has_friction(contact.law) || make_laws(scene)[static_cast<int>(i)].unilateral()) continue;
+    fail_rule(document, {pair_section(*contact.pair) + ".side"},
+              "not with the law \"" + contact.law +
+                  "\", which acts on both sides and would act twice; expected \"positive\" or \"negative\"");
+  }
+}
+
 /// The velocity of a sum of trial functions needs their derivative at points.
 void check_velocity(const Document& document, const Scene& scene, const std::string& law) {
   constexpr int any = 16;  // no matter how many
@@ -206,6 +218,7 @@ void check_laws(const Document& document, const Scene& scene) {
       check_independent(document, scene.contact.pairs[i], pair_section(i));
   check_rigid_friction(document, scene);
   check_laws_exist(document, contacts);
+  check_sides(document, scene, contacts);
   for (const SceneContact& contact : contacts)
     if (is_damped(contact.law)) check_velocity(document, scene, contact.law);
   check_form(document, scene);
