@@ -253,6 +253,9 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   solvers::TimeSteppingOptions stepping;
   stepping.output_points = scene.analysis.output_points;
   stepping.period_tolerance = scene.analysis.tolerance;
+  constexpr double least = 1e-13, of_tolerance = 1e-2;  // rounding; what 100 steps add
+  stepping.step_tolerance =
+      std::clamp(of_tolerance * scene.analysis.tolerance, least, stepping.step_tolerance);
   stepping.max_periods = scene.analysis.max_periods;
   stepping.full_history = wants_structure(scene, options);
   stepping.observer = options.observer;

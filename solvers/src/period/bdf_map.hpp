@@ -37,6 +37,7 @@ class BdfMap final : public PeriodMap {
 
   void start(const PeriodState& begin, double tolerance);
   bool step(double limit);
+  bool hides_changes() const;
   void note_changes();
   std::vector<bool> closed_contacts(const Eigen::VectorXd& state) const;
   Motion contacts() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
@@ -44,16 +45,29 @@ class PastPeriods {
   RepetitionRule rule_;
 };
 
+/// Whether two periods differ by no more than the errors of their steps, which a tenth of the tolerance
+/// shows: they then cannot agree any better.
+bool is_noise(BdfMap& map, const PeriodState& begin, const TimeSteppingOptions& options, double change,
+              const Motion& last) {
+  constexpr double finer = 0.1, accumulated = 100.0;
+  const double operations = map.operations_of_step() * options.max_steps_per_period;
+  const Period again = map.advance(begin, {finer * options.step_tolerance, operations});
+  if (!again.complete()) return false;
+  return change * last.displacement.norm() <=
+         accumulated * (again.contacts.displacement - last.displacement).norm();
+}
+
 /// Integrates period after period until the motion repeats.
 TimeSteppingStatus run(BdfMap& map, PeriodState state, const TimeSteppingOptions& options,
                        TimeSteppingResult& result) {
   PastPeriods past(options.longest, options.period_tolerance);
+  PeriodState begin;
   while (result.periods < options.max_periods) {
     const double steps = double(options.max_steps_per_period) * (result.periods + 1) - double(map.steps());
     Period period = map.advance(state, {options.step_tolerance, map.operations_of_step() * steps});
     if (period.ended == Period::End::step_failure) return TimeSteppingStatus::step_failure;
     if (!period.complete()) return TimeSteppingStatus::iteration_limit;
-    state = std::move(period.state);
+    begin = std::exchange(state, std::move(period.state));
     past.add(period.contacts.displacement);
     result.contacts = std::move(period.contacts);
     if (++result.periods > 1) result.period_error.push_back(past.change());
@@ -66,7 +80,8 @@ TimeSteppingStatus run(BdfMap& map, PeriodState state, const TimeSteppingOptions
     if (repeats > 0) return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;
     if (stop) return TimeSteppingStatus::cancelled;
   }
-  return TimeSteppingStatus::iteration_limit;
+  return is_noise(map, begin, options, past.change(), result.contacts) ? TimeSteppingStatus::tolerance_missed
+                                                                       : TimeSteppingStatus::iteration_limit;
 }
 
 }  // namespace
@@ -76,6 +91,7 @@ std::string_view to_string(TimeSteppingStatus status) {
   return detail::name_in<TimeSteppingStatus>({{converged, "converged"},
                                               {subharmonic, "subharmonic"},
                                               {iteration_limit, "iteration_limit"},
+                                              {tolerance_missed, "tolerance_missed"},
                                               {step_failure, "step_failure"},
                                               {cancelled, "cancelled"}},
                                              status);

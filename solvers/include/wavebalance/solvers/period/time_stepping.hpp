@@ -12,11 +12,12 @@ namespace wavebalance::solvers {
 
 /// How time stepping ended.
 enum class TimeSteppingStatus {
-  converged,        ///< two successive periods agree
-  subharmonic,      ///< the motion repeats after several periods, TimeSteppingResult::attractor_periods
-  iteration_limit,  ///< max_periods or max_steps_per_period was reached
-  step_failure,     ///< the integrator found no step that meets its tolerance
-  cancelled         ///< the observer returned false
+  converged,         ///< two successive periods agree
+  subharmonic,       ///< the motion repeats after several periods, TimeSteppingResult::attractor_periods
+  iteration_limit,   ///< max_periods or max_steps_per_period was reached
+  tolerance_missed,  ///< max_periods was reached, and the last two periods differ by the errors of the steps
+  step_failure,      ///< the integrator found no step that meets its tolerance
+  cancelled          ///< the observer returned false
 };
 
 std::string_view to_string(TimeSteppingStatus status);

@@ -1,0 +1,62 @@
+"""Time integration converges to periodic motions to the tolerance that was asked for."""
+
+import pytest
+
+DAMPER = """
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+damping = "c.mtx"
+free = true
+[contact]
+law = "kelvin_voigt"
+stiffness = 500.0
+damping = 1.6
+gap = 1.0
+[[contact.pairs]]
+dofs = [2, 1]
+side = "both"
+[forcing]
+load_dofs = [1]
+amplitude = 0.06
+frequency = 0.15915494309189535
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 127
+quadrature_points = 2048
+[analysis]
+type = "time_stepping"
+"""
+
+
+@pytest.fixture
+def files(matrix):
+    matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
+    matrix("k.mtx", [[1.0, 0.0], [0.0, 0.0]])
+    matrix("c.mtx", [[0.02, 0.0], [0.0, 0.0]])
+
+
+@pytest.mark.parametrize("depth, tolerance", [(0.0, 1e-7), (1e-4, 1e-7), (1e-3, 1e-7), (1e-3, 1e-9), (1e-2, 1e-7)])
+def test_a_free_ball_between_dashpots_settles_to_its_periodic_motion(run, files, depth, tolerance):
+    record = run(DAMPER, set=[f"contact.damping_depth={depth}", f"analysis.tolerance={tolerance}"])
+    assert record.code == 0, record.errors
+    assert record.summary["status"] == "converged"
+    assert record.summary["attractor_periods"] == 1
+    assert record.summary["residual"] <= tolerance
+    assert not record.summary["warnings"]
+
+
+def test_a_tolerance_below_the_error_of_steps_is_missed_and_not_aperiodic(run, files):
+    record = run(DAMPER, set=["contact.damping_depth=1e-3", "analysis.tolerance=1e-15", "analysis.max_periods=400"])
+    assert record.code == 3
+    assert record.summary["status"] == "tolerance_missed"
+    assert "attractor_periods" not in record.summary
+    assert not [warning for warning in record.summary["warnings"] if "aperiodic" in warning]
+
+
+def test_too_few_periods_say_nothing_of_the_load(run, files):
+    record = run(DAMPER, set=["analysis.max_periods=3"])
+    assert record.summary["status"] == "iteration_limit"
+    assert not [warning for warning in record.summary["warnings"] if "static load" in warning]
