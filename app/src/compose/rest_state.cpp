@@ -58,13 +58,22 @@ solvers::LinearStructure structure_of_files(const Scene& scene) {
   return structure;
 }
 
+/// Hz, of the size of that of the load, but beside it: the load may be at a natural frequency.
+double frequency_of(const Scene& scene) {
+  constexpr double beside = 0.618;
+  const double frequency = scene.analysis.type == AnalysisType::frequency_sweep
+                               ? scene.analysis.frequency_from
+                               : scene.forcing.frequency;
+  return frequency > 0.0 ? beside * frequency : 1.0;
+}
+
 std::optional<RestState> state_of(const Scene& scene, const solvers::LinearStructure& structure) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact);
   if (mode || scene.contact.law == no_law) return std::nullopt;
   try {
     solvers::CondensedProblem problem(pair_at_rest(structure.is_free()), at_rest(structure),
                                       Eigen::VectorXcd::Ones(1));
-    problem.set_frequency(1.0);  // without meaning at rest
+    problem.set_frequency(frequency_of(scene));  // at rest, of springs that hold a free structure
     solvers::ForcedResponseOptions options;
     options.form = scene.contact.form;
     const auto found = solvers::forced_response(problem, make_laws(scene), options);

@@ -86,8 +86,9 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   fem::EigenmodesOptions options;
   options.shift = shift_of(free, elastic, matrices.mass);
   auto found = fem::eigenmodes(elastic, matrices.mass, std::min(modes, size), options);
-  if (free) leave_out_rigid_modes(found, solvers::find_rigid_modes(matrices.mass, elastic).cols());
   StructureFacts facts;
+  if (free) facts.rigid_motions = int(solvers::find_rigid_modes(matrices.mass, elastic).cols());
+  leave_out_rigid_modes(found, facts.rigid_motions);
   facts.frequencies_hz = found.frequencies_hz;
   facts.damping_ratios = damping_ratios_of(scene, *files, found);
   const Scene one_sided = with_one_side(scene);

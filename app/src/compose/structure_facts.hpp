@@ -9,8 +9,9 @@ namespace wavebalance::app {
 
 /// What tells a user of matrices whether units, boundary conditions and files are right.
 struct StructureFacts {
+  int rigid_motions = 0;  ///< at 0 Hz, of a structure that is free to move
   Eigen::VectorXd
-      frequencies_hz;  ///< of the first linear modes without contact, by M and the symmetric part of K
+      frequencies_hz;  ///< of the first other linear modes without contact, by M and the symmetric part of K
   Eigen::VectorXd damping_ratios;  ///< phi^T C phi / (2 omega) of each
   /// m/N: static displacement along each direction of contact per force there; none of a structure that is
   /// free.

@@ -364,6 +364,16 @@ std::string compliance_text(const StructureFacts& facts) {
   return "from " + at(least) + " to " + at(most);
 }
 
+/// "0 Hz (1 rigid motion); 50.085, 140.33 Hz, without damping"
+std::string modes_text(const StructureFacts& facts) {
+  std::vector<std::string> texts;
+  if (facts.rigid_motions > 0)
+    texts.push_back(fmt::format("0 Hz ({})", count_text(facts.rigid_motions, "rigid motion")));
+  if (facts.frequencies_hz.size() > 0)
+    texts.push_back(five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// Figures by which wrong units, files or boundary conditions of matrices show.
 std::string matrices_lines(const Scene& scene) {
   constexpr std::int64_t most = 200'000;  // beyond which a check would take minutes
@@ -371,11 +381,8 @@ std::string matrices_lines(const Scene& scene) {
   if (structure_dofs(scene) > most)
     return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);
   const StructureFacts facts = structure_facts(scene);
-  const bool rigid = facts.frequencies_hz.size() == 0;
-  return "modes      " +
-         (rigid ? "0 Hz alone"
-                : five_digits(facts.frequencies_hz) + " Hz, " + ratios_text(facts.damping_ratios)) +
-         "\ncompliance " + compliance_text(facts) + "\n" + rest_lines(scene);
+  return "modes      " + modes_text(facts) + "\ncompliance " + compliance_text(facts) + "\n" +
+         rest_lines(scene);
 }
 
 std::string warning_lines(const Scene& scene) {

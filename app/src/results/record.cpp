@@ -84,10 +84,11 @@ Eigen::MatrixXd written_motion(const Scene& scene, const Response& response) {
   return all(Eigen::all, Eigen::seqN(0, points, all.cols() / points));
 }
 
-/// Why a structure that is free to move has no periodic motion, and along what it moves.
+/// Why a structure that is free to move has no periodic motion, and along what it moves. A response that was
+/// not found for another reason says nothing of its load.
 void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
   const Eigen::MatrixXd& rigid = model.structure.rigid_modes;
-  if (rigid.cols() == 0 || record.converged) return;
+  if (rigid.cols() == 0 || record.status != "unbalanced") return;
   const Eigen::MatrixXd moved = model.reduced() ? Eigen::MatrixXd(model.recovery * rigid) : rigid;
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < moved.cols(); ++i) {
@@ -95,12 +96,10 @@ void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
     moved.col(i).cwiseAbs().maxCoeff(&row);
     if (std::find(rows.begin(), rows.end(), row + 1) == rows.end()) rows.push_back(row + 1);
   }
-  const bool unbalanced = record.status == "unbalanced";
   record.warnings.push_back(fmt::format(
-      "The structure is free to move along {} rigid motion{}, which move degree{} of freedom {} most. {}no contact force "
-      "balances its static load, no periodic motion exists.",
-      rigid.cols(), rigid.cols() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", fmt::join(rows, ", "),
-      unbalanced ? "Since " : "Where "));
+      "The structure is free to move along {} rigid motion{}, which move degree{} of freedom {} most. Since no contact "
+      "force balances its static load, no periodic motion exists.",
+      rigid.cols(), rigid.cols() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", fmt::join(rows, ", ")));
 }
 
 void append_rigid(Summary& summary, const Response& response) {

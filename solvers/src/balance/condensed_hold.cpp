@@ -8,8 +8,7 @@ const Eigen::MatrixXd& CondensedProblem::hold_response() {
   Eigen::VectorXd force(samples()), motion;
   for (Eigen::Index i = 0; i < directions.cols(); ++i) {
     for (int c = 0; c < contacts(); ++c)
-      force.segment(c * points(), points())
-          .setConstant(hold_->match * hold_->held.stiffness * directions(c, i));
+      force.segment(c * points(), points()).setConstant(hold_->match * hold_->stiffness * directions(c, i));
     apply(force, motion);
     hold_->response.col(i) = motion;
   }
@@ -31,8 +30,8 @@ Eigen::VectorXd CondensedProblem::force_on_held_structure(const Eigen::VectorXd&
                                                           const Eigen::VectorXd& unknown,
                                                           const Eigen::VectorXd& flexibility) const {
   if (!is_free()) return force;
-  const Eigen::VectorXd springs = hold_->match * hold_->held.stiffness *
-                                  (rigid_directions() * rigid_position(unknown, force, flexibility));
+  const Eigen::VectorXd springs =
+      hold_->match * hold_->stiffness * (rigid_directions() * rigid_position(unknown, force, flexibility));
   Eigen::VectorXd held = force;
   for (int c = 0; c < contacts(); ++c) held.segment(c * points(), points()).array() -= springs[c];
   return held;
@@ -42,11 +41,11 @@ const Eigen::MatrixXd& CondensedProblem::rigid_directions() const { return hold_
 
 Eigen::VectorXd CondensedProblem::balancing_force() const {
   const Eigen::VectorXd mean = free_response_.reshaped(points(), contacts()).colwise().mean();
-  return hold_->match * hold_->held.stiffness * (rigid_directions().transpose() * mean);
+  return hold_->match * hold_->stiffness * (rigid_directions().transpose() * mean);
 }
 
 double CondensedProblem::spring_force() const {
-  return hold_->held.stiffness * free_response_.cwiseAbs().maxCoeff();
+  return hold_->stiffness * free_response_.cwiseAbs().maxCoeff();
 }
 
 bool CondensedProblem::drift_is_balanced() const {

@@ -15,8 +15,14 @@ struct CondensedProblem::Hold {
     pair.project(constant, projection);
     match = std::real(pair.symbol(0)[0] * constant[0] / (pair.trial_spectrum()[0] * projection[0]));
   }
+  void set_frequency(double frequency) {
+    const double at = held.spring_stiffness(frequency);
+    if (at != stiffness) response.resize(0, 0);
+    stiffness = at;
+  }
   HeldStructure held;
-  double match;  // a spring's force on the functions over that at the points, 1 to rounding
+  double stiffness = 0.0;  // kappa at the frequency, N/m
+  double match;            // a spring's force on the functions over that at the points, 1 to rounding
   Eigen::MatrixXd response;
 };
 

@@ -138,6 +138,7 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   condensed_at_ = 0.0;  // in case that no condensation exists there
   frequency_ = frequency_hz;
   if (!structure_->forces.empty()) update_load();  // some grow with the frequency
+  if (hold_) hold_->set_frequency(frequency_);
   harmonics_->condense(frequency_, load_, condensed_);
   ++condensations_;
   update_free_response();

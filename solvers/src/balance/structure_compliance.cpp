@@ -42,9 +42,15 @@ void append_zeros(CondensedSpectrum& result) {
 StructureCompliance::StructureCompliance(TimePair pair, const LinearStructure& structure,
                                          CondensationMethod method, const HeldStructure* held)
     : pair_(std::move(pair)), loss_factor_(structure.loss_factor), condensation_(structure, method) {
-  if (!held) return;
-  rest_ = std::make_unique<Rest>(Rest{Condensation(held->structure), {}});
-  rest_->point = rest_->condensation.dynamic_compliance({0.0, 0.0, pair_.symbol(0)[0]}, {0.0, 0.0, 0.0});
+  if (held) rest_ = std::make_unique<Rest>(Rest{*held, 0.0, nullptr, {}});
+}
+
+void StructureCompliance::condense_rest(double frequency) {
+  const double stiffness = rest_->held.spring_stiffness(frequency);
+  if (stiffness == rest_->stiffness) return;
+  rest_->stiffness = stiffness;
+  rest_->condensation = std::make_unique<Condensation>(rest_->held.with_springs(stiffness));
+  rest_->point = rest_->condensation->dynamic_compliance({0.0, 0.0, pair_.symbol(0)[0]}, {0.0, 0.0, 0.0});
 }
 
 void StructureCompliance::set_factors(double frequency) {
@@ -70,6 +76,7 @@ void StructureCompliance::condense(double frequency, const Eigen::MatrixXcd& loa
   set_factors(frequency);
   if (rest_) {
     condense_moving(loads, result);
+    condense_rest(frequency);
     prepend(rest_->point, result);
   } else {
     condensation_.condense(factors_, derivatives_, result, loads.topRows(factors_[0].size()));
@@ -80,7 +87,7 @@ void StructureCompliance::condense(double frequency, const Eigen::MatrixXcd& loa
 Eigen::VectorXcd StructureCompliance::recover(int k, const Eigen::VectorXcd& loads,
                                               const Eigen::VectorXcd& forces) {
   if (k >= pair_.solved_size()) return Eigen::VectorXcd::Zero(condensation_.size());
-  Condensation& at = rest_ && k == 0 ? rest_->condensation : condensation_;
+  Condensation& at = rest_ && k == 0 ? *rest_->condensation : condensation_;
   return at.recover({factors_[0][k], factors_[1][k], factors_[2][k]}, loads, forces);
 }
 

@@ -25,10 +25,14 @@ class StructureCompliance final : public HarmonicCompliance {
   int threads() const override { return condensation_.threads(); }
 
  private:
+  // The held structure at rest, with springs of the size that the last frequency asks for.
   struct Rest {
-    Condensation condensation;
+    HeldStructure held;
+    double stiffness = 0.0;
+    std::unique_ptr<Condensation> condensation;
     CondensedPoint point;
   };
+  void condense_rest(double frequency);
   void set_factors(double frequency);
   void condense_moving(const Eigen::MatrixXcd& loads, CondensedSpectrum& result);
 

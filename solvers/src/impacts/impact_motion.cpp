@@ -132,7 +132,7 @@ Eigen::MatrixXcd states_after(const detail::ImpactModel& model, const std::vecto
 }
 
 void check_flights(ImpactMotion& motion) {
-  const double allowed = detail::allowed_penetration(*motion.model);
+  const double allowed = detail::allowed_penetration(motion);
   const std::size_t flights = std::max<std::size_t>(1, motion.impacts.size());
   for (std::size_t i = 0; i < flights; ++i) {
     detail::Flight flight = detail::flight_after(motion, i);
@@ -166,6 +166,19 @@ double impulse_scale_of(const ImpactModel& model) {
 }
 
 double allowed_penetration(const ImpactModel& model) { return 1e-12 * model.displacement_scale(); }
+
+double allowed_penetration(const ImpactMotion& motion) {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon(), soon = 1e-3;
+  const ImpactModel& model = *motion.model;
+  double largest = 0.0;
+  for (int c = 0; c < model.contacts(); ++c) {
+    double sum = 0.0;
+    for (const Impact& impact : motion.impacts)
+      sum += std::abs(impact.impulse) * model.green(c, impact.contact, soon).magnitude;
+    largest = std::max(largest, sum);
+  }
+  return std::max(allowed_penetration(model), rounding * largest);
+}
 
 ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGuess>& start) {
   std::vector<ImpactGuess> sorted = start;
@@ -242,7 +255,7 @@ int repeats_after(const ImpactMotion& motion, int load_periods) {
 
 Flight flight_after(const ImpactMotion& motion, std::size_t i) {
   const ImpactModel& model = *motion.model;
-  const double allowed = allowed_penetration(model);
+  const double allowed = allowed_penetration(motion);
   if (motion.impacts.empty())
     return {model, Eigen::VectorXcd::Zero(model.poles()), 0.0, model.period(), allowed};
   const bool last = i + 1 == motion.impacts.size();

@@ -14,6 +14,9 @@ double impulse_scale_of(const ImpactModel& model);
 
 /// How far a contact may pass its gap between impacts without penetrating, m.
 double allowed_penetration(const ImpactModel& model);
+/// The same of a motion, and at least the rounding errors of its impulses' responses: those of a nearly free
+/// body are large and cancel.
+double allowed_penetration(const ImpactMotion& motion);
 
 /// Instants and impulses of impacts in ascending order, which solve the equations or are a start.
 struct ImpactUnknowns {

@@ -9,6 +9,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
+#include "period/bdf_map.hpp"
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
 #include "period/settling_returns.hpp"
@@ -246,6 +247,36 @@ PeriodState initial_state(const ModalMap& map, int dofs, const SettlingOptions& 
   return at_rest ? state : map.balanced(state);
 }
 
+// The load of the problem as that of a structure; nothing where it has no maximum of its first harmonic at t
+// = 0.
+std::optional<LinearStructure> loaded(const CondensedProblem& problem) {
+  Eigen::VectorXcd harmonics = problem.load_harmonics();
+  const Index periods = load_periods(problem);
+  if (periods >= harmonics.size() || harmonics[periods] != 1.0) return std::nullopt;
+  harmonics[periods] = 0.0;
+  if (!harmonics.isZero(0.0)) return std::nullopt;
+  LinearStructure structure = problem.structure();
+  structure.load *= problem.load_factor();
+  for (PeriodicForce& force : structure.forces)
+    if (force.harmonics.size() > 1) force.harmonics.tail(force.harmonics.size() - 1) *= problem.load_factor();
+  return structure;
+}
+
+// A structure that is free to move has no motion without contact, beside which ModalMap integrates.
+SettledMotion settle_free(const CondensedProblem& problem, const ContactLaws& laws,
+                          const SettlingOptions& options, const TakesReturn& takes) {
+  constexpr double step_floor = 1e-2;
+  const auto structure = loaded(problem);
+  if (!structure || laws.act_over_period()) return {};
+  const int periods = load_periods(problem);
+  BdfMap map(*structure, laws, periods * problem.frequency(), options.steps, step_floor);
+  const auto or_rest = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
+    return values.size() > 0 ? values : Eigen::VectorXd::Zero(structure->size());
+  };
+  PeriodState begin = map.state(or_rest(options.displacement), or_rest(options.velocity));
+  return Settling(map, std::move(begin), periods, 0.0, false, options).run(takes);
+}
+
 }  // namespace
 
 void SettlingOptions::validate() const {
@@ -270,7 +301,8 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws, c
   options.validate();
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
-  if (structure.size() > options.max_size || structure.is_free() || !laws.advance_in_steps()) return {};
+  if (structure.size() > options.max_size || !laws.advance_in_steps()) return {};
+  if (structure.is_free()) return settle_free(problem, laws, options, takes);
   const int steps = laws.act_over_period() ? std::max(1, options.steps / 4) : options.steps;
   const double frequency = load_periods(problem) * problem.frequency();
   auto flow = ModalFlow::make(structure, frequency, 1.0 / (frequency * steps), options.max_modes);

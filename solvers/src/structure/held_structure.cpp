@@ -1,6 +1,8 @@
 #include "structure/held_structure.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "linalg/dense.hpp"
@@ -22,20 +24,26 @@ std::vector<Index> pivot_rows(Eigen::MatrixXd rest) {
   return rows;
 }
 
-// The largest entry of K, or of M where nothing is elastic. The size affects the rounding alone.
-double size_of_springs(const LinearStructure& structure) {
-  const double elastic = structure.stiffness.diagonal().cwiseAbs().maxCoeff();
-  return elastic > 0.0 ? elastic : structure.mass.diagonal().cwiseAbs().maxCoeff();
+}  // namespace
+
+double HeldStructure::spring_stiffness(double frequency) const {
+  const double omega = 2.0 * std::numbers::pi * std::exp2(2.0 * std::round(0.5 * std::log2(frequency)));
+  return std::max(structure.stiffness.diagonal().cwiseAbs().maxCoeff(),
+                  omega * omega * structure.mass.diagonal().cwiseAbs().maxCoeff());
 }
 
-}  // namespace
+LinearStructure HeldStructure::with_springs(double stiffness) const {
+  LinearStructure held = structure;
+  held.stiffness += stiffness * springs;
+  return held;
+}
 
 HeldStructure hold(const LinearStructure& structure) {
   const Eigen::MatrixXd& rigid = structure.rigid_modes;
   const Eigen::MatrixXd moved = structure.contact_directions * rigid;  // S R
   constexpr double least = 1e-12;                                      // of squared sizes
   const auto modes = detail::symmetric_eigen(detail::transposed_product(moved, moved));
-  HeldStructure held{structure, {}, size_of_springs(structure), {}};
+  HeldStructure held{structure, {}, {}, {}};
   held.structure.rigid_modes.resize(rigid.rows(), 0);
   const double largest = modes ? modes->values.tail(1)[0] : 0.0;
   const Index drifting = largest > 0.0 ? (modes->values.array() <= least * largest).count() : rigid.cols();
@@ -48,9 +56,8 @@ HeldStructure hold(const LinearStructure& structure) {
   const Eigen::SparseMatrix<double> springs =
       Eigen::MatrixXd(structure.contact_directions.transpose() * held.directions)
           .sparseView();  // S^T Q, n x q
-  held.structure.stiffness += held.stiffness * Eigen::SparseMatrix<double>(springs * springs.transpose());
-  for (const Index row : pivot_rows(held.drifting))
-    held.structure.stiffness.coeffRef(row, row) += held.stiffness;
+  held.springs = springs * springs.transpose();
+  for (const Index row : pivot_rows(held.drifting)) held.springs.coeffRef(row, row) += 1.0;
   return held;
 }
 

@@ -8,12 +8,18 @@ namespace wavebalance::solvers {
 /// open. Springs kappa between contacts, K + kappa S^T Q Q^T S with the orthonormal basis Q of S R, make it
 /// regular; their force -kappa Q Q^T S x is taken back from the contact forces.
 struct HeldStructure {
-  /// Empty rigid_modes. Motions that no contact resists are held at as many degrees of freedom, whose
+  LinearStructure structure;  ///< without springs, and with empty rigid_modes
+  /// n x n, for kappa = 1 N/m. Motions that no contact resists are held at as many degrees of freedom, whose
   /// springs carry nothing under a load that balances.
-  LinearStructure structure;
+  Eigen::SparseMatrix<double> springs;
   Eigen::MatrixXd directions;  ///< Q, C x q: contact displacements of the motions that contacts resist
-  double stiffness = 0.0;      ///< kappa, N/m
   Eigen::MatrixXd drifting;    ///< n x (r - q), M-orthonormal: the motions that no contact resists
+
+  /// kappa, N/m, which affects rounding alone: the largest entry of K, or of M omega^2 where that is larger,
+  /// so that a static load moves the structure no further than one of the frequency (Hz) does. The frequency
+  /// is rounded to a power of 4, so that kappa changes seldom along a curve.
+  double spring_stiffness(double frequency) const;
+  LinearStructure with_springs(double stiffness) const;
 };
 
 /// Holds a structure that has rigid_modes. O(n r^2 + C^2 q).
