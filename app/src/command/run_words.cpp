@@ -245,6 +245,8 @@ std::string status_sentence(const std::string& status) {
        "Stability is not known: structural damping has no equation in time. With modal_damping = loss_factor / 2 in "
        "its place it is."},
       {"undamped", "Stability is not asymptotic: the structure has a mode without damping."},
+      {"on_unit_circle",
+       "Stability is not known: a multiplier lies on the unit circle within its own error, and none outside."},
       {"coupled_massless",
        "Stability is not known: contacts without mass and damping deflect each other at once."},
       {"too_many_states",

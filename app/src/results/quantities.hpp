@@ -67,7 +67,8 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     unstable_multipliers{"unstable_multipliers", result}, settled_periods{"settled_periods", result},
     settled_max_displacement{"settled_max_displacement_m", result, "m", "settled max displacement"},
     leading_multiplier_real{"leading_multiplier_real", result},
-    leading_multiplier_imag{"leading_multiplier_imag", result};
+    leading_multiplier_imag{"leading_multiplier_imag", result},
+    leading_multiplier_error{"leading_multiplier_error", result};
 
 // Those of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},

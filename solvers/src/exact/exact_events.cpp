@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -71,7 +72,7 @@ Passing passing(const Located& at) {
   for (const std::complex<double> multiplier : at.point.motion.multipliers()) {
     const bool passes = std::abs(upper(multiplier) - at.multiplier) <= near;
     counts.near += passes;
-    counts.beside += !passes && std::abs(multiplier) > 1.0;
+    counts.beside += !passes && lies_outside_circle(multiplier);
   }
   return counts;
 }
@@ -224,10 +225,7 @@ std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<d
   return upper(best);
 }
 
-int unstable_of(const Eigen::VectorXcd& multipliers) {
-  if (multipliers.size() == 0) return -1;
-  return static_cast<int>((multipliers.array().abs() > 1.0).count());
-}
+int unstable_of(const Eigen::VectorXcd& multipliers) { return count_outside(multipliers); }
 
 EventsBetween events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
                              const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {

@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Multipliers outside the unit circle; -1 where none are known.
+/// Multipliers outside the unit circle; -1 where that is not known.
 int unstable_of(const Eigen::VectorXcd& multipliers);
 
 /// The multiplier nearest to a place on the unit circle, Im >= 0; NaN where none is known.

@@ -8,6 +8,7 @@
 #include "impacts/lasting_motion.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "stability/pole_states.hpp"
 
 namespace wavebalance::solvers {
@@ -71,7 +72,7 @@ LongestFlight longest_flight(const ImpactMotion& motion) {
 Eigen::VectorXcd free_multipliers(const detail::ImpactModel& model) {
   std::vector<Complex> all;
   for (const Complex exponent : model.exponents()) {
-    const Complex multiplier = std::exp(exponent * model.period());
+    const Complex multiplier = detail::free_multiplier(exponent * model.period());
     all.push_back(multiplier);
     if (exponent.imag() != 0.0) all.push_back(std::conj(multiplier));
   }
@@ -131,17 +132,14 @@ GrowingGreen growing_green(const detail::ImpactModel& model, int c, int d, doubl
 Eigen::VectorXcd impact_multipliers(const ImpactMotion& motion) {
   require_motion(motion);
   if (motion.parts) return motion.parts->multipliers;
-  Eigen::VectorXcd all =
-      motion.impacts.empty() ? free_multipliers(*motion.model) : detail::eigenvalues(monodromy_of(motion));
+  Eigen::VectorXcd all = motion.impacts.empty() ? free_multipliers(*motion.model)
+                                                : detail::map_multipliers(monodromy_of(motion));
   if (!all.allFinite()) return {};
   std::ranges::stable_sort(all, [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
   return all;
 }
 
-int unstable_count(const Eigen::VectorXcd& multipliers) {
-  constexpr double rounding = 1e-9;
-  return static_cast<int>((multipliers.array().abs() > 1.0 + rounding).count());
-}
+int unstable_count(const Eigen::VectorXcd& multipliers) { return detail::count_outside(multipliers); }
 
 Complex impact_determinant(const ImpactMotion& motion, Complex z) {
   require_motion(motion);

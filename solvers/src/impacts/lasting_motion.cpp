@@ -10,6 +10,7 @@
 #include "impacts/impact_parts.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "wavebalance/solvers/impacts/impact_stability.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -123,10 +124,7 @@ ImpactMotion lasting_motion(const std::shared_ptr<const ImpactModel>& model, con
   LastingState end{solved.states, time, -1};
   if (!parts->flow->advance(end, 1.0, &record, nullptr)) return motion;
   parts->segments = std::move(record.segments);
-  parts->multipliers = eigenvalues(solved.monodromy);
-  std::ranges::stable_sort(parts->multipliers, [](std::complex<double> a, std::complex<double> b) {
-    return std::abs(a) > std::abs(b);
-  });
+  parts->multipliers = map_multipliers(solved.monodromy);
   motion.impacts = std::move(record.impacts);
   motion.lasting = std::move(record.contacts);
   order_by_time(motion);

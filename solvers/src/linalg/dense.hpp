@@ -92,8 +92,8 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 /// where that is not shown. O(n^3).
 bool powers_vanish(Eigen::MatrixXd matrix);
 
-/// How many eigenvalues of a square matrix lie outside the unit circle; -1 if the iteration for them does not
-/// converge. O(n^3).
+/// How many eigenvalues of a square matrix lie outside the unit circle, with the rule of
+/// linalg/multipliers.hpp for those near it. O(n^3).
 int count_outside_circle(const Eigen::MatrixXd& matrix);
 
 /// Eigenvalues in no order, and eigenvectors as columns.

@@ -1,5 +1,6 @@
 #include "linalg/dense.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/multipliers.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -78,8 +79,7 @@ bool powers_vanish(Eigen::MatrixXd matrix) {
 
 int count_outside_circle(const Eigen::MatrixXd& matrix) {
   if (powers_vanish(matrix)) return 0;
-  const Eigen::VectorXcd all = eigenvalues(matrix);
-  return all.allFinite() ? static_cast<int>((all.array().abs() > 1.0).count()) : -1;
+  return count_outside(map_multipliers(matrix));
 }
 
 std::optional<GeneralEigen> general_eigen(const Eigen::MatrixXd& matrix) {

@@ -208,4 +208,23 @@ PeriodicStiffness ElasticMode::contact_stiffness(const ModePoint& point) const {
   return solvers::contact_stiffness(trial_, problem_->laws, unknowns);
 }
 
+std::optional<PeriodicStiffness> ElasticMode::stiffness_by_displacement(const ModePoint& point) const {
+  const PairTransform& transform = problem_->transform;
+  if (problem_->flexibility.size() == 0 || !trial_.band_limited() || point.status == ModeStatus::linear ||
+      !problem_->laws.have_finite_force())
+    return std::nullopt;
+  const Eigen::MatrixXcd amplitudes =
+      (problem_->model.contact_shapes * point.amplitudes).leftCols(transform.highest() + 1);
+  ContactUnknowns unknowns;
+  unknowns.coefficients = transform.harmonics.diagonal().cwiseInverse().asDiagonal() * amplitudes.transpose();
+  Eigen::MatrixXd rows(transform.rows(), problem_->contacts());
+  for (int k = 0; k <= transform.highest(); ++k) {
+    const int row = transform.real_rows[static_cast<std::size_t>(k)];
+    rows.row(row) = unknowns.coefficients.row(k).real();
+    if (k > 0 && transform.has_sines()) rows.row(row + 1) = unknowns.coefficients.row(k).imag();
+  }
+  unknowns.samples = detail::product(transform.synthesis, rows);
+  return solvers::contact_stiffness(trial_, problem_->laws, unknowns);
+}
+
 }  // namespace wavebalance::solvers

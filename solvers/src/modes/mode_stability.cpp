@@ -9,6 +9,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/monodromy_map.hpp"
 
@@ -143,36 +144,61 @@ ModeMultipliers::ModeMultipliers(const ElasticMode& mode, ModeStabilityOptions o
   options_.validate();
 }
 
-ModeStability ModeMultipliers::operator()(const ModePoint& point) const {
+namespace {
+
+// The multipliers of a motion by one stiffness of its contacts, with unstable left open.
+ModeStability by_stiffness(const ModalModel& model, const ModePoint& point, PeriodicStiffness stiffness,
+                           int modes, const ModeStabilityOptions& options) {
   ModeStability result;
-  if (point.amplitudes.size() == 0) return result;
-  PeriodicStiffness stiffness = mode_.contact_stiffness(point);
-  hold_without_mass(mode_.model(), stiffness);
+  hold_without_mass(model, stiffness);
   result.status = stiffness.status;
   result.contacts = static_cast<int>(stiffness.intervals.size());
-  if (result.status != StabilityStatus::converged) return result;
-  const ModalModel& model = mode_.model();
-  const int modes = dynamic_modes(mode_, point.omega);
-  if (stiffness.intervals.empty()) {
-    result.multipliers = linear_multipliers(model, point.omega, mode_.options().mode - 1, modes);
-    result.unstable = 0;
-    return result;
-  }
+  if (result.status != StabilityStatus::converged || stiffness.intervals.empty()) return result;
   result.status = StabilityStatus::effort_limit;
-  if (2 * modes > options_.max_states) return result;
+  if (2 * modes > options.max_states) return result;
   const auto dynamics = ContactDynamics::undamped(model.omega_squared, model.contact_shapes, modes);
   const Eigen::MatrixXd map =
-      monodromy_map(dynamics, stiffness, point.omega / (2.0 * std::numbers::pi), options_.monodromy);
+      monodromy_map(dynamics, stiffness, point.omega / (2.0 * std::numbers::pi), options.monodromy);
   if (!map.allFinite()) return result;
   const auto [rest, closure] = reduced(map, model, point);
   result.closure = closure;
-  const Eigen::VectorXcd multipliers = by_falling_modulus(rest);
-  if (!multipliers.allFinite()) return result;
-  result.status = StabilityStatus::too_few_harmonics;
-  if (!(closure <= options_.max_closure)) return result;
-  result.status = StabilityStatus::converged;
-  result.multipliers = multipliers;
-  result.unstable = static_cast<int>((multipliers.cwiseAbs().array() > 1.0 + options_.growth).count());
+  result.multipliers = detail::map_multipliers(rest);
+  if (!result.multipliers.allFinite()) {
+    result.multipliers = {};
+    return result;
+  }
+  const Eigen::VectorXcd before = detail::map_multipliers(map);
+  if (result.multipliers.size() > 0)
+    result.error = 2.0 * (before.array() - result.multipliers[0]).abs().minCoeff();
+  const bool closes = closure <= options.max_closure;
+  result.status = closes ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+  if (!closes) result.multipliers = {};
+  return result;
+}
+
+}  // namespace
+
+ModeStability ModeMultipliers::operator()(const ModePoint& point) const {
+  if (point.amplitudes.size() == 0) return {};
+  const ModalModel& model = mode_.model();
+  const int modes = dynamic_modes(mode_, point.omega);
+  const PeriodicStiffness stiffness = mode_.contact_stiffness(point);
+  ModeStability result = by_stiffness(model, point, stiffness, modes, options_);
+  if (result.status == StabilityStatus::converged && result.contacts == 0) {
+    result.multipliers = linear_multipliers(model, point.omega, mode_.options().mode - 1, modes);
+    result.unstable = 0;
+    result.error = 0.0;
+    return result;
+  }
+  if (const auto other = mode_.stiffness_by_displacement(point)) {
+    ModeStability by_displacement = by_stiffness(model, point, *other, modes, options_);
+    if (by_displacement.multipliers.size() > 0 &&
+        (result.multipliers.size() == 0 || by_displacement.closure < result.closure))
+      result = std::move(by_displacement);
+  }
+  if (result.status == StabilityStatus::converged)
+    result.unstable =
+        static_cast<int>((result.multipliers.cwiseAbs().array() > 1.0 + options_.growth).count());
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "stability/winding.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -50,10 +51,13 @@ class UnknownsDeterminant {
     gone_ = product(map.unknowns_by(Eigen::all, gone), map.by_unknowns(gone, Eigen::all));
   }
 
+  // Free multipliers outside the circle; -1 where some lie on it, so that the determinant has poles there.
   int outside() const {
     int count = 0;
-    for (const PoleBlock& block : blocks_)
+    for (const PoleBlock& block : blocks_) {
+      if (std::abs(std::abs(block.multiplier) - 1.0) <= rounding) return -1;
       if (std::abs(block.multiplier) > 1.0) count += block.pair ? 2 : 1;
+    }
     return count;
   }
 
@@ -108,6 +112,7 @@ class UnknownsDeterminant {
     return result;
   }
 
+  static constexpr double rounding = 1e-10;
   std::vector<PoleBlock> blocks_;
   Eigen::MatrixXd by_, unknowns_, gone_;
 };
@@ -116,10 +121,12 @@ class UnknownsDeterminant {
 
 int count_by_determinant(const PeriodMap& map, int max_evaluations) {
   const UnknownsDeterminant determinant(map);
+  const int own = determinant.outside();
+  if (own < 0) return -1;
   const auto turned =
       argument_change([&](double nu) { return determinant(nu); }, determinant.points(), max_evaluations);
   if (!turned) return -1;
-  const double count = determinant.outside() - *turned / pi, rounded = std::round(count);
+  const double count = own - *turned / pi, rounded = std::round(count);
   return std::abs(count - rounded) < 1e-3 && rounded >= 0.0 ? static_cast<int>(rounded) : -1;
 }
 

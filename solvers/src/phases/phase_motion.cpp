@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "linalg/dense.hpp"
+#include "linalg/multipliers.hpp"
 #include "phases/phase_count.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "stability/friction_monodromy.hpp"
@@ -109,7 +109,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
   if (!parts->iterate.forces.panels().empty()) {
     const auto map = map_of(*parts);
     const bool computed = map && map->free.rows() <= max_states && map->unknowns_by.allFinite();
-    values = computed ? detail::eigenvalues(map->all()) : Eigen::VectorXcd();
+    values = computed ? detail::map_multipliers(map->all()) : Eigen::VectorXcd();
   }
   if (!values.allFinite()) return {};
   std::sort(values.begin(), values.end(),
@@ -120,7 +120,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
 int PhaseMotion::count_unstable(int max_evaluations) const {
   if (!friction.empty()) return count_with_friction(*this, max_evaluations);
   if (parts->iterate.forces.panels().empty())
-    return static_cast<int>((parts->model.response.free_multipliers().array().abs() > 1.0).count());
+    return detail::count_outside(parts->model.response.free_multipliers());
   const auto map = map_of(*parts);
   return map && map->unknowns_by.allFinite() ? detail::count_unstable(*map, max_evaluations) : -1;
 }

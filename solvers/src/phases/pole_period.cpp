@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "linalg/dense.hpp"
+#include "linalg/multipliers.hpp"
 #include "phases/pole_response_parts.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -8,7 +9,7 @@ namespace wavebalance::solvers::detail {
 Eigen::VectorXcd PoleResponse::free_multipliers() const {
   std::vector<std::complex<double>> multipliers;
   for (const std::complex<double> exponent : exponents_) {
-    multipliers.push_back(std::exp(exponent));
+    multipliers.push_back(free_multiplier(exponent));
     if (exponent.imag() > 0.0) multipliers.push_back(std::conj(multipliers.back()));
   }
   return Eigen::VectorXcd::Map(multipliers.data(), Index(multipliers.size()));

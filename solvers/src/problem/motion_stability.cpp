@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
+#include "linalg/multipliers.hpp"
+#include "stability/floquet_determinant.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 
@@ -21,7 +24,7 @@ MotionStability stability_of(const UnstableMultipliers& count) {
 }
 
 // All multipliers at once, or of many states their count alone.
-MotionStability by_phases(const PhaseMotion& motion) {
+MotionStability by_phases(const PhaseMotion& motion, const ContactDynamics& dynamics, double frequency) {
   const Eigen::VectorXcd all = motion.multipliers();
   MotionStability result;
   if (all.size() > 0) {
@@ -32,6 +35,8 @@ MotionStability by_phases(const PhaseMotion& motion) {
     if (count.count < 0) count.status = StabilityStatus::effort_limit;
     result = stability_of(count);
   }
+  if (result.unstable < 0 && has_undamped_pole(dynamics, 2.0 * std::numbers::pi * frequency))
+    result.status = to_string(StabilityStatus::undamped);
   result.by_phases = true;
   return result;
 }
@@ -75,10 +80,10 @@ std::complex<double> leading_of(const Eigen::VectorXcd& multipliers) {
 }  // namespace
 
 MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
-  const auto unstable = static_cast<int>((multipliers.array().abs() > 1.0).count());
-  MotionStability result;
-  result.status = unstable > 0 ? "unstable" : "stable";
-  result.unstable = unstable;
+  UnstableMultipliers count;
+  count.count = detail::count_outside(multipliers);
+  if (count.count < 0) count.status = StabilityStatus::on_unit_circle;
+  MotionStability result = stability_of(count);
   if (multipliers.size() > 0) result.leading = leading_of(multipliers);
   return result;
 }
@@ -92,8 +97,8 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
     unknown.status = to_string(motion->status);
     return unknown;
   }
-  MotionStability result =
-      motion && motion->converged() ? by_phases(*motion) : by_balance(problem, laws, response, dynamics);
+  MotionStability result = motion && motion->converged() ? by_phases(*motion, dynamics, response.frequency)
+                                                         : by_balance(problem, laws, response, dynamics);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -230,6 +230,7 @@ std::string_view to_string(StabilityStatus status) {
                                            {too_few_samples, "too_few_samples"},
                                            {too_few_harmonics, "too_few_harmonics"},
                                            {undamped, "undamped"},
+                                           {on_unit_circle, "on_unit_circle"},
                                            {coupled_massless, "coupled_massless"},
                                            {too_many_states, "too_many_states"},
                                            {structural_damping, "structural_damping"},

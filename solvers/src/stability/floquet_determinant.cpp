@@ -355,13 +355,17 @@ StabilityStatus require_stiffness(const ContactDynamics& dynamics, const Periodi
   return coupled ? StabilityStatus::coupled_massless : StabilityStatus::converged;
 }
 
+bool has_undamped_pole(const ContactDynamics& dynamics, double angular_frequency) {
+  constexpr double least = 1e-10;
+  return std::ranges::any_of(dynamics.poles(), [&](const ContactPole& pole) {
+    return std::abs(pole.exponent.real()) <= least * std::max(std::abs(pole.exponent), angular_frequency);
+  });
+}
+
 StabilityStatus require_countable(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                   double angular_frequency) {
   if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;
-  constexpr double least = 1e-10;
-  for (const ContactPole& pole : dynamics.poles())
-    if (std::abs(pole.exponent.real()) <= least * std::max(std::abs(pole.exponent), angular_frequency))
-      return StabilityStatus::undamped;
+  if (has_undamped_pole(dynamics, angular_frequency)) return StabilityStatus::undamped;
   return require_stiffness(dynamics, stiffness);
 }
 

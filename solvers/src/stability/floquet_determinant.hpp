@@ -95,6 +95,8 @@ class FloquetDeterminant {
   Eigen::MatrixXd waves_;            // nodes x 2 (H + 2), cos(2 pi n t), then sin, n = 0..H + 1
 };
 
+/// Whether an exponent of the structure lies on the imaginary axis to rounding.
+bool has_undamped_pole(const ContactDynamics& dynamics, double angular_frequency);
 /// The first reason why `dynamics` and `stiffness` do not let the argument of the determinant be followed.
 StabilityStatus require_countable(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                   double angular_frequency);

@@ -5,6 +5,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/pole_states.hpp"
 
@@ -200,7 +201,7 @@ class FrictionPropagator {
 
 Eigen::VectorXcd friction_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                     double frequency) {
-  return by_falling_modulus(FrictionPropagator(dynamics, stiffness, 1.0 / frequency).map());
+  return detail::map_multipliers(FrictionPropagator(dynamics, stiffness, 1.0 / frequency).map());
 }
 
 }  // namespace wavebalance::solvers

@@ -10,6 +10,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/gauss_rule.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/monodromy_pieces.hpp"
@@ -243,17 +244,6 @@ void require_causal(const char* who, const ContactDynamics& dynamics) {
 
 }  // namespace
 
-Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map) {
-  if (map.size() == 0) return {};
-  // States of overdamped modes decay to numbers that keep the QR iteration from converging.
-  const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
-  map = (map.array().abs() > vanishing).select(map, 0.0);
-  Eigen::VectorXcd multipliers = detail::eigenvalues(map);
-  std::sort(multipliers.begin(), multipliers.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  return multipliers;
-}
-
 void MonodromyOptions::validate() const {
   detail::require_at_least("MonodromyOptions", "nodes", nodes, 2);
   detail::require_at_least("MonodromyOptions", "max_pieces", max_pieces, 1);
@@ -336,7 +326,7 @@ Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffn
   const LastingMap lasting = lasting_map(dynamics, stiffness, frequency, options);
   if (!lasting.map) return Eigen::VectorXcd::Constant(lasting.states, missing);
   Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(lasting.states);
-  multipliers.head(lasting.map->rows()) = by_falling_modulus(*lasting.map);
+  multipliers.head(lasting.map->rows()) = detail::map_multipliers(*lasting.map);
   return multipliers;
 }
 
@@ -359,7 +349,7 @@ Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const Periodic
     else if (!hold(states, piece.closed, length / frequency, map))
       return Eigen::VectorXcd::Constant(states.size(), missing);
   }
-  return by_falling_modulus(map);
+  return detail::map_multipliers(map);
 }
 
 }  // namespace wavebalance::solvers

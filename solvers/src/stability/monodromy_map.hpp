@@ -12,9 +12,6 @@ namespace wavebalance::solvers {
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options);
 
-/// The eigenvalues of such a map, or of a part of it, by falling modulus.
-Eigen::VectorXcd by_falling_modulus(Eigen::MatrixXd map);
-
 /// How many values of monodromy() lie outside the unit circle; -1 where these are NaN. Less work where none
 /// do.
 int monodromy_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/friction_monodromy.hpp"
@@ -78,9 +79,17 @@ UnstableMultipliers without_count(StabilityStatus status) {
   return result;
 }
 
-UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers) {
+// Where multipliers on the unit circle leave the count open.
+StabilityStatus status_on_circle(const ContactDynamics& dynamics, double frequency) {
+  return has_undamped_pole(dynamics, 2.0 * pi * frequency) ? StabilityStatus::undamped
+                                                           : StabilityStatus::on_unit_circle;
+}
+
+UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers, const ContactDynamics& dynamics,
+                             double frequency) {
   UnstableMultipliers result;
-  result.count = static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
+  result.count = detail::count_outside(multipliers);
+  if (result.count < 0) result.status = status_on_circle(dynamics, frequency);
   result.winding = result.count;
   if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
   return result;
@@ -91,7 +100,7 @@ std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& d
                                                         const StabilityOptions& options) {
   if (options.leading) {
     const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-    return multipliers ? std::optional(count_of(*multipliers)) : std::nullopt;
+    return multipliers ? std::optional(count_of(*multipliers, dynamics, frequency)) : std::nullopt;
   }
   UnstableMultipliers result;
   if (has_monodromy(dynamics, options.max_states))
@@ -124,7 +133,7 @@ UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const Per
     return result;
   const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
   if (!multipliers.allFinite()) return result;
-  return count_of(multipliers);
+  return count_of(multipliers, dynamics, frequency);
 }
 
 int unstable_poles(const ContactDynamics& dynamics) {
@@ -274,7 +283,8 @@ FrictionVerdict friction_verdict(const ContactDynamics& dynamics, const Periodic
                                  double frequency, const StabilityOptions& options) {
   StabilityStatus status = StabilityStatus::converged;
   const auto multipliers = by_friction(dynamics, stiffness, frequency, options, status);
-  return {signs_of(multipliers, status), multipliers ? count_of(*multipliers) : without_count(status)};
+  return {signs_of(multipliers, status),
+          multipliers ? count_of(*multipliers, dynamics, frequency) : without_count(status)};
 }
 
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,

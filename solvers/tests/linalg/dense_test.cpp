@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
+
+#include "linalg/multipliers.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -53,6 +56,37 @@ TEST(CountOutsideTheCircle, IsThatOfTheEigenvalues) {
   EXPECT_EQ(count_outside_circle(matrix_with(1.25, 12)), 3);
   EXPECT_EQ(count_outside_circle(Eigen::MatrixXd(0, 0)), 0);
   EXPECT_EQ(count_outside_circle(Eigen::MatrixXd::Constant(3, 3, std::nan(""))), -1);
+}
+
+// Rotations and one real factor in coordinates that are far from orthogonal.
+Eigen::MatrixXd turning(double factor) {
+  Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(5, 5);
+  for (const Eigen::Index i : {0, 2}) {
+    const double angle = 0.3 + double(i);
+    turns.block<2, 2>(i, i) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  }
+  turns(4, 4) = factor;
+  const Eigen::MatrixXd vectors = matrix_with(2.0, 5);
+  return vectors * turns * Lu<double>(vectors).solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(5, 5)));
+}
+
+TEST(CountOutsideTheCircle, IsNotKnownWhereEigenvaluesLieOnItWithinTheirErrors) {
+  EXPECT_EQ(count_outside_circle(turning(0.5)), -1);
+  EXPECT_EQ(count_outside_circle(turning(-1.0)), -1);
+  EXPECT_EQ(count_outside_circle(turning(1.5)), 1);
+  const Eigen::VectorXcd multipliers = map_multipliers(turning(-1.0));
+  for (const std::complex<double> multiplier : multipliers) EXPECT_TRUE(lies_on_circle(multiplier));
+}
+
+TEST(CountOutsideTheCircle, KnowsWhatLiesBesideItByMoreThanTheErrors) {
+  EXPECT_EQ(count_outside_circle((1.0 - 1e-8) * turning(0.5)), 0);
+  EXPECT_EQ(count_outside_circle((1.0 + 1e-8) * turning(0.5)), 4);
+}
+
+TEST(FreeMultiplier, IsOnTheCircleWhereDampingIsRounding) {
+  EXPECT_TRUE(lies_on_circle(free_multiplier({1e-14, 3.0})));
+  EXPECT_FALSE(lies_on_circle(free_multiplier({-1e-8, 3.0})));
+  EXPECT_FALSE(lies_outside_circle(free_multiplier({-1e-8, 3.0})));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "constants.hpp"
+#include "linalg/multipliers.hpp"
 #include "stability/monodromy_map.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
@@ -186,7 +187,8 @@ TEST(Monodromy, HasTheEigenvaluesOfTheWholeMap) {
     ASSERT_TRUE(response.converged());
     const ContactDynamics dynamics(problem.structure());
     const PeriodicStiffness stiffness = contact_stiffness(problem, one.law, response);
-    const Eigen::VectorXcd all = by_falling_modulus(monodromy_map(dynamics, stiffness, one.frequency_hz, {})),
+    const Eigen::VectorXcd all = detail::map_multipliers(
+                               monodromy_map(dynamics, stiffness, one.frequency_hz, {})),
                            found = monodromy(dynamics, stiffness, one.frequency_hz);
     ASSERT_EQ(found.size(), all.size());
     for (Eigen::Index i = 0; i < all.size(); ++i)

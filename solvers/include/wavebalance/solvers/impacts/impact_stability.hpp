@@ -18,7 +18,8 @@ namespace wavebalance::solvers {
 /// has not converged. O(K s n + s^3) for n states of the structure, of which s are left.
 Eigen::VectorXcd impact_multipliers(const ImpactMotion& motion);
 
-/// How many multipliers lie outside the unit circle by more than rounding, 1e-9.
+/// How many multipliers lie outside the unit circle; -1 where none does but some lie on it within their
+/// error.
 int unstable_count(const Eigen::VectorXcd& multipliers);
 
 /// The determinant of the 2 K equations that displacement and velocity of a perturbation before each impact

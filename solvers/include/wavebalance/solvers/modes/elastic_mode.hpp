@@ -116,6 +116,11 @@ class ElasticMode {
   std::optional<ModePoint> between(const ModePoint& a, const ModePoint& b, double share) const;
   /// The stiffness of the contacts along a motion of this mode, none of a linear one.
   PeriodicStiffness contact_stiffness(const ModePoint& point) const;
+  /// The same with contact where the displacement of the structure is beyond the gap. The unknown of the
+  /// force form has a kink there, which H harmonics place to first order in 1/H, the displacement to third
+  /// order; but of a law that is so stiff that they do not resolve the contact, only the unknown places it.
+  /// Nothing in the displacement form, where both are the same, and of functions other than Fourier's.
+  std::optional<PeriodicStiffness> stiffness_by_displacement(const ModePoint& point) const;
 
  private:
   std::shared_ptr<const ModeProblem> problem_;

@@ -3,6 +3,7 @@
 #include <complex>
 #include <vector>
 
+#include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/stability/curve_stability.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
@@ -35,6 +36,9 @@ struct ModeStability {
   /// The relative distance between the motion's own velocity and its image under the map over a period: the
   /// error of the discretisation.
   double closure = 0.0;
+  /// Twice the way that the closure has moved the first multiplier, a bound of its error where that is small.
+  /// NaN without multipliers.
+  double error = missing;
 };
 
 /// The Floquet multipliers of the free motions of an elastic mode. The variational equations M v'' + K v +

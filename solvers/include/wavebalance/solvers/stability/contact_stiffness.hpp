@@ -18,7 +18,8 @@ enum class StabilityStatus {
   /// contact is so stiff that max_harmonics do not resolve it, or its stiffness varies so fast that halved
   /// intervals do not
   too_few_harmonics,
-  undamped,  ///< an exponent of the structure without contact lies on the imaginary axis
+  undamped,        ///< an exponent of the structure without contact lies on the imaginary axis
+  on_unit_circle,  ///< a multiplier lies on the unit circle within its own error, and none outside
   /// contacts without mass and damping that deflect each other at once, or whose force depends on the
   /// velocity
   coupled_massless,

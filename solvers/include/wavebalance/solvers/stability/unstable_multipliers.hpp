@@ -29,7 +29,8 @@ struct StabilityOptions {
   void validate() const;
 };
 
-/// The Floquet multipliers outside the unit circle.
+/// The Floquet multipliers outside the unit circle. One that lies on it within its own error has no side: the
+/// status is then undamped or on_unit_circle unless others lie outside.
 struct UnstableMultipliers {
   StabilityStatus status = StabilityStatus::converged;
   int count = -1;        ///< -1 unless converged
