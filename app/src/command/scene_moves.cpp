@@ -1,7 +1,8 @@
 #include "command/scene_moves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "wavebalance/app/scene/contacts.hpp"
@@ -189,7 +190,7 @@ Step damping_depth(const Scene& scene) {
   if (damper == nullptr) return std::nullopt;
   const bool own = damper->pair && damper->law != scene.contact.law;
   const std::string key = (own ? pair_section(*damper->pair) : "contact") + "." + std::string(depth_name);
-  if (damper->gap > 0.0) return set_to(key, of_gap * damper->gap);
+  if (damper->gap > 0.0) return set_to(key, std::stod(fmt::format("{:.2g}", of_gap * damper->gap)));
   return changed("a positive", key, 1e-6);
 }
 
