@@ -150,7 +150,7 @@ frequency_from = 0.24
 frequency_to = 0.27
 first_step = 0.001
 largest_step = 0.003
-max_points = 122
+max_points = 119
 """
 
 

@@ -169,4 +169,4 @@ def test_a_sweep_whose_motions_are_all_unstable_has_a_warning(run, motions_of_sp
     scene = SPRING.format(frequency=0.3, analysis='type = "frequency_sweep"\nfrequency_from = 0.3\nfrequency_to = 0.31')
     for number, start in enumerate(motions_of_spring):
         warnings = run(scene, "--start-from", start).summary["warnings"]
-        assert any("motions of the curve are unstable" in text for text in warnings) == (number == 1)
+        assert any("All motions of the curve are unstable" in text for text in warnings) == (number == 1)

@@ -81,28 +81,34 @@ Table table_of(const Sweep& sweep) {
 /// No branch is followed there.
 void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::SpecialPoint>& points,
                                     const Sweep& sweep) {
-  std::vector<double> places;
-  for (const auto& point : points)
-    if (point.type == solvers::SpecialPointType::neimark_sacker)
-      places.push_back(parameter_of(point, sweep.curve.parameter));
+  std::vector<std::string> places;  // as they are printed, each once
+  for (const auto& point : points) {
+    if (point.type != solvers::SpecialPointType::neimark_sacker) continue;
+    const std::string place = fmt::format("{:.6g}", parameter_of(point, sweep.curve.parameter));
+    if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+  }
   if (places.empty()) return;
-  std::sort(places.begin(), places.end());
   record.warnings.push_back(fmt::format(
-      "At the Neimark-Sacker point{} {:.6g} {} the motion becomes quasi-periodic: what begins there has no "
+      "At the Neimark-Sacker point{} {} {} the motion becomes quasi-periodic: what begins there has no "
       "period and is not followed.",
       places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit));
 }
 
 /// Where no motion of the curve stays.
 void warn_where_all_are_unstable(Record& record, const std::vector<solvers::PointStability>& points) {
-  const auto of = [&](auto&& is) { return std::count_if(points.begin(), points.end(), is); };
-  const auto unstable = of([](const auto&point) { return point.unstable > 0; }),
-             unknown = of([](const auto&point) { return point.unstable < 0; });
-  if (unstable == 0 || unstable + unknown < std::ptrdiff_t(points.size())) return;
+  std::size_t unstable = 0, unknown = 0;
+  for (const solvers::PointStability& point : points) {
+    unstable += point.unstable > 0;
+    unknown += point.unstable < 0;
+  }
+  if (unstable == 0 || unstable + unknown < points.size()) return;
+  const std::string known = unknown > 0
+                                ? fmt::format("whose stability is known, {} of {}, ", unstable, points.size())
+                                : std::string("of the curve ");
   record.warnings.push_back(fmt::format(
-      "All {}motions of the curve are unstable: a structure that is disturbed leaves them for motions that lie on "
-      "other curves or are not periodic.",
-      unknown > 0 ? fmt::format("{} of {} ", unstable, points.size()) : ""));
+      "All motions {}are unstable: a structure that is disturbed leaves them for motions that lie on other curves or are "
+      "not periodic.",
+      known));
 }
 
 /// Whether a curve with this end can turn `count` times: an even number where it leaves the interval in the
