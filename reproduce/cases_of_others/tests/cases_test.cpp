@@ -45,6 +45,16 @@ const app::Table& special_points(const app::Summary& summary) {
   throw std::runtime_error("no special points");
 }
 
+TEST(CasesOfOthers, ACurveOfImpactsShowsTheirImpulses) {
+  results().need({"impact_oscillator"});
+  const app::Table table = results().read("impact_oscillator.csv");
+  const auto impulse = table.numbers("impulse");
+  EXPECT_EQ(impulse.front(), 0.0);
+  EXPECT_GT(*std::max_element(impulse.begin(), impulse.end()), 3.0);
+  const std::string script = app::read_file(results().folder() / "impact_oscillator.figure.js");
+  EXPECT_NE(script.find("Impulse of the impact"), std::string::npos);
+}
+
 TEST(CasesOfOthers, EachValueAgreesWithinItsTolerance) {
   std::vector<std::string> all = names;
   all.emplace_back("den_hartog");
