@@ -14,6 +14,7 @@ solvers::SpecialPoint special_point_of(const Event& event, const solvers::SweepP
   point.multiplier = event.multiplier;
   point.max_displacement = at.max_displacement;
   point.max_abs_displacement = at.max_abs_displacement;
+  point.vibration = at.vibration;
   point.located = true;
   point.unknown_parameter = event.value;
   point.next_point = event.next_point;

@@ -51,13 +51,13 @@ class MotionsOfCurve {
     motion.converged = response.converged();
     motion.residual = response.residual;
     motion.contacts = problem_.motion(response, scene_.analysis.output_points);
-    motion.contact = leading_contact(motion.contacts, model_.gaps);
+    motion.contact = leading_contact(scene_, motion.contacts, model_.gaps);
     if (scene_.analysis.motion_points > 0)
       motion.structure = problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
     motion.stability.status.clear();
     if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.phases)) return motion;
     std::optional<solvers::ResponsePhases> near = solvers::near_phases(problem_, response);
-    if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0};
+    if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0, {}};
     if (scene_.analysis.stability)
       motion.stability = problem_.stability(response, near ? &near->motion : nullptr);
     if (near && near->motion.parts != nullptr) motion.near = std::move(near);

@@ -31,6 +31,9 @@ struct Measure {
     point.max_displacement = u.maxCoeff();
     point.min_displacement = u.minCoeff();
     point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+    const solvers::Vibration vibration = solvers::largest_vibration(u);
+    point.vibration = vibration.half_peak_to_peak;
+    point.rms_vibration = vibration.rms;
     point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
     point.max_force = unilateral ? force.maxCoeff() : force.cwiseAbs().maxCoeff();
     for (Eigen::Index c = 0; c < force.rows(); ++c)

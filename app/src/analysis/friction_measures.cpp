@@ -44,14 +44,17 @@ FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers
   contact::CoulombLaw law = law_of(contact);
   contact::FrictionPeriod period = period_of(law, row, contacts);
   FrictionMeasures measures{row,
+                            contact.number,
                             std::move(law),
                             {},
                             share_of(period, contact::FrictionState::stick),
                             share_of(period, contact::FrictionState::slip),
                             share_of(period, contact::FrictionState::open)};
   measures.slip = std::accumulate(period.slip.begin(), period.slip.end(), 0.0);
-  if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end())
+  if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end()) {
+    measures.wears = true;
     measures.wear = std::get<double>(wears->second) * period.normal_work;
+  }
   measures.period = std::move(period);
   return measures;
 }

@@ -33,6 +33,9 @@ struct ImpactMeasure {
                    motion.displacement(Eigen::VectorXd::Constant(1, impact.time))(impact.contact));
     point.min_displacement = u.minCoeff();
     point.max_abs_displacement = std::max(point.max_displacement, -point.min_displacement);
+    const solvers::Vibration vibration = solvers::largest_vibration(u);
+    point.vibration = vibration.half_peak_to_peak;
+    point.rms_vibration = vibration.rms;
     point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
     point.max_force = solvers::missing;
     point.contact_fraction = 0.0;
@@ -44,8 +47,10 @@ struct ImpactMeasure {
 PointImpacts impacts_of(const ImpactMotion& motion, int periods) {
   PointImpacts result;
   result.count = static_cast<int>(motion.impacts.size());
-  for (const solvers::Impact& impact : motion.impacts)
+  for (const solvers::Impact& impact : motion.impacts) {
     result.largest_impulse = std::max(result.largest_impulse, impact.impulse);
+    result.largest_speed = std::max(result.largest_speed, impact.velocity_before);
+  }
   result.energy_lost = motion.energy_lost() / periods;
   return result;
 }

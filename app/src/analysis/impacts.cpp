@@ -48,7 +48,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   if (!result.moves) return;
   result.periods = result.motion_periods = found.load_periods;
   result.contacts = contacts_of(found.motion, scene.analysis.output_points);
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (options.structure_points > 0) copy_structure(problem, scene, options.structure_points, result);
   if (options.stability && found.multipliers.size() > 0)
     result.stability = solvers::stability_of_multipliers(found.multipliers);

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::app {
@@ -43,6 +46,14 @@ double contact_fraction(const solvers::Motion& motion) {
   return (motion.force.array() > 0.0).cast<double>().mean();
 }
 
+double contact_fraction(const Scene& scene, const solvers::Motion& contacts, int row) {
+  const SceneContact place = contacts_of(scene).at(static_cast<std::size_t>(row));
+  for (const FrictionMeasures& one : friction_measures(scene, contacts))
+    if (one.number == place.number) return 1.0 - one.open_fraction;
+  if (acts_everywhere(place.law)) return std::numeric_limits<double>::quiet_NaN();
+  return (contacts.force.row(row).array() != 0.0).cast<double>().mean();
+}
+
 int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps) {
   Eigen::Index contact = 0;
   if (contacts.force.size() > 0 && contacts.force.maxCoeff() > 0.0)
@@ -50,6 +61,20 @@ int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps
   else if (!contacts.empty())
     (contacts.displacement.rowwise().maxCoeff() - gaps).maxCoeff(&contact);
   return static_cast<int>(contact);
+}
+
+int leading_contact(const Scene& scene, const solvers::Motion& contacts, const Eigen::VectorXd& gaps) {
+  const int first = leading_contact(contacts, gaps);
+  const std::vector<SceneContact> places = contact_places(scene);
+  const auto range = [&](int row) {
+    const auto u = contacts.displacement.row(row);
+    return u.maxCoeff() - u.minCoeff();
+  };
+  int best = first;
+  for (int row = 0; row < contacts.rows(); ++row)
+    if (places[std::size_t(row)].number == places[std::size_t(first)].number && range(row) > range(best))
+      best = row;
+  return best;
 }
 
 double observed_order(std::span<const double> sizes, std::span<const double> errors) {

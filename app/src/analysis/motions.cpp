@@ -19,7 +19,7 @@ FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& pr
   const Eigen::VectorXd times = time_fractions(scene.analysis.output_points);
   result.contacts = {found.motion.displacement(times), found.motion.velocity(times),
                      found.motion.force(times)};
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (scene.analysis.motion_points > 0)
     result.structure = problem.over_periods(found.periods)
                            .structure_motion(scene.forcing.frequency, found.motion,
@@ -44,7 +44,7 @@ FoundMotion sampled(solvers::CoexistingImpacts one, int starts, solvers::Contact
   FoundMotion result;
   solvers::ImpactResponse& response = one.response;
   result.contacts = contacts_of(response.motion, scene.analysis.output_points);
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (scene.analysis.motion_points > 0)
     result.structure =
         problem.over_periods(response.load_periods)

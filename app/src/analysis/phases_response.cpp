@@ -95,7 +95,7 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
   const double frequency = scene.forcing.frequency;
   const Eigen::VectorXd times = time_fractions(scene.analysis.output_points);
   result.contacts = {motion.displacement(times), motion.velocity(times), motion.force(times)};
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (is_rigid(scene.contact.law)) {
     const auto contact_major = [](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
       return values.transpose().reshaped();

@@ -105,7 +105,7 @@ void confirm_stability(solvers::ContactProblem& problem, const solvers::Periodic
 void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result) {
   result.contacts = problem.motion(found, scene.analysis.output_points);
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (options.structure_points > 0)
     result.structure = problem.structure_motion(found, options.structure_points);
   if (!found.converged()) return;
@@ -273,7 +273,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
   result.contacts = std::move(found.contacts);
   result.moves = result.contacts.displacement.allFinite() && result.contacts.force.allFinite() &&
                  found.status != solvers::TimeSteppingStatus::step_failure;
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   result.structure = std::move(found.structure);
   return result;
 }

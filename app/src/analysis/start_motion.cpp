@@ -73,9 +73,23 @@ double number_of(const Table& table, std::size_t row, const char* column, const 
   return value;
 }
 
-/// The number of contacts of a table of all of them, which stand from 1 on at each time.
+/// The rows of a table at its first time, of contacts with several directions.
+std::size_t directions_of(const Table& table, const fs::path& file) {
+  const auto is_first = [&](std::size_t i) {
+    return number_of(table, i, "time_fraction", file) == number_of(table, 0, "time_fraction", file);
+  };
+  std::size_t rows = 1;
+  while (rows < table.rows() && is_first(rows)) ++rows;
+  if (table.rows() % rows != 0)
+    throw IoError(file, fmt::format("holds {} rows; expected {} at each time", table.rows(), rows));
+  return rows;
+}
+
+/// The number of directions of contact of a table of all of them. Contacts of one direction stand from 1 on
+/// at each time.
 std::size_t contacts_of(const Table& table, const fs::path& file) {
   if (!table.has_column("contact")) return 1;
+  if (table.has_column("direction")) return directions_of(table, file);
   double most = 0.0;
   for (std::size_t i = 0; i < table.rows(); ++i) most = std::max(most, number_of(table, i, "contact", file));
   const auto contacts = static_cast<std::size_t>(std::max(most, 1.0));

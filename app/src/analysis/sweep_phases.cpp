@@ -1,8 +1,10 @@
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/sweep_options.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -89,6 +91,7 @@ SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& can
   solvers::CurvePhasesOptions options;
   options.phases = phases_options(all);
   options.stability = all && of.scene.analysis.stability;
+  if (of.has_peak) options.kept = taken.size();
   options.threads = of.model.threads;
   options.observer = observer;
   auto found = solvers::phases_along([&] { return compose_problem(of.scene, of.model); }, of.curve,
@@ -134,6 +137,20 @@ std::size_t peak_of(const solvers::FrequencySweep& curve) {
       std::max_element(curve.points.begin(), curve.points.end(),
                        [](const auto& a, const auto& b) { return a.max_displacement < b.max_displacement; });
   return static_cast<std::size_t>(highest - curve.points.begin());
+}
+
+std::size_t vibration_peak_of(const solvers::FrequencySweep& curve) {
+  const auto most = std::max_element(curve.points.begin(), curve.points.end(),
+                                     [](const auto& a, const auto& b) { return a.vibration < b.vibration; });
+  return static_cast<std::size_t>(most - curve.points.begin());
+}
+
+double error_of_vibration(const solvers::FrequencySweep& curve, const SweepPhases::Point& peak,
+                          int output_points) {
+  if (!peak || !peak->motion || peak->place > 0) return solvers::missing;
+  const double exact =
+      solvers::largest_vibration(peak->motion->displacement(time_fractions(output_points))).half_peak_to_peak;
+  return std::abs(curve.points[peak_of(curve)].vibration - exact) / exact;
 }
 
 std::string phases_status(const SweepPhases::Point& point) {

@@ -10,6 +10,7 @@
 #include "command/report_parts.hpp"
 #include "command/run_words.hpp"
 #include "plot/unit_prefix.hpp"
+#include "results/rest_record.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -64,38 +65,15 @@ std::string record_picture(const std::vector<ResultFile>& files, const std::stri
                               : picture(files, drawn->name, heading);
 }
 
-/// Where each output vibrates most along a curve, or by how much in a motion.
-std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
-  constexpr std::size_t most = 12;
-  const Table* outputs = table_of(summary, "outputs");
-  std::vector<std::string> sentences;
-  for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i) {
-    const auto number = [&](std::string_view column) { return std::get<double>(outputs->at(i, column)); };
-    const double vibration = number("half_peak_to_peak");
-    if (!std::isfinite(vibration)) continue;
-    const std::string place = outputs->has_column(axis.column())
-                                  ? fmt::format(", at {:.6g} {}", number(axis.column()), axis.unit)
-                                  : "";
-    const std::string unit = cell_text(outputs->at(i, "unit"));
-    constexpr double rounding = 1e-9;
-    const double mean = number("mean");
-    sentences.push_back(fmt::format("The vibration of {} is {}{}{}, about a mean of {}.",
-                                    cell_text(outputs->at(i, "output")), place.empty() ? "" : "at most ",
-                                    quantity(vibration, unit), place,
-                                    std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
-  }
-  return sentences;
-}
-
 /// How many contacts are closed at rest; empty where static loads move none.
-std::vector<std::string> rest_sentences(const Summary& summary) {
+std::vector<std::string> rest_sentences(const Scene& scene, const Summary& summary) {
   const Table* rest = table_of(summary, "at_rest");
   if (rest == nullptr) return {};
   const std::vector<double> forces = rest->numbers("contact_force_N");
-  const auto closed = std::count_if(forces.begin(), forces.end(), [](double force) { return force > 0.0; });
+  const std::int64_t closed = closed_contacts(scene, forces);
   if (closed == 0) return {"At rest under the static loads no contact is closed."};
   return {fmt::format("At rest under the static loads {} of {} contacts {} closed, with at most {}.", closed,
-                      forces.size(), closed == 1 ? "is" : "are",
+                      whole_contact_count(scene), closed == 1 ? "is" : "are",
                       quantity(*std::max_element(forces.begin(), forces.end()), "N"))};
 }
 
@@ -107,6 +85,14 @@ std::string outputs_of_record(const Record& record, const std::vector<ResultFile
     for (const ResultFile& file : files)
       if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
   return pictures + folded_table(summary, "outputs", "Outputs");
+}
+
+/// The table of coexisting motions, which is what they were sought for, or folded those of points of a curve.
+std::string motions_of_record(const Scene& scene, const Summary& summary) {
+  if (scene.analysis.type != AnalysisType::motions)
+    return folded_table(summary, "motions", "Motions at points of the curve");
+  const Table* table = table_of(summary, "motions");
+  return table == nullptr ? "" : "<h3>Motions at this frequency</h3>\n" + table_html(shown_rows(*table));
 }
 
 /// The pictures of single motions, and when each is in contact; empty without any.
@@ -181,14 +167,11 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
                                         (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
-                                        motion(files) + in_space + paragraph(rest_sentences(summary)) +
+                                        motion(files) + in_space + paragraph(rest_sentences(scene, summary)) +
                                         folded_table(summary, "at_rest", "At rest under the static loads") +
-                                        folded_table(summary, "motions",
-                                                     scene.analysis.type == AnalysisType::motions
-                                                         ? "Motions at this frequency"
-                                                         : "Motions at points of the curve")) +
+                                        motions_of_record(scene, summary)) +
       section_html("Stability",
-                   paragraph(stability_sentences(summary, record.sweep, record.axis)) +
+                   paragraph(stability_sentences(summary, record.axis)) +
                        folded_table(summary, "structure_special_points", "Special points of the structure") +
                        folded_table(summary, "special_points", "Special points") +
                        folded_table(summary, "isolas", "Isolas") +

@@ -13,11 +13,6 @@
 namespace wavebalance::app {
 namespace {
 
-std::string spaced(std::string words) {
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::string count_of(const Summary& summary, const Quantity& of, const std::string& noun) {
   const double count = number_in(summary, of);
   return fmt::format("{:.0f} {}{}", count, noun, count == 1.0 ? "" : "s");
@@ -29,6 +24,32 @@ std::string with_unit(const Summary& summary, const Quantity& one) {
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
+
+/// Errors below this are rounding.
+std::string shown_error(double error) {
+  constexpr double least = 1e-10;
+  return error < least ? "below " + percent(least) : percent(error);
+}
+
+/// So many digits of a number as the points of a curve determine: at least two, at most `most`.
+int digits_of(double value, double resolution, int most) {
+  if (!(resolution > 0.0)) return most;
+  return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
+}
+
+double rounded(double value, int digits) {
+  return std::isfinite(value) ? std::stod(fmt::format("{:.{}e}", value, digits - 1)) : value;
+}
+
+/// "791 µm (half peak to peak), at 10.09 Hz", with the digits that the points of the curve determine.
+std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
+                      double place_resolution, const SweepAxis& axis) {
+  constexpr int most = 4, most_of_place = 5;
+  return fmt::format("{} (half peak to peak), at {}{:.10g} {}",
+                     quantity(rounded(vibration, digits_of(1.0, resolution, most)), unit),
+                     axis.quantity == "frequency" ? "" : "an amplitude of ",
+                     rounded(place, digits_of(place, place_resolution, most_of_place)), axis.unit);
+}
 
 /// Why a response by phases was not found, and what to take instead; empty for other statuses.
 std::string phases_sentence(const std::string& status) {
@@ -82,11 +103,14 @@ std::string solution_sentence(const Summary& summary) {
   if (converged != nullptr && *converged) return "The scene was solved" + ending;
   if (text_in(summary, quantities::status) == "unbalanced")
     return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
-  const bool shown = std::isfinite(number_in(summary, quantities::max_displacement)) ||
-                     number_in(summary, quantities::points) > 0.0;
-  return "The scene was not solved (" + spaced(text_in(summary, quantities::status)) + ")" + ending +
-         (shown ? " What follows is not a solution." : " There is no motion to show.") +
-         phases_sentence(text_in(summary, quantities::status));
+  const std::string status = text_in(summary, quantities::status);
+  if (number_in(summary, quantities::points) > 0.0)
+    return "The curve is not complete (" + spaced_words(status) + ")" + ending +
+           " Its points up to there are solutions.";
+  const bool shown = std::isfinite(number_in(summary, quantities::max_displacement));
+  return "The scene was not solved (" + spaced_words(status) + ")" + ending +
+         (shown ? " The motion below is not a solution." : " There is no motion to show.") +
+         phases_sentence(status);
 }
 
 /// How far a displacement passes the gap; empty where there is none.
@@ -112,23 +136,60 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
   if (std::isfinite(count))
     sentences.push_back(
         fmt::format("There {} {:.0f} impact{} in the period of the motion, at up to {}; the largest "
-                    "impulse is {}, and impacts take {} in a period of the load.",
+                    "impulse is {}, and impacts dissipate {} in a period of the load.",
                     count == 1.0 ? "is" : "are", count, count == 1.0 ? "" : "s",
                     with_unit(summary, quantities::max_impact_velocity), largest,
                     with_unit(summary, quantities::impact_energy)));
   else
-    sentences.push_back(fmt::format("The largest impulse of an impact is {}.", largest));
+    sentences.push_back(fmt::format("Impacts have speeds of up to {} and impulses of up to {}.",
+                                    with_unit(summary, quantities::max_impact_velocity), largest));
   if (share > 0.0)
     sentences.push_back(fmt::format("Contact lasts for {} of the period; its largest force is {}.",
                                     percent(share), with_unit(summary, quantities::max_contact_force)));
+}
+
+/// What contacts with friction do over a period: each of a few, or their sums.
+void append_friction(std::vector<std::string>& sentences, const Summary& summary, const Table& contacts) {
+  constexpr std::size_t few = 4;
+  const std::vector<double> stick = contacts.numbers("stick_fraction"),
+                            slip = contacts.numbers("slip_fraction"),
+                            open = contacts.numbers("open_fraction");
+  const auto any = [](const std::vector<double>& shares) {
+    return std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; });
+  };
+  for (std::size_t i = 0; i < contacts.rows() && contacts.rows() <= few; ++i)
+    sentences.push_back(fmt::format(
+        "Contact {} sticks for {} of the period, slips for {} and is open for {}.",
+        cell_text(contacts.at(i, "contact")), percent(stick[i]), percent(slip[i]), percent(open[i])));
+  if (contacts.rows() > few)
+    sentences.push_back(fmt::format("{} of {} contacts with friction slip within the period, and {} open.",
+                                    any(slip), contacts.rows(), any(open)));
+  sentences.push_back(fmt::format("Friction dissipates {} in a period of the motion.",
+                                  with_unit(summary, quantities::friction_work)));
+}
+
+/// The same along a curve, where a mean over the contacts is known at each point.
+void append_friction_along(std::vector<std::string>& sentences, const Summary& summary) {
+  const double slip = number_in(summary, quantities::max_slip_fraction),
+               open = number_in(summary, quantities::max_open_fraction);
+  sentences.push_back(
+      slip > 0.0 ? fmt::format("Contacts slip for up to {} of the period, in the mean of all.", percent(slip))
+                 : std::string("No contact slips."));
+  sentences.push_back(open > 0.0 ? fmt::format("They are open for up to {}.", percent(open))
+                                 : std::string("None opens."));
 }
 
 /// `limit` is "up to " for a curve, whose shares differ from point to point.
 void append_contact(std::vector<std::string>& sentences, const Summary& summary, const char* limit) {
   const double share = number_in(summary, quantities::contact_fraction),
                force = number_in(summary, quantities::max_contact_force);
+  const auto* friction = value_in<Table>(summary, quantities::friction.name);
   if (std::isfinite(number_in(summary, quantities::max_impulse))) {
     append_impacts(sentences, summary);
+  } else if (friction != nullptr && !friction->empty()) {
+    append_friction(sentences, summary, *friction);
+  } else if (std::isfinite(number_in(summary, quantities::max_slip_fraction))) {
+    append_friction_along(sentences, summary);
   } else if (share == 0.0) {
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
@@ -143,23 +204,52 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
   const double highest = number_in(summary, quantities::max_displacement),
                lowest = number_in(summary, quantities::min_displacement);
   if (!std::isfinite(highest)) return;
-  sentences.push_back(fmt::format("At {} the displacement lies between {} and {}{}.",
-                                  with_unit(summary, quantities::frequency), quantity(lowest, "m"),
+  const double contact = number_in(summary, quantities::leading_contact);
+  const std::string direction = text_in(summary, quantities::leading_direction);
+  const std::string name = direction.empty() || !std::isfinite(contact)
+                               ? ""
+                               : fmt::format(" of contact {}, {},", contact, direction);
+  sentences.push_back(fmt::format("At {} the displacement{} lies between {} and {}{}.",
+                                  with_unit(summary, quantities::frequency), name, quantity(lowest, "m"),
                                   quantity(highest, "m"), beside_gap(highest, gap)));
 }
 
-/// How far what was solved lies from the motion of the structure itself, where the record says it.
+/// The errors of the vibration of outputs and contacts, "row 19 0.35 %", the output that leads first.
+std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> errors;
+  const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
+  const std::string column = curve ? "error_at_peak" : quantities::error_of_vibration.column();
+  for (std::size_t i = 0; outputs != nullptr && i < outputs->rows() && errors.size() < most; ++i) {
+    const std::string name = cell_text(outputs->at(i, "output"));
+    const double error = outputs->numbers(column)[i];
+    if (!std::isfinite(error) || name.starts_with("contact ")) continue;
+    const bool leads = name == text_in(summary, quantities::leading_output);
+    errors.insert(leads ? errors.begin() : errors.end(), name + " " + shown_error(error));
+  }
+  const double contacts = number_in(summary, quantities::error_of_vibration);
+  if (std::isfinite(contacts)) errors.push_back("contacts " + shown_error(contacts));
+  return errors;
+}
+
+/// How far what was solved lies from the exact periodic solution that was found near it, where the record
+/// says it. An exact curve lies nowhere else.
 void append_phases(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
+  if (curve && text_in(summary, quantities::solved_by) == "phases") return;
   const std::string status = text_in(summary, quantities::phases_status);
   const double error = number_in(summary, quantities::error_of_displacement),
                force = number_in(summary, quantities::error_of_force);
-  if (std::isfinite(error)) {
+  if (const std::vector<std::string> errors = vibration_errors(summary, curve); !errors.empty())
     sentences.push_back(
-        fmt::format("{} displacement is {} off that of the structure's own motion, by contact phases{}.",
-                    curve ? "At the peak the" : "The", percent(error),
-                    std::isfinite(force) ? ", and the contact force " + percent(force) : ""));
+        fmt::format("Error of the vibration{} against the nearest exact periodic solution found: {}.",
+                    curve ? " at the peak" : "", fmt::join(errors, ", ")));
+  if (std::isfinite(error)) {
+    sentences.push_back(fmt::format(
+        "Over the whole period and all contacts together{} the relative rms error of the displacement is {}{}.",
+        curve ? ", at the peak," : "", shown_error(error),
+        std::isfinite(force) ? ", of the contact force " + shown_error(force) : ""));
   } else if (!status.empty() && status != "not_found" && status != "not_computed") {
-    sentences.push_back("How far it is off the structure's own motion is not known (" + spaced(status) +
+    sentences.push_back("Its distance from the exact periodic solution is not known (" + spaced_words(status) +
                         ").");
   }
 }
@@ -178,12 +268,50 @@ void append_motions(std::vector<std::string>& sentences, const Summary& summary,
   append_motion(sentences, summary, gap);
 }
 
+/// How an output of this row vibrates; nothing where that is not known.
+void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
+                   const SweepAxis& axis) {
+  const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
+  const double vibration = number("half_peak_to_peak"), mean = number("mean");
+  if (!std::isfinite(vibration)) return;
+  const std::string unit = cell_text(outputs.at(row, "unit"));
+  const std::string size =
+      outputs.has_column(axis.column())
+          ? "at most " + peak_text(vibration, unit, number(quantities::peak_value_resolution.name),
+                                   number(axis.column()), number(quantities::peak_place_resolution.name),
+                                   axis)
+          : quantity(vibration, unit) + " (half peak to peak)";
+  constexpr double rounding = 1e-9;
+  sentences.push_back(fmt::format("The vibration of {} is {}, about a mean of {}.",
+                                  cell_text(outputs.at(row, "output")), size,
+                                  std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
+}
+
+void append_leading_output(std::vector<std::string>& sentences, const Summary& summary,
+                           const SweepAxis& axis) {
+  const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
+  const std::string leading = text_in(summary, quantities::leading_output);
+  for (std::size_t i = 0; outputs != nullptr && i < outputs->rows(); ++i)
+    if (cell_text(outputs->at(i, "output")) == leading) append_output(sentences, *outputs, i, axis);
+}
+
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap,
                   const SweepAxis& axis) {
-  const double highest = number_in(summary, quantities::max_displacement);
+  const double highest = number_in(summary, quantities::max_displacement),
+               vibration = number_in(summary, quantities::vibration);
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
-  if (!std::isfinite(highest)) return;
-  sentences.push_back(fmt::format("Its largest displacement is {}, at {}{}{}.", quantity(highest, "m"),
+  append_leading_output(sentences, summary, axis);
+  if (std::isfinite(vibration))
+    sentences.push_back(
+        fmt::format("The largest vibration of a contact is {}.",
+                    peak_text(vibration, "m", number_in(summary, quantities::peak_value_resolution),
+                              number_in(summary, quantities::vibration_place(axis.unit)),
+                              number_in(summary, quantities::peak_place_resolution), axis)));
+  // Without a gap the vibration says it all, and a rigid obstacle holds the displacement at its gap.
+  constexpr double rounding = 1e-9;
+  if (!std::isfinite(highest) || !std::isfinite(gap) || std::abs(highest - gap) <= rounding * std::abs(gap))
+    return;
+  sentences.push_back(fmt::format("The largest displacement is {}, at {}{}{}.", quantity(highest, "m"),
                                   axis.quantity == "frequency" ? "" : "an amplitude of ",
                                   with_unit(summary, quantities::peak_place(axis.unit)),
                                   beside_gap(highest, gap)));
@@ -226,142 +354,22 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
         number_in(summary, quantities::virial_residual)));
 }
 
-/// One sentence for each status of stability that a record can have.
-std::string status_sentence(const std::string& status) {
-  static const std::map<std::string, std::string> known{
-      {"stable", "The motion is stable: a small disturbance dies away."},
-      {"unstable", "The motion is unstable: a small disturbance grows, and the structure leaves it."},
-      {"converged", "Stability is known at every point."},
-      {"no_law_of_impact",
-       "Stability is not known: where a rigid obstacle meets contacts with mass, no motion beside the one found is "
-       "determined without a law of impact."},
-      {"no_finite_stiffness", "Stability is not known: the contact is rigid and has no finite stiffness."},
-      {"too_few_samples",
-       "Where contact has just begun, its interval lies between two quadrature points. Stability is not known there; "
-       "more quadrature_points narrow that part."},
-      {"too_few_harmonics",
-       "Stability is not known everywhere: contact is stiffer than the functions resolve. More functions help."},
-      {"structural_damping",
-       "Stability is not known: structural damping has no equation in time. With modal_damping = loss_factor / 2 in "
-       "its place it is."},
-      {"undamped", "Stability is not asymptotic: the structure has a mode without damping."},
-      {"on_unit_circle",
-       "Stability is not known: a multiplier lies on the unit circle within its own error, and none outside."},
-      {"coupled_massless",
-       "Stability is not known: contacts without mass and damping deflect each other at once."},
-      {"too_many_states",
-       "Stability is not known: with friction or a damped contact law it takes all states of the structure, of which "
-       "there are too many. structure.kept_modes reduces them."},
-      {"no_modes", "Stability is not known: the modes of the structure could not be computed."},
-      {"effort_limit",
-       "Stability is not known everywhere: the count of multipliers took too many operations."},
-      {"not_confirmed",
-       "Stability is not known: contact phases do not take this motion, and the balance with twice the functions has "
-       "another number of multipliers outside the unit circle, or no response near. More functions may settle it."},
-      {"no_response", "Stability is not known: there is no motion."},
-      {"not_found",
-       "Stability is not known where the search by phases found no motion of the structure near the response of the "
-       "samples."},
-      {"not_computed", "Stability was not computed; analysis.stability = true asks for it."},
-      {"interrupted", "The computation of stability was interrupted."},
-  };
-  const auto found = known.find(status);
-  return found == known.end() ? "Stability is not known (" + spaced(status) + ")." : found->second;
-}
-
-/// "Folds", or the name itself for a type that has no other.
-std::string type_in_words(const std::string& type) {
-  static const std::map<std::string, std::string> known{
-      {"fold", "Folds, where the curve turns back"},
-      {"period_doubling", "Period doublings, where motions of two periods begin"},
-      {"neimark_sacker", "Neimark-Sacker points, where quasi-periodic motions begin"},
-      {"grazing", "Grazing points, where an interval of contact appears, vanishes, splits or joins another"},
-      {"branch", "Branch points, where another curve begins"},
-      {"slip", "First slip, where all contacts stick up to there or from there on"},
-      {"krein_collision",
-       "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it, so that a small "
-       "disturbance begins to oscillate and grow"}};
-  const auto found = known.find(type);
-  return found == known.end() ? spaced(type) : found->second;
-}
-
-/// Those of the structure where its whole curve was followed.
-void append_special_points(std::vector<std::string>& sentences, const Summary& summary,
-                           const SweepAxis& axis) {
-  const bool whole = text_in(summary, quantities::structure_curve) == "whole";
-  const auto* points = value_in<Table>(
-      summary, (whole ? quantities::structure_special_points : quantities::special_points).name);
-  if (points == nullptr || points->empty()) return;
-  std::map<std::string, std::vector<std::string>> places;
-  for (std::size_t i = 0; i < points->rows(); ++i)
-    if (const auto* place = std::get_if<double>(&points->at(i, axis.column())))
-      places[type_in_words(cell_text(points->at(i, "type")))].push_back(
-          fmt::format("{:.7g} {}", *place, axis.unit));
-  for (const auto& [type, where] : places)
-    sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
-}
-
-/// Frequencies or amplitudes of the special points at which multipliers pass the unit circle.
-std::vector<double> changes_of_stability(const Summary& summary, const std::string& column) {
-  std::vector<double> places;
-  const auto* points = value_in<Table>(summary, quantities::special_points.name);
-  for (std::size_t i = 0; points != nullptr && i < points->rows(); ++i)
-    if (const auto* place = std::get_if<double>(&points->at(i, column));
-        place != nullptr && cell_text(points->at(i, "type")) != "grazing" &&
-        cell_text(points->at(i, "type")) != "slip")
-      places.push_back(*place);
-  return places;
-}
-
-/// Where stability changes between a stable and an unstable point: the special point between them, or the
-/// unstable one where there is none.
-double end_of_part(const std::vector<double>& changes, double stable, double unstable) {
-  const double low = std::min(stable, unstable), high = std::max(stable, unstable);
-  const auto between =
-      std::find_if(changes.begin(), changes.end(), [&](double at) { return low <= at && at <= high; });
-  return between == changes.end() ? unstable : *between;
-}
-
-/// The first and last frequency or amplitude of each unstable part of a curve, "1337.7 to 1315 Hz".
-std::vector<std::string> unstable_parts(const std::vector<double>& place, const std::vector<double>& unstable,
-                                        const std::vector<double>& changes, const std::string& unit) {
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < unstable.size(); ++i) {
-    if (!(unstable[i] > 0.0)) continue;
-    const std::size_t first = i;
-    while (i + 1 < unstable.size() && unstable[i + 1] > 0.0) ++i;
-    const double begin = first == 0 ? place[0] : end_of_part(changes, place[first - 1], place[first]),
-                 end = i + 1 == place.size() ? place[i] : end_of_part(changes, place[i + 1], place[i]);
-    parts.push_back(begin == end ? fmt::format("{:.6g} {}", end, unit)
-                                 : fmt::format("{:.6g} to {:.6g} {}", begin, end, unit));
-  }
-  return parts;
-}
-
-void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary, const Table& all,
-                           const SweepAxis& axis) {
-  if (!all.has_column("unstable") || all.has_column("branch")) return;
-  const Table curve = all.has_column(quantities::isola.name) ? all.where(quantities::isola.name, "0") : all;
-  const std::vector<double> unstable = curve.numbers("unstable");
-  const auto not_known =
-      std::count_if(unstable.begin(), unstable.end(), [](double n) { return std::isnan(n); });
-  if (not_known == static_cast<std::ptrdiff_t>(unstable.size())) return;
-  const auto parts = unstable_parts(curve.numbers(axis.column()), unstable,
-                                    changes_of_stability(summary, axis.column()), axis.unit);
-  sentences.push_back(
-      parts.empty() ? "No motion whose stability is known is unstable."
-                    : fmt::format("Along the curve motions are unstable at {}.", fmt::join(parts, ", ")));
-  if (not_known > 0)
-    sentences.push_back(
-        fmt::format("Stability is not known at {} of {} points.", not_known, unstable.size()));
-}
-
 }  // namespace
+
+std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
+  constexpr std::size_t most = 12;
+  const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i)
+    append_output(sentences, *outputs, i, axis);
+  return sentences;
+}
 
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
   std::vector<std::string> sentences{solution_sentence(summary)};
   const std::string analysis = text_in(summary, quantities::analysis);
   const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
+  if (!curve) append_leading_output(sentences, summary, axis);
   if (curve)
     append_curve(sentences, summary, gap, axis);
   else if (analysis == "nonlinear_mode")
@@ -374,25 +382,6 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap, c
   append_phases(sentences, summary, curve);
   if (const std::string others = other_motions_sentence(summary, curve); !others.empty())
     sentences.push_back(others);
-  return sentences;
-}
-
-std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve,
-                                             const SweepAxis& axis) {
-  const std::string status = text_in(summary, quantities::stability);
-  if (status.empty()) return {};
-  std::vector<std::string> sentences{status_sentence(status)};
-  const double unstable = number_in(summary, quantities::unstable_multipliers);
-  const double real = number_in(summary, quantities::leading_multiplier_real),
-               imaginary = number_in(summary, quantities::leading_multiplier_imag);
-  if (unstable > 0.0)
-    sentences.push_back(fmt::format("Of its Floquet multipliers {:.0f} {} outside the unit circle.", unstable,
-                                    unstable == 1.0 ? "lies" : "lie"));
-  if (std::isfinite(real))
-    sentences.push_back(
-        fmt::format("The leading multiplier has the absolute value {:.4g}.", std::hypot(real, imaginary)));
-  append_unstable_parts(sentences, summary, curve, axis);
-  append_special_points(sentences, summary, axis);
   return sentences;
 }
 

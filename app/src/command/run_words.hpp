@@ -11,8 +11,13 @@ namespace wavebalance::app {
 /// m; NaN where contacts have different gaps or there are none. `axis` is that of a sweep.
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis = {});
 
-/// What the record says of stability, and where it changes; `curve` is the table of a sweep, or empty.
-std::vector<std::string> stability_sentences(const Summary& summary, const Table& curve = {},
-                                             const SweepAxis& axis = {});
+/// Where each output vibrates most along a curve, or by how much in a motion, of a dozen of them.
+std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis);
+
+/// What the record says of stability, and where it changes.
+std::vector<std::string> stability_sentences(const Summary& summary, const SweepAxis& axis = {});
+
+/// A name of a status or type with spaces.
+std::string spaced_words(std::string name);
 
 }  // namespace wavebalance::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "command/report_parts.hpp"
@@ -107,6 +108,13 @@ std::string asked(const StudyArguments& arguments, const Study& study) {
          folded("The scene", code_html(study.scene_text));
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
 /// "pipe over contact.gap and forcing.amplitude"; of many parameters their number.
 std::string heading_of(const Study& study) {
   constexpr std::size_t most = 3;
@@ -126,7 +134,7 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
   page.libraries = {Library::d3};
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section_html("What came out", code_html(study_outcome(record))) +
+      section_html("What came out", list_html(lines_of(study_outcome(record)))) +
       section_html("Pictures", pictures_html(record.pictures, files)) +
       section_html("Quantiles", quantiles_html(summary)) +
       section_html("Runs that did not converge", failures_html(study, record)) +

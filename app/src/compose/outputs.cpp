@@ -22,13 +22,17 @@ std::string column_of(const std::string& name) {
   return column;
 }
 
+bool is_rotation(const StructureFiles& files, int row) {
+  return files.dof_map && files.dof_map->dof(row).direction > 3;
+}
+
 Output output_of(const Scene& scene, int dof) {
   Output output;
   output.dof = dof;
   if (scene.structure.type == StructureType::matrices) {
     const auto files = structure_files(scene);
     output.name = files->row_name(std::abs(dof) - 1);
-    if (files->dof_map && files->dof_map->dof(std::abs(dof) - 1).direction > 3) output.unit = "rad";
+    if (is_rotation(*files, std::abs(dof) - 1)) output.unit = "rad";
   } else {
     output.name = "node " + std::to_string(std::abs(dof));
   }
@@ -36,6 +40,21 @@ Output output_of(const Scene& scene, int dof) {
   output.title = output.name;
   output.column = column_of(output.name);
   return output;
+}
+
+/// Output::closed_by of a contact, of which `row` is this direction.
+int closing_direction(const SceneContact& contact, int row) {
+  const bool never_opens =
+      acts_everywhere(contact.law) || (has_friction(contact.law) && contact.directions == 1);
+  return never_opens ? -1 : row - contact.place;
+}
+
+/// "rad" of a contact between rotations alone.
+std::string unit_of(const Scene& scene, const SceneContact& contact) {
+  if (scene.structure.type != StructureType::matrices) return "m";
+  const auto files = structure_files(scene);
+  return std::ranges::all_of(contact.dofs, [&](int dof) { return is_rotation(*files, dof - 1); }) ? "rad"
+                                                                                                  : "m";
 }
 
 /// The displacement of a row of the files from those of the unknowns.
@@ -54,15 +73,28 @@ Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
 std::vector<Output> outputs_of(const Scene& scene) {
   std::vector<Output> outputs;
   for (const int dof : scene.analysis.outputs) outputs.push_back(output_of(scene, dof));
-  const int contacts = scene.analysis.contact_outputs ? contact_count(scene) : 0;
+  if (!scene.analysis.contact_outputs) return outputs;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
   std::vector<std::string> places;
-  if (contacts > 0 && scene.structure.type == StructureType::matrices) places = contact_names(scene);
-  for (int contact = 0; contact < contacts; ++contact) {
-    const std::string name = "contact " + std::to_string(contact + 1);
-    const std::string title = places.empty() ? name : name + ", " + places[std::size_t(contact)];
-    outputs.push_back({.name = name, .title = title, .column = column_of(name), .contact = contact});
+  if (scene.structure.type == StructureType::matrices) places = contact_names(scene);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const std::string name = name_of(contacts[i]);
+    const std::string title = places.empty() ? name : name + ", " + places[i];
+    outputs.push_back({.name = name,
+                       .title = title,
+                       .column = column_of(name),
+                       .unit = unit_of(scene, contacts[i]),
+                       .contact = static_cast<int>(i),
+                       .closed_by = closing_direction(contacts[i], static_cast<int>(i))});
   }
   return outputs;
+}
+
+std::optional<std::size_t> leading_output(const std::vector<Output>& outputs, const Scene& scene) {
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (outputs[i].name == scene.analysis.peak_of) return i;
+  if (outputs.empty() || outputs.front().is_contact()) return std::nullopt;
+  return 0;
 }
 
 Eigen::MatrixXd rows_of_outputs(const std::vector<Output>& outputs, const Scene& scene,

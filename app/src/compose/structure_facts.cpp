@@ -17,6 +17,8 @@
 namespace wavebalance::app {
 namespace {
 
+constexpr std::size_t most_rows_named = 4;  // of a contact that a mean of many nodes or modes moves
+
 /// phi^T C phi / (2 omega), the ratio to critical damping as far as C does not couple the modes, and half the
 /// loss factor.
 Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& files,
@@ -72,7 +74,10 @@ std::vector<std::string> contact_names(const Scene& scene) {
     std::vector<std::string> rows;
     for (const int dof : contact.dofs) rows.push_back(files->row_name(dof - 1));
     const bool negative = contact.coefficients.front() < 0.0 && (!contact.pair || contact.dofs.size() == 1);
-    names.push_back(fmt::format("{}{}", negative ? "-" : "", fmt::join(rows, ", ")));
+    const std::size_t more = rows.size() > most_rows_named ? rows.size() - (most_rows_named - 1) : 0;
+    rows.resize(rows.size() - more);
+    names.push_back(fmt::format("{}{}{}", negative ? "-" : "", fmt::join(rows, ", "),
+                                more > 0 ? fmt::format(" and {} more", more) : ""));
   }
   return names;
 }

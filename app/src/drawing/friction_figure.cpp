@@ -1,6 +1,7 @@
 #include "drawing/friction_figure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -24,14 +25,19 @@ struct Loop {
   int row;
 };
 
+/// Those of the contacts that take most energy, in the order of the contacts.
 std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
   std::stable_sort(
       contacts.begin(), contacts.end(),
       [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.period.work > b.period.work; });
+  contacts.erase(contacts.begin() + std::min(std::ssize(contacts), std::ptrdiff_t{most_loops}),
+                 contacts.end());
+  std::sort(contacts.begin(), contacts.end(),
+            [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.number < b.number; });
   std::vector<Loop> loops;
   for (const FrictionMeasures& one : contacts)
     for (int i = 0; i < one.law.tangents() && loops.size() < most_loops; ++i)
-      loops.push_back({"contact " + std::to_string(one.row + 1) +
+      loops.push_back({"contact " + std::to_string(one.number) +
                            (one.law.tangents() > 1 ? ", tangent " + std::to_string(i + 1) : ""),
                        one.row + one.law.normal_rows() + i});
   return loops;
@@ -45,7 +51,7 @@ void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, co
     most = std::max(most, motion.force.row(loop.row).cwiseAbs().maxCoeff());
   }
   const Scale length = axis_scale(reach), force = axis_scale(most);
-  Panel& panel = figure.add_panel();
+  Panel& panel = figure.add_panel("Friction loops");
   panel.x.label = "Tangential displacement (" + length.prefix + "m)";
   panel.y.label = "Friction force (" + force.prefix + "N)";
   for (const Loop& loop : loops)
@@ -53,45 +59,52 @@ void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, co
                closed(motion.force, loop.row, force.factor)});
 }
 
+/// An entry of the legend for rectangles of this colour.
+Series swatch(const std::string& label, Colour colour, double at) {
+  Series series(label, std::vector<double>{at}, std::vector<double>{std::nan("")});
+  series.colour = colour;
+  series.width = 8.0;
+  return series;
+}
+
 // Runs of one state as rectangles, a row for each contact.
-void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, int periods) {
+void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, const PeriodWindow& window) {
   constexpr double half = 0.4;
-  Panel& panel = figure.add_panel();
-  panel.x = {.label = "Time (fraction of " + std::string(periods == 1 ? "a period" : "the periods") +
-                      "; blue: stick, orange: slip, white: open)",
-             .lower = 0.0,
-             .upper = 1.0,
-             .ticks = {},
-             .tick_format = "%.1f"};
+  Panel& panel = figure.add_panel("State of each contact (white: open)");
+  panel.x = window.axis();
   panel.y.label = "Contact";
   panel.y.lower = 0.5;
   panel.y.upper = double(contacts.size()) + 0.5;
   constexpr std::size_t most_ticks = 12;
-  for (std::size_t i = 0; i < contacts.size(); i += 1 + contacts.size() / most_ticks)
+  for (std::size_t i = 0; i < contacts.size(); i += 1 + contacts.size() / most_ticks) {
     panel.y.ticks.push_back(double(i) + 1.0);
-  panel.y.tick_format = "%.0f";
+    panel.y.tick_texts.push_back(std::to_string(contacts[i].number));
+  }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto& states = contacts[i].period.state;
     for (std::size_t from = 0, to = 0; from < states.size(); from = to) {
       while (to < states.size() && states[to] == states[from]) ++to;
       if (states[from] == contact::FrictionState::open) continue;
       const bool sticks = states[from] == contact::FrictionState::stick;
-      panel.rectangles.push_back({double(from) / double(states.size()), double(i) + 1.0 - half,
-                                  double(to) / double(states.size()), double(i) + 1.0 + half,
-                                  sticks ? Colour::sky_blue : Colour::orange, 0.8});
+      for (const auto& [begin, end] :
+           window.spans(double(from) / double(states.size()), double(to) / double(states.size())))
+        panel.rectangles.push_back({begin, double(i) + 1.0 - half, end, double(i) + 1.0 + half,
+                                    sticks ? Colour::sky_blue : Colour::orange, 0.8});
     }
   }
   // A panel needs a curve for its axes.
-  panel.add({"", std::vector<double>{0.0, 1.0}, std::vector<double>{0.5, 0.5}});
+  const double start = window.start();
+  panel.add({"", std::vector<double>{start, start + 1.0}, std::vector<double>{0.5, 0.5}});
+  panel.add(swatch("stick", Colour::sky_blue, start)).add(swatch("slip", Colour::orange, start));
 }
 
 }  // namespace
 
-void add_friction(Figure& figure, const Scene& scene, const Response& response) {
+void add_friction(Figure& figure, const Scene& scene, const Response& response, const PeriodWindow& window) {
   const std::vector<FrictionMeasures> contacts = friction_measures(scene, response.contacts);
   if (contacts.empty()) return;
   add_loops(figure, contacts, response.contacts);
-  add_states(figure, contacts, response.periods);
+  add_states(figure, contacts, window);
 }
 
 }  // namespace wavebalance::app

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
+#include <string>
 
+#include "drawing/period_window.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 
@@ -8,10 +10,12 @@ namespace wavebalance::app {
 
 /// The velocity of a contact over the period, sampled at uniform instants (m/s), with both values at each of
 /// its impacts, so that these are drawn as jumps.
-void add_velocity_with_jumps(Figure& figure, const solvers::ImpactResponse& response, int contact,
+void add_velocity_with_jumps(Figure& figure, const PeriodWindow& window, const std::string& title,
+                             const solvers::ImpactResponse& response, int contact,
                              const Eigen::VectorXd& velocity);
 
 /// The impulses of a contact as lines at their instants.
-void add_impulses(Figure& figure, const solvers::ImpactResponse& response, int contact);
+void add_impulses(Figure& figure, const PeriodWindow& window, const std::string& title,
+                  const solvers::ImpactResponse& response, int contact);
 
 }  // namespace wavebalance::app

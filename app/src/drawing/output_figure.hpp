@@ -1,6 +1,9 @@
 #pragma once
+#include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "drawing/period_window.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
@@ -13,7 +16,12 @@ inline constexpr std::size_t most_drawn_outputs = 12;
 /// from what static loads deflect. Dashed where motions are unstable.
 Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs);
 
+/// The vibration along a sweep, its branches and isolas with their special points: half the peak-to-peak
+/// value and the rms without the mean, of an output or, without one, of the contact that vibrates most.
+Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output);
+
 /// Each output over one period, which a response has; `motion` is outputs x points.
-Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd& motion, int periods);
+Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd& motion,
+                      const PeriodWindow& window);
 
 }  // namespace wavebalance::app

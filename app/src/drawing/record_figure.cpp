@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <optional>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -9,6 +12,8 @@
 #include "analysis/sweep_axis.hpp"
 #include "drawing/friction_figure.hpp"
 #include "drawing/impact_figure.hpp"
+#include "drawing/output_figure.hpp"
+#include "drawing/period_window.hpp"
 #include "plot/thin_curve.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
@@ -29,8 +34,13 @@ std::string structure_title(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::to_string(structure.elements) + " elements";
   const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
-  const int contacts = contact_count(scene);
+  const int contacts = whole_contact_count(scene);
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
+}
+
+bool is_curve(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::frequency_sweep ||
+         scene.analysis.type == AnalysisType::amplitude_sweep;
 }
 
 std::string method_title(const Scene& scene) {
@@ -46,54 +56,38 @@ std::string method_title(const Scene& scene) {
            ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   if (has_impacts(scene.contact)) return "impacts, " + structure_title(scene);
-  if (solves_by_phases(scene)) return "contact phases";
+  if (solves_by_phases(scene) || scene.analysis.exact)
+    return "exact periodic solution" + std::string(is_curve(scene) ? "s" : "");
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
 }
 
-std::string frequency_text(double value) { return cell_text(value) + " Hz"; }
-
-/// With the first value again at the end of the period, so that curves end at 1.
-Eigen::VectorXd with_first_value_repeated(const Eigen::VectorXd& values) {
-  Eigen::VectorXd result(values.size() + 1);
-  result << values, values[0];
-  return result;
+std::string frequency_text(double value) {
+  std::ostringstream text;
+  text << std::setprecision(6) << value << " Hz";
+  return text.str();
 }
 
-std::string time_label(int periods, bool shaded) {
-  const std::string what = periods == 1 ? "a period" : std::to_string(periods) + " periods of the load";
-  return "Time (fraction of " + what + (shaded ? "; shaded: contact)" : ")");
-}
+/// What the panels of a motion have in common.
+struct MotionPicture {
+  const Response& response;
+  PeriodWindow window;
+  std::vector<std::pair<double, double>> spans;  ///< of contact
+  std::string name;                              ///< of the contact, where there are several
+};
 
-/// Where the contact that is drawn exerts a force, by phases of contact.
-std::vector<std::pair<double, double>> contact_spans(const Response& response) {
-  std::vector<std::pair<double, double>> spans;
-  if (!response.phases || response.phases->motion.parts == nullptr) return spans;
-  for (const solvers::ContactPhase& phase : response.phases->motion.phases) {
-    if (phase.contact != response.contact) continue;
-    spans.emplace_back(phase.begin, std::min(phase.end, 1.0));
-    if (phase.end > 1.0) spans.emplace_back(0.0, phase.end - 1.0);
-  }
-  return spans;
-}
-
-void add_motion(Figure& figure, const std::string& quantity, const std::string& unit,
-                const Eigen::VectorXd& values, const Response& response) {
+void add_motion(Figure& figure, const MotionPicture& picture, const std::string& quantity,
+                const std::string& unit, const Eigen::VectorXd& values) {
+  const Response& response = picture.response;
+  const std::vector<std::pair<double, double>>& spans = picture.spans;
   const Scale scale = axis_scale(values.cwiseAbs().maxCoeff());
-  Panel& panel = figure.add_panel();
-  const std::vector<std::pair<double, double>> spans = contact_spans(response);
+  Panel& panel = figure.add_panel(quantity + picture.name);
   for (const auto& [begin, end] : spans)
     panel.rectangles.push_back({begin, scale.factor * values.minCoeff(), end,
                                 scale.factor * values.maxCoeff(), Colour::sky_blue, 0.35});
-  panel.x = {.label = time_label(response.periods, !spans.empty()),
-             .lower = 0.0,
-             .upper = 1.0,
-             .ticks = {},
-             .tick_format = "%.1f"};
+  panel.x = picture.window.axis(spans.empty() ? "" : "shaded: contact");
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
-  const auto points = static_cast<Eigen::Index>(values.size());
-  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(points + 1, 0.0, 1.0);
-  Series series("", time, with_first_value_repeated(scale.factor * values));
+  Series series = picture.window.curve(scale.factor * values);
   if (!response.converged) {
     series.colour = Colour::grey;
     series.dash = Dash::dashed;
@@ -182,16 +176,18 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
     panel.add(extremes_of_runs(curve));
 }
 
-/// The largest impulse along a curve with impacts, in a panel of its own.
-void add_impulses_along(Figure& figure, const Sweep& sweep) {
-  std::vector<double> impulses;
-  for (const PointImpacts& point : sweep.impacts.front()) impulses.push_back(point.largest_impulse);
-  const Scale scale = axis_scale(*std::max_element(impulses.begin(), impulses.end()));
-  for (double& one : impulses) one *= scale.factor;
-  Panel& panel = figure.add_panel();
+/// A quantity of impacts along a curve, in a panel of its own.
+void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::*value,
+                       const std::string& title, const std::string& unit) {
+  std::vector<double> values;
+  for (const PointImpacts& point : sweep.impacts.front()) values.push_back(point.*value);
+  const Scale scale = axis_scale(*std::max_element(values.begin(), values.end()));
+  for (double& one : values) one *= scale.factor;
+  Panel& panel = figure.add_panel(title);
   panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = "Largest impulse (" + scale.prefix + "N s)";
-  Series series("largest", places_along(sweep.curve), impulses);
+  panel.y.label = "Largest (" + scale.prefix + unit + ")";
+  panel.y.lower = 0.0;
+  Series series("", places_along(sweep.curve), values);
   series.colour = Colour::blue;
   add_curve(panel, series, sweep.stability.points, {});
 }
@@ -220,22 +216,29 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   if (!response.converged) figure.title += " (NOT CONVERGED)";
   figure.panel_height = 240;
   figure.panel_width = 600;
-  add_motion(figure, "Displacement", "m", response.displacement(), response);
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
+  const PeriodWindow window(response);
+  const MotionPicture picture{response, window, contact_spans(scene, response, window),
+                              contacts.size() > 1 ? ", " + name_of(contact) : ""};
+  add_motion(figure, picture, "Displacement", "m", response.displacement());
   if (response.impacts) {
-    add_velocity_with_jumps(figure, *response.impacts, response.contact, response.velocity());
-    add_impulses(figure, *response.impacts, response.contact);
+    add_velocity_with_jumps(figure, window, "Velocity" + picture.name, *response.impacts, response.contact,
+                            response.velocity());
+    add_impulses(figure, window, "Impulses of impacts" + picture.name, *response.impacts, response.contact);
     if (!response.impacts->motion.lasting.empty())
-      add_motion(figure, "Contact force", "N", response.force(), response);
+      add_motion(figure, picture, "Contact force", "N", response.force());
   } else {
-    add_motion(figure, "Velocity", "m/s", response.velocity(), response);
-    add_motion(figure, "Contact force", "N", response.force(), response);
+    add_motion(figure, picture, "Velocity", "m/s", response.velocity());
+    add_motion(figure, picture,
+               has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force", "N",
+               response.force());
   }
-  const SceneContact contact = contacts_of(scene).at(static_cast<std::size_t>(response.contact));
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", scale.prefix + "m");
   }
-  add_friction(figure, scene, response);
+  add_friction(figure, scene, response, window);
   return figure;
 }
 
@@ -290,11 +293,67 @@ Figure damped_figure(const Scene& scene, const Table& backbone) {
   return figure;
 }
 
-Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
+namespace {
+
+/// Whether the largest displacement of contacts hides how they vibrate.
+bool vibrates_about_a_mean(const Scene& scene) {
+  const auto& terms = scene.forcing.terms;
+  const bool is_loaded =
+      !scene.forcing.weight.empty() || std::any_of(terms.begin(), terms.end(), [](const ForcingTerm& one) {
+        return one.harmonic == 0 && one.samples.empty();
+      });
+  return is_loaded || has_friction(scene) || is_rigid(scene.contact.law);
+}
+
+bool has_gaps(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SceneContact& one) { return has_gap(one.law) && !has_friction(one.law); });
+}
+
+void mark_all_special_points(Panel& panel, const Sweep& sweep, double factor) {
+  std::vector<PlacedPoint> marks = placed(sweep.stability.special_points, factor, sweep.curve.parameter);
+  const auto append = [&](const std::vector<PlacedPoint>& points) {
+    marks.insert(marks.end(), points.begin(), points.end());
+  };
+  for (const solvers::Branch& branch : sweep.branches)
+    append(placed(branch.stability.special_points, factor, branch.curve.parameter));
+  for (const Sweep& isola : sweep.isolas)
+    append(placed(isola.stability.special_points, factor, isola.curve.parameter));
+  draw_special_points(panel, marks);
+}
+
+/// Largest and rms displacement of the contacts beside their gap.
+void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sweep) {
   const std::vector<double> values = displacements_of(sweep);
   const double largest = *std::max_element(values.begin(), values.end());
   const double top = shown_top(sweep, values);
   const Scale scale = axis_scale(top);
+  const StabilityAlong stability = sweep.stability_of(0);
+  Panel& panel = figure.add_panel("Displacement of the contacts");
+  panel.x.label = sweep_axis(sweep).label();
+  panel.y.label = "Displacement (" + scale.prefix + "m)";
+  for (const auto& [label, value, colour] :
+       {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
+        {"rms with its mean", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
+    Series series(label, places_along(sweep.curve), values_along(sweep.curve, value, scale.factor));
+    series.colour = colour;
+    const bool largest_one = colour == Colour::blue;  // of the special points
+    add_curve(panel, series, stability.points,
+              largest_one ? placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter)
+                          : std::vector<PlacedPoint>());
+  }
+  draw_branches(panel, sweep, 1.0, scale.factor);
+  draw_isolas(panel, sweep, 1.0, scale.factor);
+  mark_all_special_points(panel, sweep, scale.factor);
+  if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
+  if (const double gap = common_gap(scene); !std::isnan(gap))
+    panel.mark_level(scale.factor * gap, "gap", scale.prefix + "m");
+}
+
+}  // namespace
+
+Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs) {
   Figure figure;
   figure.title = method_title(scene);
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
@@ -302,39 +361,20 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep) {
   if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
   figure.panel_width = 640;
   figure.panel_height = 420;
-  Panel& panel = figure.add_panel();
-  panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = "Displacement (" + scale.prefix + "m)";
-  const StabilityAlong stability = sweep.stability_of(0);
-  for (const auto& [label, value, colour] :
-       {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
-        {"rms", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
-    Series series(label, places_along(sweep.curve), values_along(sweep.curve, value, scale.factor));
-    series.colour = colour;
-    const bool largest_one = colour == Colour::blue;  // that of the special points
-    add_curve(panel, series, stability.points,
-              largest_one ? placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter)
-                          : std::vector<PlacedPoint>());
-  }
-  draw_branches(panel, sweep, 1.0, scale.factor);
-  draw_isolas(panel, sweep, 1.0, scale.factor);
-  std::vector<PlacedPoint> marks =
-      placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter);
-  for (const solvers::Branch& branch : sweep.branches)
-    for (const PlacedPoint& one :
-         placed(branch.stability.special_points, scale.factor, branch.curve.parameter))
-      marks.push_back(one);
-  for (const Sweep& isola : sweep.isolas)
-    for (const PlacedPoint& one : placed(isola.stability.special_points, scale.factor, isola.curve.parameter))
-      marks.push_back(one);
-  draw_special_points(panel, marks);
-  if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
-  if (const double gap = common_gap(scene); !std::isnan(gap))
-    panel.mark_level(scale.factor * gap, "gap", scale.prefix + "m");
+  const std::optional<std::size_t> output = leading_output(outputs.outputs, scene);
+  const bool about_a_mean = vibrates_about_a_mean(scene);
+  if (output || about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, output));
+  // A rigid obstacle leaves a line at its gap, and without gaps the vibration of the contacts says it all.
+  const bool is_shown = output || !about_a_mean || has_gaps(scene);
+  if (is_shown && !is_rigid(scene.contact.law)) add_displacements_along(figure, scene, sweep);
   if (!sweep.impacts.empty()) {
-    figure.panel_height = 320;
-    add_impulses_along(figure, sweep);
+    add_impacts_along(figure, sweep, &PointImpacts::largest_impulse, "Impulses of impacts", "N s");
+    add_impacts_along(figure, sweep, &PointImpacts::largest_speed, "Speeds of impacts", "m/s");
   }
+  if (figure.panels.size() == 1)
+    figure.panels.front().title = "";
+  else
+    figure.panel_height = 320;
   return figure;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/outputs/output_measures.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::app {
@@ -19,7 +20,10 @@ Figure backbone_figure(const Scene& scene, const Table& backbone);
 /// Frequency and damping ratio over amplitude from a damped_table().
 Figure damped_figure(const Scene& scene, const Table& backbone);
 
-/// Largest and rms displacement over the frequency, with its turning points.
-Figure sweep_figure(const Scene& scene, const Sweep& sweep);
+/// A sweep over its frequency or amplitude, with its special points. The first output, or that of
+/// analysis.peak_of, leads with its vibration; without outputs the contacts do where static loads, preloads
+/// or a rigid obstacle make their largest displacement say little. The largest and rms displacement of the
+/// contacts follow beside their gap, and with impacts their impulses and speeds.
+Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs = {});
 
 }  // namespace wavebalance::app

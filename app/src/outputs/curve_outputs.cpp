@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analysis/impact_parts.hpp"
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -182,7 +183,29 @@ std::optional<std::size_t> highest(const std::vector<MeasuredPoint>& points, std
   return best;
 }
 
+/// Empty where the exact motion is not known at the peak itself.
+MeasuredPoint exact_at_peak(const Scene& scene, const StructureModel& model,
+                            const std::vector<Output>& outputs, const Sweep& sweep) {
+  if (sweep.phases.empty() || scene.analysis.exact) return {};
+  const SweepPhases::Point& peak = sweep.phases.front().peak;
+  if (!peak || !peak->motion || peak->place > 0) return {};
+  MotionMeasurer measurer(scene, model, outputs, compose_problem(scene, model), scene.analysis.subharmonic);
+  return measurer(sweep.curve.points[peak_of(sweep.curve)], *peak->motion);
+}
+
 }  // namespace
+
+MeasuredPoint exact_outputs(const Scene& scene, const StructureModel& model, const Response& response,
+                            const std::vector<Output>& outputs) {
+  const bool of_balance = response.solved_by == name_of(TimeMethod::balance);
+  if (!of_balance || !response.phases || response.phases->motion.parts == nullptr) return {};
+  Scene solved = scene;
+  solved.time = solved_time(scene.time, response);
+  MotionMeasurer measurer(solved, model, outputs, compose_problem(solved, model), response.periods);
+  solvers::SweepPoint point;
+  point.frequency = scene.forcing.frequency;
+  return measurer(point, response.phases->motion);
+}
 
 SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sweep& sweep,
                              const Observer& observer) {
@@ -191,9 +214,11 @@ SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sw
   found.outputs = outputs_of(scene);
   if (found.empty()) return found;
   bool& cancelled = sweep.outputs_cancelled;
-  found.curves = along_curves(scene, model, found.outputs, sweep, observer, cancelled);
+  const Observer watch = sweep.interrupted() ? Observer() : observer;
+  found.curves = along_curves(scene, model, found.outputs, sweep, watch, cancelled);
   for (const Sweep& isola : sweep.isolas)
-    found.isolas.push_back(along_curves(scene, model, found.outputs, isola, observer, cancelled).front());
+    found.isolas.push_back(along_curves(scene, model, found.outputs, isola, watch, cancelled).front());
+  found.exact_at_peak = exact_at_peak(scene, model, found.outputs, sweep);
   for (std::size_t i = 0; i < found.outputs.size(); ++i)
     if (found.outputs[i].name == scene.analysis.peak_of) sweep.peak_of_output = highest(found.curves[0], i);
   return found;

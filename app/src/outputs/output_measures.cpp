@@ -51,7 +51,8 @@ MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd&
     one.harmonics = series.row(Eigen::Index(i)).transpose();
     if (!outputs[i].is_contact() || forces.size() == 0) continue;
     one.max_force = forces.row(outputs[i].contact).maxCoeff();
-    one.contact_fraction = (forces.row(outputs[i].contact).array() > 0.0).cast<double>().mean();
+    if (outputs[i].closed_by >= 0)
+      one.contact_fraction = (forces.row(outputs[i].closed_by).array() != 0.0).cast<double>().mean();
   }
   return measured;
 }

@@ -17,10 +17,9 @@
 namespace wavebalance::app {
 namespace {
 
-std::vector<Cell> row_of(const CurveMotion& motion, bool with_phases) {
-  const solvers::Motion leading = motion.contacts.contact(motion.contact);
+std::vector<Cell> row_of(const Scene& scene, const CurveMotion& motion, bool with_phases) {
   Summary values;
-  append_motion(values, leading);
+  append_motion(values, scene, motion.contacts, motion.contact);
   std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
   for (const Entry& one : values) row.emplace_back(std::get<double>(one.value));
   row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
@@ -38,7 +37,7 @@ std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
   return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
 }
 
-void append_files(Record& record, const StructureModel& model, const CurveMotion& motion,
+void append_files(Record& record, const Scene& scene, const StructureModel& model, const CurveMotion& motion,
                   const std::string& place) {
   const std::string about = "motion of the curve " + place;
   const bool several = motion.contacts.rows() > 1;
@@ -46,7 +45,7 @@ void append_files(Record& record, const StructureModel& model, const CurveMotion
                           csv_text(response_table(motion.contacts.contact(motion.contact))),
                           about + (several ? ": the leading contact" : "")});
   if (several)
-    record.files.push_back({motion.name + "_contacts.csv", csv_text(contacts_table(motion.contacts)),
+    record.files.push_back({motion.name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
                             about + ": every contact"});
   for (RecordFile& file : motion_files(model, motion.structure, motion.name)) {
     file.about = about + ": the whole structure";
@@ -70,11 +69,11 @@ void append_motion_picture(Record& record, const Scene& scene, const Sweep& swee
 }
 
 /// The instants of contact of all motions of which they are known.
-void append_contact_instants(Record& record, const std::vector<CurveMotion>& motions) {
+void append_contact_instants(Record& record, const Scene& scene, const std::vector<CurveMotion>& motions) {
   Table all;
   for (const CurveMotion& motion : motions) {
     if (!motion.near) continue;
-    const Table phases = phases_table(motion.near->motion);
+    const Table phases = phases_table(scene, motion.near->motion);
     std::vector<std::string> columns{"file"};
     columns.insert(columns.end(), phases.columns().begin(), phases.columns().end());
     if (all.columns().empty()) all = Table(columns);
@@ -96,7 +95,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
   const bool with_phases = std::any_of(motions.begin(), motions.end(),
                                        [](const CurveMotion& motion) { return motion.phases.has_value(); });
   Summary measures;
-  append_motion(measures, {});
+  append_motion(measures, scene, {}, 0);
   std::vector<std::string> columns{"file", "at", axis.column()};
   for (const Entry& one : measures) columns.push_back(one.name);
   for (const Quantity& one : {quantities::unstable_multipliers, quantities::residual, quantities::converged})
@@ -105,8 +104,8 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
     for (std::string& column : phases_columns()) columns.push_back(std::move(column));
   Table table(columns);
   for (const CurveMotion& motion : motions) {
-    table.append_row(row_of(motion, with_phases));
-    append_files(record, model, motion, place_of(motion, axis));
+    table.append_row(row_of(scene, motion, with_phases));
+    append_files(record, scene, model, motion, place_of(motion, axis));
     append_motion_picture(record, scene, sweep, motion, place_of(motion, axis));
     if (!motion.converged)
       record.warnings.push_back("The motion " + place_of(motion, axis) +
@@ -126,7 +125,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
           fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
                       cell_text(place), axis.unit));
   record.summary.emplace_back(quantities::motions, std::move(table));
-  append_contact_instants(record, motions);
+  append_contact_instants(record, scene, motions);
 }
 
 }  // namespace wavebalance::app

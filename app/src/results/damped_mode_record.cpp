@@ -45,7 +45,7 @@ void append_setting(Summary& summary, const DampedStudy& study, const StructureM
   summary.emplace_back(quantities::linear_frequency, study.mode().linear_omega() / (2.0 * std::numbers::pi));
   summary.emplace_back(quantities::linear_damping_ratio, study.mode().linear_damping_ratio());
   summary.emplace_back(quantities::slip_amplitude, study.slip_amplitude());
-  append_structure(summary, model);
+  append_structure(summary, scene, model);
 }
 
 template <class Number>
@@ -100,8 +100,9 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   response.converged = response.moves = record.converged;
   const solvers::DampedPoint* point = record.converged ? &curve.points.back() : nullptr;
   if (point != nullptr) response.contacts = study.contact_motion(*point);
-  response.contact = leading_contact(response.contacts, model.gaps);
-  append_motion(record.summary, point != nullptr ? response.leading() : solvers::Motion{});
+  response.contact = leading_contact(scene, response.contacts, model.gaps);
+  append_motion(record.summary, scene, point != nullptr ? response.contacts : solvers::Motion{},
+                response.contact);
   append_setting(record.summary, study, model);
   const auto value = [&](auto number) { return point != nullptr ? number(*point) : missing; };
   const double frequency = value([](const auto& one) { return one.omega / (2.0 * std::numbers::pi); });
@@ -114,7 +115,7 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   append_friction(record, scene, response, frequency);
   if (point == nullptr) return record;
   record.response = response_table(response.leading());
-  add_contacts(record, response.contacts, response.contact);
+  add_contacts(record, scene, response.contacts, response.contact);
   record.figure = motion_figure(scene, response, frequency);
   return record;
 }

@@ -77,7 +77,7 @@ std::string sides_text(const Scene& scene) {
 std::string contact_place(const Scene& scene) {
   const StructureType type = scene.structure.type;
   if (type == StructureType::bar) return "at the tip";
-  if (!scene.contact.pairs.empty()) return "at " + count_text(contact_count(scene), "contact");
+  if (!scene.contact.pairs.empty()) return "at " + count_text(whole_contact_count(scene), "contact");
   if (type == StructureType::blade && has_friction(scene))
     return "at " + count_text(tip_corners(scene.structure.blade), "node") +
            " along the tip, radially and along " + name_of(scene.contact.tangent);
@@ -268,6 +268,14 @@ std::string starts_line(const Scene& scene) {
           : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
 }
 
+std::string exact_line(const Scene& scene) {
+  const Time& time = scene.time;
+  return fmt::format(
+      "time       exact periodic solutions, whose start is sought near a balance of {}:{}, {} functions and {} "
+      "quadrature points\n",
+      time.trial, time.weight, time.functions, time.quadrature_points);
+}
+
 std::string impacts_line(const Scene& scene) {
   const bool sweep =
       scene.analysis.type != AnalysisType::forced_response && scene.analysis.type != AnalysisType::shooting;
@@ -279,6 +287,7 @@ std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
   if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
   if (has_impacts(scene.contact)) return impacts_line(scene);
+  if (scene.analysis.exact) return exact_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
 
@@ -290,7 +299,8 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
-  if (solves_by_phases(scene) || has_impacts(scene.contact) || scene.time.tolerance > 0.0) return "";
+  const bool has_no_functions = solves_by_phases(scene) || has_impacts(scene.contact) || scene.analysis.exact;
+  if (has_no_functions || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
                      contact_count(scene) * functions, reduced_size(scene) * functions);

@@ -25,7 +25,7 @@ Table table_of(const std::vector<FrictionMeasures>& contacts) {
   Table table({"contact", "friction_work_J", "stick_fraction", "slip_fraction", "open_fraction", "slip_m",
                "wear_m3", "history_dependent"});
   for (const FrictionMeasures& one : contacts)
-    table.append_row({std::int64_t{one.row + 1}, one.period.work, one.stick_fraction, one.slip_fraction,
+    table.append_row({std::int64_t{one.number}, one.period.work, one.stick_fraction, one.slip_fraction,
                       one.open_fraction, one.slip, one.wear, one.period.history_dependent});
   return table;
 }
@@ -40,7 +40,7 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
         const int row = one.row + one.law.normal_rows() + i;
         const double normal =
             one.law.normal_rows() > 0 ? motion.force(one.row, l) : one.law.raw_normal_force(0.0);
-        table.append_row({double(l) / points, std::int64_t{one.row + 1}, std::int64_t{i + 1},
+        table.append_row({double(l) / points, std::int64_t{one.number}, std::int64_t{i + 1},
                           motion.displacement(row, l), motion.force(row, l), normal,
                           name_of_state(one.period.state[static_cast<std::size_t>(l)])});
       }
@@ -51,7 +51,7 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
 void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts) {
   std::vector<int> stuck;
   for (const FrictionMeasures& one : contacts)
-    if (one.period.history_dependent) stuck.push_back(one.row + 1);
+    if (one.period.history_dependent) stuck.push_back(one.number);
   if (stuck.empty()) return;
   record.warnings.push_back(fmt::format(
       "Contact{} {} neither slip{} nor open{}: the force there depends on the past, and slider says from which position "
@@ -111,13 +111,15 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
       friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
   if (response.solved_by == name_of(TimeMethod::phases)) take_phases(contacts, response);
   double work = 0.0, wear = 0.0;
+  bool wears = false;
   for (const FrictionMeasures& one : contacts) {
     work += one.period.work;
     wear += one.wear;
+    wears = wears || one.wears;
   }
   const bool known = !contacts.empty();
   record.summary.emplace_back(quantities::friction_work, known ? work : missing);
-  if (wear > 0.0) record.summary.emplace_back(quantities::wear, wear);
+  if (wears) record.summary.emplace_back(quantities::wear, wear);
   record.summary.emplace_back(quantities::friction, table_of(contacts));
   if (!known) return;
   if (frequency > 0.0)

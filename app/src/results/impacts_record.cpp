@@ -83,4 +83,21 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
                             "The impacts of a period: instants, velocities, impulses and energies"});
 }
 
+void append_impacts(Record& record, const Sweep& sweep) {
+  if (sweep.impacts.empty()) return;
+  Summary& summary = record.summary;
+  if (!sweep.start_status.empty() && !record.interrupted)
+    record.warnings.push_back(
+        fmt::format("Where the curve was to begin no periodic motion was found that a curve begins with: {}.",
+                    sweep.start_status));
+  double impulse = sweep.curve.points.empty() ? missing : 0.0, speed = impulse;
+  for (const PointImpacts& point : sweep.impacts.front()) {
+    impulse = std::max(impulse, point.largest_impulse);
+    speed = std::max(speed, point.largest_speed);
+  }
+  summary.emplace_back(quantities::max_impulse, impulse);
+  summary.emplace_back(quantities::max_impact_velocity, speed);
+  if (sweep.periods > 1) summary.emplace_back(quantities::period_of_motion, std::int64_t{sweep.periods});
+}
+
 }  // namespace wavebalance::app

@@ -14,4 +14,8 @@ Table impacts_table(const solvers::ImpactMotion& motion);
 /// period of the load, impacts.csv, and where there is no such motion what happens in its place.
 void append_impacts(Record& record, const Scene& scene, const Response& response);
 
+/// The largest impulse and speed of an impact along a curve, over how many periods of the load its motions
+/// repeat, and what there is in place of a first motion. Nothing of a curve without impacts.
+void append_impacts(Record& record, const Sweep& sweep);
+
 }  // namespace wavebalance::app

@@ -80,7 +80,7 @@ void append_discretisation(Summary& summary, const ModeStudy& study) {
   }
   if (study.elastic_mode()) append_discretisation(summary, mode_time(study.scene()));
   summary.emplace_back(quantities::linear_frequency, study.linear_frequency());
-  append_structure(summary, study.model());
+  append_structure(summary, study.scene(), study.model());
 }
 
 /// The gap of all contacts; missing if they differ.
@@ -198,7 +198,7 @@ Record motion_record(const ModeStudy& study) {
   }
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.unknowns(), response.wall_seconds);
-  append_motion(record.summary, moves ? response.leading() : solvers::Motion{});
+  append_motion(record.summary, scene, moves ? response.contacts : solvers::Motion{}, response.contact);
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
   record.summary.emplace_back(quantities::frequency, moves ? ratio * study.linear_frequency() : missing);
@@ -219,7 +219,7 @@ Record motion_record(const ModeStudy& study) {
   if (!moves) return record;
   append_stability(record, study, point);
   record.response = response_table(response.leading());
-  add_contacts(record, response.contacts, response.contact);
+  add_contacts(record, scene, response.contacts, response.contact);
   if (scene.analysis.motion_points > 0)
     record.files =
         motion_files(study.model(), study.structure_motion(point, scene.analysis.motion_points).displacement);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/motions_figure.hpp"
 #include "files/missing.hpp"
 #include "results/impacts_record.hpp"
 #include "results/motion_files.hpp"
@@ -23,6 +24,16 @@ double largest_force(const FoundMotion& one) {
   return one.impacts && one.impacts->lasting.empty() ? missing : one.contacts.force.maxCoeff();
 }
 
+/// The largest displacement, at samples and at impacts, which lie between them.
+double largest_displacement(const FoundMotion& one) {
+  double largest = one.contacts.displacement.maxCoeff();
+  if (one.impacts)
+    for (const solvers::Impact& impact : one.impacts->impacts)
+      largest = std::max(
+          largest, one.impacts->displacement(Eigen::VectorXd::Constant(1, impact.time))(impact.contact));
+  return largest;
+}
+
 Table motions_table(const Motions& all) {
   Table table({"file", "number", "period", "stability", "unstable_multipliers", "leading_multiplier_real",
                "leading_multiplier_imag", "max_displacement_m", "max_contact_force_N", "share", "share_error",
@@ -32,9 +43,9 @@ Table motions_table(const Motions& all) {
     const solvers::MotionStability& stability = one.found.stability;
     table.append_row({name_of_motion(i + 1) + ".csv", std::int64_t(i + 1), std::int64_t{one.found.periods},
                       stability.status, stability.unstable < 0 ? missing : double(stability.unstable),
-                      stability.leading.real(), stability.leading.imag(),
-                      one.contacts.displacement.maxCoeff(), largest_force(one), one.found.share,
-                      one.found.share_error, std::string(to_string(one.found.found_by))});
+                      stability.leading.real(), stability.leading.imag(), largest_displacement(one),
+                      largest_force(one), one.found.share, one.found.share_error,
+                      std::string(to_string(one.found.found_by))});
   }
   return table;
 }
@@ -45,15 +56,15 @@ std::string words_of(const FoundMotion& motion, std::size_t number) {
   return fmt::format("motion {}{}, {}", number, periods, motion.found.stability.status);
 }
 
-void append_files(Record& record, const StructureModel& model, const FoundMotion& motion,
+void append_files(Record& record, const Scene& scene, const StructureModel& model, const FoundMotion& motion,
                   std::size_t number) {
   const std::string name = name_of_motion(number), about = words_of(motion, number);
   const bool several = motion.contacts.rows() > 1;
   record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
                           about + (several ? ": the leading contact" : "")});
   if (several)
-    record.files.push_back(
-        {name + "_contacts.csv", csv_text(contacts_table(motion.contacts)), about + ": every contact"});
+    record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
+                            about + ": every contact"});
   if (motion.impacts)
     record.files.push_back(
         {name + "_impacts.csv", csv_text(impacts_table(*motion.impacts)), about + ": its impacts"});
@@ -123,9 +134,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary = solution_entries(record.converged, record.status,
                                     largest(all, [](const FoundMotion& one) { return one.residual; }),
                                     iterations, unknowns, all.wall_seconds);
-  record.summary.emplace_back(quantities::max_displacement, largest(all, [](const FoundMotion& one) {
-                                return one.contacts.displacement.maxCoeff();
-                              }));
+  record.summary.emplace_back(quantities::max_displacement, largest(all, largest_displacement));
   record.summary.emplace_back(quantities::min_displacement, -largest(all, [](const FoundMotion& one) {
                                 return -one.contacts.displacement.minCoeff();
                               }));
@@ -147,8 +156,10 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
     if (all.motions[i].found.periods > 1)
       record.summary.emplace_back(name_of_motion(i + 1) + "_period",
                                   std::int64_t{all.motions[i].found.periods});
-  append_structure(record.summary, model);
-  for (std::size_t i = 0; i < all.motions.size(); ++i) append_files(record, model, all.motions[i], i + 1);
+  append_structure(record.summary, scene, model);
+  record.figure = motions_figure(scene, all);
+  for (std::size_t i = 0; i < all.motions.size(); ++i)
+    append_files(record, scene, model, all.motions[i], i + 1);
   return record;
 }
 

@@ -9,6 +9,7 @@
 #include "drawing/output_figure.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
+#include "results/vibration_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
@@ -47,28 +48,54 @@ Table with_outputs(const Table& table, const SweepOutputs& outputs, int harmonic
   return wide;
 }
 
-/// Where along the curve each output vibrates most.
+double relative_error(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
+
+/// Where along the curve each output vibrates most, how well its points resolve that, and the error of the
+/// vibration at the peak of the curve where the exact motion is known there.
 Table peaks_table(const Sweep& sweep, const SweepOutputs& outputs) {
-  Table table({"output", "unit", sweep_axis(sweep).column(), "half_peak_to_peak", "max", "min", "mean"});
+  Table table({"output", "unit", sweep_axis(sweep).column(), "half_peak_to_peak", "max", "min", "mean",
+               quantities::peak_value_resolution.column(), quantities::peak_place_resolution.column(),
+               "error_at_peak"});
+  std::vector<double> places;
+  for (const solvers::SweepPoint& point : sweep.curve.points)
+    places.push_back(parameter_of(point, sweep.curve.parameter));
+  const MeasuredPoint& at_peak = outputs.curves[0][peak_of(sweep.curve)];
   for (std::size_t i = 0; i < outputs.outputs.size(); ++i) {
     const Output& output = outputs.outputs[i];
     OutputMeasures best;
-    double place = missing;
+    std::size_t peak = 0;
+    std::vector<double> values(places.size(), missing);
     for (std::size_t k = 0; k < outputs.curves[0].size(); ++k) {
       const MeasuredPoint& point = outputs.curves[0][k];
+      if (!point.empty()) values[k] = point[i].half_peak_to_peak();
       if (point.empty() || point[i].half_peak_to_peak() <= best.half_peak_to_peak()) continue;
       best = point[i];
-      place = parameter_of(sweep.curve.points[k], sweep.curve.parameter);
+      peak = k;
     }
+    const bool known = std::isfinite(best.max);
+    const PeakResolution resolution = peak_resolution(places, values, peak);
+    const bool exact = !outputs.exact_at_peak.empty() && !at_peak.empty();
     table.append_row(
-        {output.name, output.unit, place, best.half_peak_to_peak(), best.max, best.min, best.mean});
+        {output.name, output.unit, known ? places[peak] : missing, best.half_peak_to_peak(), best.max,
+         best.min, best.mean, known ? resolution.value : missing, known ? resolution.place : missing,
+         exact ? relative_error(at_peak[i].half_peak_to_peak(), outputs.exact_at_peak[i].half_peak_to_peak())
+               : missing});
   }
   return table;
 }
 
-/// One row for each output, with the names of columns that columns_of() has, but for the output's own name.
-Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& measured, int harmonics) {
-  std::vector<std::string> columns{"output", "unit", "max", "min", "half_peak_to_peak", "rms", "mean"};
+/// One row for each output, with the names of columns that columns_of() has, but for the output's own name,
+/// and the error of its vibration against the exact motion, empty where that is not known.
+Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& measured,
+                     const MeasuredPoint& exact, int harmonics) {
+  std::vector<std::string> columns{"output",
+                                   "unit",
+                                   "max",
+                                   "min",
+                                   "half_peak_to_peak",
+                                   "rms",
+                                   "mean",
+                                   quantities::error_of_vibration.column()};
   for (int n = 1; n <= harmonics; ++n) {
     columns.push_back(fmt::format("amplitude_{}", n));
     columns.push_back(fmt::format("phase_{}_degrees", n));
@@ -79,10 +106,18 @@ Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& me
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     std::vector<Cell> row{outputs[i].name, outputs[i].unit};
     for (const double cell : cells_of(outputs[i], measured[i], harmonics)) row.emplace_back(cell);
+    row.insert(row.begin() + 7,
+               exact.empty() ? missing
+                             : relative_error(measured[i].half_peak_to_peak(), exact[i].half_peak_to_peak()));
     while (row.size() < columns.size()) row.emplace_back(missing);
     table.append_row(std::move(row));
   }
   return table;
+}
+
+void append_leading_output(Summary& summary, const Scene& scene, const std::vector<Output>& outputs) {
+  if (const auto leading = leading_output(outputs, scene))
+    summary.emplace_back(quantities::leading_output, outputs[*leading].name);
 }
 
 }  // namespace
@@ -92,6 +127,7 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
   record.sweep =
       with_outputs(record.sweep, outputs, scene.analysis.output_harmonics, scene.analysis.branches);
   record.summary.emplace_back(quantities::outputs, peaks_table(sweep, outputs));
+  append_leading_output(record.summary, scene, outputs.outputs);
   if (!sweep.curve.points.empty())
     record.output_pictures.push_back(
         {"outputs", outputs_figure(sweep, outputs), "the vibration of each output along the curve"});
@@ -113,9 +149,21 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
                               Eigen::VectorXd(motion.row(Eigen::Index(i)).transpose()));
   record.summary.emplace_back(
       quantities::outputs,
-      measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods), harmonics));
+      measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods),
+                     exact_outputs(scene, model, response, outputs), harmonics));
+  append_leading_output(record.summary, scene, outputs);
   record.output_pictures.push_back(
-      {"outputs", outputs_figure(outputs, motion, response.periods), "the motion of each output"});
+      {"outputs", outputs_figure(outputs, motion, PeriodWindow(response)), "the motion of each output"});
+}
+
+void lead_with_output(Record& record, const Scene& scene) {
+  const std::optional<std::size_t> leading = leading_output(outputs_of(scene), scene);
+  if (!leading || record.output_pictures.empty()) return;
+  const std::vector<Panel>& drawn = record.output_pictures.front().figure.panels;
+  if (*leading >= drawn.size()) return;
+  std::vector<Panel>& panels = record.figure.panels;
+  panels.insert(panels.begin(), drawn[*leading]);
+  panels.front().title = "Motion of " + panels.front().title;
 }
 
 }  // namespace wavebalance::app

@@ -13,4 +13,7 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
 void append_outputs(Record& record, const Scene& scene, const StructureModel& model,
                     const Response& response);
 
+/// Puts the motion of the leading output before that of the contacts in the record's picture.
+void lead_with_output(Record& record, const Scene& scene);
+
 }  // namespace wavebalance::app

@@ -21,7 +21,8 @@ inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"},
     inner_products{"inner_products", setting}, functions{"functions", setting},
     quadrature_points{"quadrature_points", setting}, sample_offset{"sample_offset", setting},
     nyquist{"nyquist", setting}, harmonics{"harmonics", setting}, samples{"samples", setting},
-    contacts{"contacts", setting}, degrees_of_freedom{"degrees_of_freedom", setting},
+    contacts{"contacts", setting}, contact_directions{"contact_directions", setting},
+    degrees_of_freedom{"degrees_of_freedom", setting},
     reduced_degrees_of_freedom{"reduced_degrees_of_freedom", setting};
 
 inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"},
@@ -30,31 +31,38 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     rounding_error_estimate{"rounding_error_estimate"}, warnings{"warnings"},
     estimated_error{"estimated_error"}, ladder{"ladder"}, ladder_seconds{"ladder_seconds", diagnostic, "s"},
     attractor_periods{"attractor_periods"}, phases_status{"phases_status"},
-    error_of_displacement{"error_of_displacement"}, error_of_force{"error_of_force"},
-    phases_estimated_error{"phases_estimated_error"}, phases_unknowns{"phases_unknowns"}, phases{"phases"},
-    structure_left_out{"structure_left_out"}, start_functions{"start_functions"}, solved_by{"solved_by"},
+    error_of_vibration{"error_of_vibration"}, error_of_displacement{"error_of_displacement"},
+    peak_value_resolution{"peak_value_resolution"}, peak_place_resolution{"peak_place_resolution"},
+    error_of_force{"error_of_force"}, phases_estimated_error{"phases_estimated_error"},
+    phases_unknowns{"phases_unknowns"}, phases{"phases"}, structure_left_out{"structure_left_out"},
+    start_functions{"start_functions"}, solved_by{"solved_by"},
     largest_error_of_displacement{"largest_error_of_displacement"},
     largest_error_of_force{"largest_error_of_force"}, points_phases_converged{"points_phases_converged"},
     points_not_found{"points_not_found"}, points_phases_not_known{"points_phases_not_known"},
     points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
-    stability{"stability"}, stability_by{"stability_by"}, special_points{"special_points"},
-    random_starts{"random_starts"}, starts_without_motion{"starts_without_motion"},
-    unsolved_motions{"unsolved_motions"}, start_box{"start_box"}, branches{"branches"},
-    special_points_of_branches{"special_points_of_branches"}, motions{"motions"},
-    structure_curve{"structure_curve"}, structure_special_points{"structure_special_points"},
-    other_motions{"other_motions"}, isola{"isola"}, isolas{"isolas"},
-    special_points_of_isolas{"special_points_of_isolas"}, isola_frequencies{"isola_frequencies"},
-    isola_starts{"isola_starts"}, isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"},
-    rest_status{"rest_status"}, outputs{"outputs"};
+    stability{"stability"}, stability_by{"stability_by"},
+    points_stability_not_known{"points_stability_not_known"}, stability_not_known{"stability_not_known"},
+    unstable_parts{"unstable_parts"}, special_points{"special_points"}, random_starts{"random_starts"},
+    starts_without_motion{"starts_without_motion"}, unsolved_motions{"unsolved_motions"},
+    start_box{"start_box"}, branches{"branches"}, special_points_of_branches{"special_points_of_branches"},
+    motions{"motions"}, structure_curve{"structure_curve"},
+    structure_special_points{"structure_special_points"}, other_motions{"other_motions"}, isola{"isola"},
+    isolas{"isolas"}, special_points_of_isolas{"special_points_of_isolas"},
+    isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
+    isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"}, rest_status{"rest_status"},
+    outputs{"outputs"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},
     rms_displacement{"rms_displacement_m", result, "m", "rms displacement"},
+    vibration{"vibration_m", result, "m", "vibration"},
+    rms_vibration{"rms_vibration_m", result, "m", "rms vibration"},
     max_contact_force{"max_contact_force_N", result, "N", "max contact force"},
     contact_fraction{"contact_fraction", result},
     contact_dissipation{"contact_dissipation_J", result, "J", "contact dissipation"},
     friction_work{"friction_work_J", result, "J", "friction work"}, wear{"wear_m3", result, "m3", "wear"},
-    friction{"friction", result}, friction_energy_error{"friction_energy_error"},
+    friction{"friction", result}, max_slip_fraction{"max_slip_fraction", result},
+    max_open_fraction{"max_open_fraction", result}, friction_energy_error{"friction_energy_error"},
     equivalent_damping_ratio{"equivalent_damping_ratio", result}, impacts{"impacts", result},
     max_impulse{"max_impulse_Ns", result, "N s", "max impulse"},
     max_impact_velocity{"max_impact_velocity_m_per_s", result, "m/s", "max impact velocity"},
@@ -63,6 +71,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     max_penetration{"max_penetration_m", result, "m", "max penetration"},
     min_contact_force{"min_contact_force_N", result, "N", "min contact force"},
     complementarity{"complementarity", result}, leading_contact{"leading_contact", result},
+    leading_direction{"leading_direction", result}, leading_output{"leading_output"},
     period_of_motion{"period_of_motion", result}, change_after_one_period{"change_after_one_period", result},
     unstable_multipliers{"unstable_multipliers", result}, settled_periods{"settled_periods", result},
     settled_max_displacement{"settled_max_displacement_m", result, "m", "settled max displacement"},
@@ -95,13 +104,29 @@ constexpr const Quantity& peak_place(std::string_view unit) {
                        [&](const Quantity& one) { return one.unit == unit; });
 }
 
+/// Where the vibration of contacts along a curve is largest.
+inline constexpr std::array vibration_places{
+    Quantity{"frequency_at_largest_vibration_Hz", result, "Hz", "frequency at largest vibration"},
+    Quantity{"amplitude_at_largest_vibration_N", result, "N", "amplitude at largest vibration"},
+    Quantity{"amplitude_at_largest_vibration_m", result, "m", "amplitude at largest vibration"},
+    Quantity{"amplitude_at_largest_vibration_m_per_s2", result, "m/s^2", "amplitude at largest vibration"}};
+
+/// That of a curve over a frequency or an amplitude in `unit`.
+constexpr const Quantity& vibration_place(std::string_view unit) {
+  return *std::find_if(vibration_places.begin(), vibration_places.end(),
+                       [&](const Quantity& one) { return one.unit == unit; });
+}
+
 /// The quantity with words that a column of a table holds; null for others.
 constexpr const Quantity* find_in_words(std::string_view column) {
-  for (const Quantity* one : {&frequency, &linear_frequency, &max_displacement, &min_displacement,
-                              &rms_displacement, &max_contact_force, &contact_dissipation, &friction_work,
-                              &wear, &slip_amplitude, &max_penetration, &min_contact_force})
+  for (const Quantity* one :
+       {&frequency, &linear_frequency, &max_displacement, &min_displacement, &rms_displacement, &vibration,
+        &rms_vibration, &max_contact_force, &contact_dissipation, &friction_work, &wear, &slip_amplitude,
+        &max_penetration, &min_contact_force})
     if (one->name == column) return one;
   for (const Quantity& one : peak_places)
+    if (one.name == column) return &one;
+  for (const Quantity& one : vibration_places)
     if (one.name == column) return &one;
   return nullptr;
 }

@@ -24,6 +24,7 @@
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_phases.hpp"
+#include "results/vibration_record.hpp"
 #include "wavebalance/app/analysis/curve_motions.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
@@ -119,7 +120,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   warn_of_unbalanced_load(record, model);
   record.summary = solution_entries(response.converged, response.status, response.residual,
                                     response.iterations, response.unknowns, response.wall_seconds);
-  append_motion(record.summary, response.moves ? response.leading() : solvers::Motion{});
+  append_motion(record.summary, scene, response.moves ? response.contacts : solvers::Motion{},
+                response.contact);
   append_dissipation(record.summary, scene, response);
   append_friction(record, scene, response, scene.forcing.frequency);
   append_equivalent_damping(record, scene, model, response);
@@ -133,7 +135,8 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   const bool touches =
       response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
   if (response.moves && scene.contact.law != no_law && !touches)
-    warn_of_open_contacts(record, response.leading().displacement.maxCoeff(), model.gaps[response.contact]);
+    warn_of_open_contacts(record, model.gaps[response.contact] - response.leading().displacement.maxCoeff(),
+                          model.gaps[response.contact]);
   if (!response.impacts) append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1 && !response.impacts)
     record.summary.emplace_back(quantities::change_after_one_period,
@@ -142,7 +145,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (!response.form.empty()) record.summary.emplace_back(quantities::form, response.form);
   append_rigid(record.summary, response);
   if (response.phases)
-    append_phases(record, scene.time.tolerance, response);
+    append_phases(record, scene, response);
   else if (scene.analysis.phases && response.converged && !is_by_phases(response))
     record.summary.emplace_back(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
@@ -154,13 +157,14 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     record.summary.emplace_back(quantities::structure_left_out, response.structure_left_out);
   if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response) && !response.impacts)
     append_discretisation(record.summary, solved_time(scene.time, response));
-  append_structure(record.summary, model);
+  append_structure(record.summary, scene, model);
   append_rest(record, scene, model);
   append_outputs(record, scene, model, response);
   if (!response.moves || response.contacts.empty()) return record;
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
-  add_contacts(record, response.contacts, response.contact);
+  lead_with_output(record, scene);
+  add_contacts(record, scene, response.contacts, response.contact);
   record.bar_motion = bar_motion_of(scene, model, response);
   if (scene.analysis.motion_points > 0)
     for (RecordFile& file : motion_files(model, written_motion(scene, response)))
@@ -197,7 +201,7 @@ double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, d
 
 /// Whether a contact closes anywhere along the curve.
 bool touches(const Sweep& sweep) {
-  if (sweep.impacts.empty()) return largest(sweep.curve, &solvers::SweepPoint::contact_fraction) > 0.0;
+  if (sweep.impacts.empty()) return largest(sweep.curve, &solvers::SweepPoint::max_force) > 0.0;
   return std::any_of(sweep.impacts.front().begin(), sweep.impacts.front().end(),
                      [](const PointImpacts& point) { return point.count > 0; });
 }
@@ -208,21 +212,6 @@ int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sw
   int most = 0;
   for (const PointImpacts& point : sweep.impacts.front()) most = std::max(most, 2 * point.count + 1);
   return most;
-}
-
-/// The largest impulse of the curve, over how many periods of the load its motions repeat, and what there is
-/// in place of a first motion.
-void append_impacts(Record& record, const Sweep& sweep) {
-  if (sweep.impacts.empty()) return;
-  Summary& summary = record.summary;
-  if (!sweep.start_status.empty() && !record.interrupted)
-    record.warnings.push_back(
-        fmt::format("Where the curve was to begin no periodic motion was found that a curve begins with: {}.",
-                    sweep.start_status));
-  double impulse = sweep.curve.points.empty() ? missing : 0.0;
-  for (const PointImpacts& point : sweep.impacts.front()) impulse = std::max(impulse, point.largest_impulse);
-  summary.emplace_back(quantities::max_impulse, impulse);
-  if (sweep.periods > 1) summary.emplace_back(quantities::period_of_motion, std::int64_t{sweep.periods});
 }
 
 /// Frequency or amplitude of the point with the largest displacement; missing without points.
@@ -250,6 +239,8 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back(quantities::min_displacement, least_displacement(sweep.curve));
   record.summary.emplace_back(quantities::rms_displacement,
                               largest(sweep.curve, &solvers::SweepPoint::rms_displacement));
+  append_vibration(record.summary, scene, sweep);
+  append_friction_along(record.summary, sweep);
   record.summary.emplace_back(quantities::max_contact_force, largest_force(scene, sweep.curve, highest));
   record.summary.emplace_back(quantities::contact_fraction,
                               largest(sweep.curve, &solvers::SweepPoint::contact_fraction));
@@ -259,7 +250,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back(quantities::points, std::int64_t{points});
   warn_of_scene(record, scene);
   if (points > 0 && scene.contact.law != no_law && !touches(sweep))
-    warn_of_open_contacts(record, highest, model.gaps.minCoeff());
+    warn_of_open_contacts(record, common_gap(scene) - highest, common_gap(scene));
   if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
   append_impacts(record, sweep);
   append_stability(record, scene, sweep);
@@ -276,11 +267,11 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
     record.summary.emplace_back(quantities::form, std::string(to_string(sweep.curve.form)));
     append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
   }
-  append_structure(record.summary, model);
+  append_structure(record.summary, scene, model);
   append_rest(record, scene, model);
   record.sweep = sweep_table(sweep, scene.analysis.branches);
   append_outputs(record, scene, sweep, outputs);
-  if (points > 0) record.figure = sweep_figure(scene, sweep);
+  if (points > 0) record.figure = sweep_figure(scene, sweep, outputs);
   return record;
 }
 
@@ -304,6 +295,7 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
 Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
                            const Observer& observer) {
   Sweep sweep = stable_sweep(scene, model, observer, start);
+  leave_out_contact_fractions(scene, sweep);
   const SweepOutputs outputs = measure_outputs(scene, model, sweep, observer);
   const auto motions = curve_motions(scene, model, sweep, observer);
   Record record = sweep_record(scene, model, sweep, outputs, motions);

@@ -20,9 +20,9 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 /// "contact 2 (-node 18 z): 5.28 mm, 0.28 mm past its gap of 5 mm, 281 N".
-std::string contact_text(const SceneContact& contact, std::size_t number, const std::string& name,
-                         double displacement, double force) {
-  std::string text = fmt::format("contact {}{}: {}", number, name.empty() ? "" : " (" + name + ")",
+std::string contact_text(const SceneContact& contact, const std::string& name, double displacement,
+                         double force) {
+  std::string text = fmt::format("{}{}: {}", name_of(contact), name.empty() ? "" : " (" + name + ")",
                                  quantity(displacement, "m"));
   if (has_gap(contact.law)) {
     const double past = displacement - contact.gap;
@@ -32,7 +32,21 @@ std::string contact_text(const SceneContact& contact, std::size_t number, const 
   return text + ", " + quantity(force, "N");
 }
 
+// A contact is closed where its first direction, its normal one where it has tangents, has a force. One with
+// friction under a constant normal load never opens.
+bool is_closed(const SceneContact& contact, double force) {
+  return contact.place == 0 && (force > 0.0 || (has_friction(contact.law) && contact.directions == 1));
+}
+
 }  // namespace
+
+std::int64_t closed_contacts(const Scene& scene, const std::vector<double>& forces) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  std::int64_t closed = 0;
+  for (std::size_t i = 0; i < contacts.size() && i < forces.size(); ++i)
+    closed += is_closed(contacts[i], forces[i]);
+  return closed;
+}
 
 void append_rest(Record& record, const Scene& scene, const StructureModel& model) {
   const std::optional<RestState> rest = rest_state(scene, model);
@@ -41,11 +55,19 @@ void append_rest(Record& record, const Scene& scene, const StructureModel& model
     record.summary.emplace_back(quantities::rest_status, rest->status);
     return;
   }
-  Table table({"contact", "displacement_m", "gap_m", "contact_force_N"});
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    table.append_row({std::int64_t(i) + 1, rest->displacement[Eigen::Index(i)],
-                      has_gap(contacts[i].law) ? contacts[i].gap : missing, rest->force[Eigen::Index(i)]});
+  const bool directed = has_directions(contacts);
+  Table table(directed ? std::vector<std::string>{"contact", "direction", "displacement_m", "gap_m",
+                                                  "contact_force_N"}
+                       : std::vector<std::string>{"contact", "displacement_m", "gap_m", "contact_force_N"});
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    std::vector<Cell> row{std::int64_t{contacts[i].number}};
+    if (directed) row.emplace_back(direction_name(contacts[i]));
+    row.insert(row.end(),
+               {rest->displacement[Eigen::Index(i)], has_gap(contacts[i].law) ? contacts[i].gap : missing,
+                rest->force[Eigen::Index(i)]});
+    table.append_row(std::move(row));
+  }
   record.summary.emplace_back(quantities::at_rest, std::move(table));
 }
 
@@ -56,12 +78,12 @@ std::string rest_lines(const Scene& scene) {
   if (!rest->converged) return "at rest    not found: " + rest->status + "\n";
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const std::vector<std::string> names = names_of(scene);
-  const auto closed = (rest->force.array() > 0.0).count();
+  const std::int64_t closed = closed_contacts(scene, {rest->force.begin(), rest->force.end()});
   std::string text = fmt::format("at rest    {} of {} contacts {} under the static loads\n", closed,
-                                 contacts.size(), closed == 1 ? "is closed" : "are closed");
+                                 whole_contact_count(scene), closed == 1 ? "is closed" : "are closed");
   for (std::size_t i = 0; i < std::min(shown, contacts.size()); ++i)
     text += "           " +
-            contact_text(contacts[i], i + 1, names[i], rest->displacement[Eigen::Index(i)],
+            contact_text(contacts[i], names[i], rest->displacement[Eigen::Index(i)],
                          rest->force[Eigen::Index(i)]) +
             "\n";
   if (contacts.size() > shown)

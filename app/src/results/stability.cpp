@@ -12,6 +12,7 @@
 #include "results/structure_points.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_phases.hpp"
+#include "results/unstable_parts.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -162,6 +163,27 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
       motion, stability.unstable, stability.unstable == 1 ? "" : "s"));
 }
 
+namespace {
+
+/// Whether stability is known along the curve, or at how many points it is not and why, and where motions are
+/// unstable.
+void append_status_along(Record& record, const Sweep& sweep, bool complete) {
+  const StabilityAlong along = sweep.stability_of(0);
+  const auto count = [&](auto is) { return std::count_if(along.points.begin(), along.points.end(), is); };
+  const auto known = count([](const auto& point) { return point.unstable >= 0; });
+  const std::int64_t left = std::ssize(sweep.curve.points) - known;
+  const bool partly = complete && known > 0 && left > 0;
+  record.summary.emplace_back(quantities::stability, std::string(!complete ? "interrupted"
+                                                                 : partly  ? "partly_known"
+                                                                           : along.status));
+  record.summary.emplace_back(quantities::points_stability_not_known, left);
+  if (partly) record.summary.emplace_back(quantities::stability_not_known, along.status);
+  Table parts = unstable_parts(sweep);
+  if (!parts.empty()) record.summary.emplace_back(quantities::unstable_parts, std::move(parts));
+}
+
+}  // namespace
+
 void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   const bool complete =
       !sweep.stability.cancelled && sweep.stability.points.size() == sweep.curve.points.size();
@@ -169,8 +191,7 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   const bool folds_alone = sweep.impacts.empty() && folds_are_known(sweep.stability);
   append_turning_points(record, sweep, complete && folds_alone && scene.analysis.special_points);
   if (sweep.stability.points.empty()) return;
-  record.summary.emplace_back(quantities::stability,
-                              complete ? sweep.stability_of(0).status : std::string("interrupted"));
+  append_status_along(record, sweep, complete);
   warn_where_all_are_unstable(record, sweep.stability_of(0).points);
   if (!scene.analysis.special_points) return;
   record.summary.emplace_back(quantities::special_points, table_of(sweep));

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -45,8 +46,11 @@ void append_discretisation(Summary& summary, const Time& time) {
   if (time.functions % 2 == 0) summary.emplace_back(quantities::nyquist, name_of(time.nyquist));
 }
 
-void append_structure(Summary& summary, const StructureModel& model) {
-  summary.emplace_back(quantities::contacts, std::int64_t{model.contacts()});
+void append_structure(Summary& summary, const Scene& scene, const StructureModel& model) {
+  const int contacts = whole_contact_count(scene);
+  summary.emplace_back(quantities::contacts, std::int64_t{contacts});
+  if (contacts != model.contacts())
+    summary.emplace_back(quantities::contact_directions, std::int64_t{model.contacts()});
   summary.emplace_back(quantities::degrees_of_freedom, std::int64_t{model.unknowns});
   summary.emplace_back(quantities::reduced_degrees_of_freedom, std::int64_t{model.size()});
   summary.emplace_back(quantities::reduction_seconds, model.reduction_seconds);
@@ -73,10 +77,12 @@ void append_condition(Record& record, double condition, double rounding_error) {
   record.summary.emplace_back(quantities::warnings, record.warnings);
 }
 
-void add_contacts(Record& record, const solvers::Motion& contacts, int leading) {
+void add_contacts(Record& record, const Scene& scene, const solvers::Motion& contacts, int leading) {
   if (contacts.rows() < 2) return;
-  record.summary.emplace_back(quantities::leading_contact, std::int64_t{leading + 1});
-  record.contacts = contacts_table(contacts);
+  const SceneContact place = contact_places(scene).at(static_cast<std::size_t>(leading));
+  record.summary.emplace_back(quantities::leading_contact, std::int64_t{place.number});
+  if (place.directions > 1) record.summary.emplace_back(quantities::leading_direction, direction_name(place));
+  record.contacts = contacts_table(scene, contacts);
 }
 
 void warn_of_scene(Record& record, const Scene& scene) {
@@ -92,22 +98,32 @@ void warn_of_scene(Record& record, const Scene& scene) {
   }
 }
 
-void warn_of_open_contacts(Record& record, double displacement, double gap) {
-  const int digits =
-      std::abs(displacement - gap) > 1e-3 * std::abs(gap) ? 4 : 12;  // which show that they differ
+void warn_of_open_contacts(Record& record, double distance, double gap) {
+  if (std::isnan(distance)) {
+    record.warnings.emplace_back("No contact closes.");
+    return;
+  }
   record.warnings.push_back(
-      fmt::format("No contact closes: the largest displacement is {:.{}g} mm where the gap is {:.{}g} mm.",
-                  1e3 * displacement, digits, 1e3 * gap, digits));
+      distance > 0.0
+          ? fmt::format("No contact closes: the nearest stays {} short of its gap of {}.",
+                        quantity(distance, "m"), quantity(gap, "m"))
+          : fmt::format("No contact exerts a force, though one reaches its gap of {}.", quantity(gap, "m")));
 }
 
-void append_motion(Summary& summary, const solvers::Motion& leading) {
-  const bool empty = leading.empty();
+void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int row) {
+  const bool empty = contacts.empty();
+  const solvers::Motion leading = empty ? solvers::Motion{} : contacts.contact(row);
   const Eigen::MatrixXd& u = leading.displacement;
   summary.emplace_back(quantities::max_displacement, empty ? missing : u.maxCoeff());
   summary.emplace_back(quantities::min_displacement, empty ? missing : u.minCoeff());
   summary.emplace_back(quantities::rms_displacement, empty ? missing : rms(u.reshaped()));
+  const solvers::Vibration vibration =
+      empty ? solvers::Vibration{missing, missing} : solvers::largest_vibration(u);
+  summary.emplace_back(quantities::vibration, vibration.half_peak_to_peak);
+  summary.emplace_back(quantities::rms_vibration, vibration.rms);
   summary.emplace_back(quantities::max_contact_force, empty ? missing : leading.force.maxCoeff());
-  summary.emplace_back(quantities::contact_fraction, empty ? missing : contact_fraction(leading));
+  summary.emplace_back(quantities::contact_fraction,
+                       empty ? missing : contact_fraction(scene, contacts, row));
 }
 
 void append_period(Record& record, int periods, int motion_periods) {
@@ -194,37 +210,48 @@ std::string_view name_of(solvers::FrictionPart::State state) {
 }
 
 /// Of contacts with friction all parts of the period, by what they do in them.
-Table phases_table(const solvers::PhaseMotion& motion) {
+Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion) {
+  const std::vector<SceneContact> places = contact_places(scene);
+  const auto number_of = [&](int row) { return std::int64_t{places.at(std::size_t(row)).number}; };
   if (motion.friction.empty()) {
     Table phases({"contact", "begin", "end"});
     for (const solvers::ContactPhase& phase : motion.phases)
-      phases.append_row({std::int64_t{phase.contact + 1}, phase.begin, phase.end});
+      phases.append_row({number_of(phase.contact), phase.begin, phase.end});
     return phases;
   }
   Table phases({"contact", "state", "begin", "end"});
   for (const solvers::FrictionAlong& contact : motion.friction)
     for (const solvers::FrictionPart& part : contact.parts)
-      phases.append_row(
-          {std::int64_t{contact.row + 1}, std::string(name_of(part.state)), part.begin, part.end});
+      phases.append_row({number_of(contact.row), std::string(name_of(part.state)), part.begin, part.end});
   return phases;
 }
 
-void append_phases(Record& record, double tolerance, const Response& response) {
+/// The relative error of the vibration of the leading contact; missing without a motion.
+double error_of_vibration(const solvers::PhaseMotion& motion, const Response& response) {
+  if (motion.parts == nullptr) return missing;
+  const Eigen::MatrixXd exact = motion.displacement(time_fractions(response.contacts.points()));
+  const double vibration = solvers::largest_vibration(exact.row(response.contact)).half_peak_to_peak;
+  return std::abs(solvers::largest_vibration(response.leading().displacement).half_peak_to_peak - vibration) /
+         vibration;
+}
+
+void append_phases(Record& record, const Scene& scene, const Response& response) {
   const solvers::ResponsePhases& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
   if (is_by_phases(response)) {
-    record.summary.emplace_back(quantities::tolerance, tolerance);
+    record.summary.emplace_back(quantities::tolerance, scene.time.tolerance);
     record.summary.emplace_back(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.summary.emplace_back(quantities::start_functions, std::int64_t{response.start_functions});
   } else {
     record.summary.emplace_back(quantities::phases_status, std::string(to_string(found.motion.status)));
+    record.summary.emplace_back(quantities::error_of_vibration, error_of_vibration(found.motion, response));
     record.summary.emplace_back(quantities::error_of_displacement, found.displacement_error);
     record.summary.emplace_back(quantities::error_of_force, found.force_error);
   }
   record.summary.emplace_back(quantities::phases_estimated_error,
                               known ? found.motion.estimated_error : missing);
   record.summary.emplace_back(quantities::phases_unknowns, std::int64_t{found.motion.unknowns});
-  record.summary.emplace_back(quantities::phases, phases_table(found.motion));
+  record.summary.emplace_back(quantities::phases, phases_table(scene, found.motion));
   const bool none = found.motion.status == solvers::PhasesStatus::not_found && !is_by_phases(response);
   if (response.stability && !none)
     record.summary.emplace_back(quantities::stability_by,

@@ -16,7 +16,7 @@ void insert_wall_seconds(Summary& summary, double seconds);
 void append_discretisation(Summary& summary, const Time& time);
 
 /// Sizes of the structure before and after its reduction.
-void append_structure(Summary& summary, const StructureModel& model);
+void append_structure(Summary& summary, const Scene& scene, const StructureModel& model);
 
 /// Adds condition_estimate and rounding_error_estimate (NaN: none) to the summary, and `warnings` to summary
 /// and record. There is a warning for a condition above 1e12, where fewer than four of the sixteen digits of
@@ -24,7 +24,7 @@ void append_structure(Summary& summary, const StructureModel& model);
 void append_condition(Record& record, double condition, double rounding_error);
 
 /// The table of all contacts, and which of them the record shows, where there are several.
-void add_contacts(Record& record, const solvers::Motion& contacts, int leading);
+void add_contacts(Record& record, const Scene& scene, const solvers::Motion& contacts, int leading);
 
 /// Which motion was found where those of several periods of the load were sought.
 void append_period(Record& record, int periods, int motion_periods);
@@ -44,23 +44,23 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
 /// Sentences about loads and gaps that were probably meant otherwise: no load at all, and a gap below zero
 /// with obstacles on both sides.
 void warn_of_scene(Record& record, const Scene& scene);
-/// The same about contacts of which none closes: the largest displacement (m) and the gap (m) of the contact
-/// that comes nearest to it.
-void warn_of_open_contacts(Record& record, double displacement, double gap);
+/// The same about contacts of which none closes, by how far (m) the one that comes nearest to its gap (m)
+/// stays from it; NaN where contacts differ.
+void warn_of_open_contacts(Record& record, double distance, double gap);
 
 /// Where the solution started, and what to do if that led nowhere.
 void append_start(Record& record, const StartMotion& start, bool found, double distance);
 /// All warnings of the record in its summary, also those that came after the summary's own.
 void set_warnings(Record& record);
 
-/// The fields of the motion of the leading contact; missing values of an empty one.
-void append_motion(Summary& summary, const solvers::Motion& leading);
+/// The fields of the motion of the direction of contact `leading`; missing values of an empty motion.
+void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int leading);
 
 /// The motion of the structure near the response: its phases of contact and the errors of the response.
-void append_phases(Record& record, double tolerance, const Response& response);
+void append_phases(Record& record, const Scene& scene, const Response& response);
 /// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
 /// them.
-Table phases_table(const solvers::PhaseMotion& motion);
+Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion);
 /// Whether the response is the motion of the structure itself, and not a balance beside it.
 bool is_by_phases(const Response& response);
 

@@ -8,6 +8,7 @@
 #include "results/quantities.hpp"
 #include "results/sweep_phases.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 
@@ -20,13 +21,22 @@ Table response_table(const solvers::Motion& contact) {
   return table;
 }
 
-Table contacts_table(const solvers::Motion& contacts) {
-  Table table({"time_fraction", "contact", "displacement_m", "contact_force_N"});
+Table contacts_table(const Scene& scene, const solvers::Motion& contacts) {
+  const std::vector<SceneContact> places = contact_places(scene);
+  const bool directed = has_directions(places);
+  Table table(
+      directed ? std::vector<std::string>{"time_fraction", "contact", "direction", "displacement_m",
+                                          "contact_force_N"}
+               : std::vector<std::string>{"time_fraction", "contact", "displacement_m", "contact_force_N"});
   const Eigen::VectorXd times = time_fractions(contacts.points());
   for (int l = 0; l < contacts.points(); ++l)
-    for (int contact = 0; contact < contacts.rows(); ++contact)
-      table.append_row({times[l], std::int64_t{contact + 1}, contacts.displacement(contact, l),
-                        contacts.force(contact, l)});
+    for (int row = 0; row < contacts.rows(); ++row) {
+      const SceneContact& place = places[std::size_t(row)];
+      std::vector<Cell> cells{times[l], std::int64_t{place.number}};
+      if (directed) cells.emplace_back(direction_name(place));
+      cells.insert(cells.end(), {contacts.displacement(row, l), contacts.force(row, l)});
+      table.append_row(std::move(cells));
+    }
   return table;
 }
 
@@ -38,12 +48,20 @@ const std::vector<std::string> point_columns{quantities::frequency.column(),
                                              quantities::min_displacement.column(),
                                              "max_abs_displacement_m",
                                              quantities::max_contact_force.column(),
-                                             quantities::contact_fraction.column()};
+                                             quantities::contact_fraction.column(),
+                                             quantities::vibration.column(),
+                                             quantities::rms_vibration.column()};
 
 std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepParameter parameter) {
-  return {parameter_of(point, parameter), point.max_displacement,     point.rms_displacement,
-          point.min_displacement,         point.max_abs_displacement, point.max_force,
-          point.contact_fraction};
+  return {parameter_of(point, parameter),
+          point.max_displacement,
+          point.rms_displacement,
+          point.min_displacement,
+          point.max_abs_displacement,
+          point.max_force,
+          point.contact_fraction,
+          point.vibration,
+          point.rms_vibration};
 }
 
 /// Which columns a curve's table has beside those of its points.
@@ -55,7 +73,9 @@ std::vector<std::string> columns_of(const std::string& place, const MoreColumns&
   std::vector<std::string> columns = point_columns;
   columns.front() = place;
   if (more.stability) columns.insert(columns.end(), {"unstable", "contacts"});
-  if (more.impacts) columns.insert(columns.end(), {"impacts", "max_impulse_Ns", "impact_energy_J"});
+  if (more.impacts)
+    columns.insert(columns.end(),
+                   {"impacts", "max_impulse_Ns", "impact_energy_J", "max_impact_velocity_m_per_s"});
   if (more.friction)
     columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
   if (more.branches) columns.insert(columns.end(), {"branch", "period"});
@@ -82,7 +102,8 @@ void append_rows(Table& table, const Sweep& sweep, std::size_t number, const Mor
     }
     if (more.impacts) {
       const PointImpacts& impacts = sweep.impacts[number][i];
-      row.insert(row.end(), {std::int64_t{impacts.count}, impacts.largest_impulse, impacts.energy_lost});
+      row.insert(row.end(), {std::int64_t{impacts.count}, impacts.largest_impulse, impacts.energy_lost,
+                             impacts.largest_speed});
     }
     if (more.friction) {
       const FrictionShares& friction = sweep.friction[number][i];

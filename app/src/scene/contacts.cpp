@@ -30,9 +30,18 @@ std::vector<SceneContact> tip_contacts(const Scene& scene) {
   return contacts;
 }
 
-}  // namespace
+// Each first direction begins a contact.
+void number_contacts(std::vector<SceneContact>& contacts) {
+  for (std::size_t from = 0, to = 0, number = 1; from < contacts.size(); from = to, ++number) {
+    for (to = from + 1; to < contacts.size() && contacts[to].place > 0;) ++to;
+    for (std::size_t i = from; i < to; ++i) {
+      contacts[i].number = static_cast<int>(number);
+      contacts[i].directions = static_cast<int>(to - from);
+    }
+  }
+}
 
-std::vector<SceneContact> contact_places(const Scene& scene) {
+std::vector<SceneContact> unnumbered_places(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.type == StructureType::bar) return std::vector<SceneContact>(1);
   if (structure.type == StructureType::blade) return tip_contacts(scene);
@@ -52,8 +61,6 @@ std::vector<SceneContact> contact_places(const Scene& scene) {
   return contacts;
 }
 
-namespace {
-
 // The number of tangents of a contact with friction.
 int tangents_of(const Scene& scene, const SceneContact& contact) {
   if (!contact.pair) return 1;
@@ -64,7 +71,34 @@ int tangents_of(const Scene& scene, const SceneContact& contact) {
 
 int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
 
-int contact_count(const Scene& scene) { return static_cast<int>(contact_places(scene).size()); }
+std::vector<SceneContact> contact_places(const Scene& scene) {
+  std::vector<SceneContact> contacts = unnumbered_places(scene);
+  number_contacts(contacts);
+  return contacts;
+}
+
+int contact_count(const Scene& scene) { return static_cast<int>(unnumbered_places(scene).size()); }
+
+int whole_contact_count(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contact_places(scene);
+  return contacts.empty() ? 0 : contacts.back().number;
+}
+
+std::string direction_name(const SceneContact& contact) {
+  if (contact.directions == 1) return "";
+  if (contact.place == 0) return "normal";
+  return contact.directions == 2 ? "tangent" : "tangent " + std::to_string(contact.place);
+}
+
+bool has_directions(const std::vector<SceneContact>& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [](const SceneContact& one) { return one.directions > 1; });
+}
+
+std::string name_of(const SceneContact& contact) {
+  const std::string direction = direction_name(contact);
+  return "contact " + std::to_string(contact.number) + (direction.empty() ? "" : " " + direction);
+}
 
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap) {
   contact::LawValues taken;

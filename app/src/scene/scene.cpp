@@ -36,6 +36,9 @@ std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
 bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap(); }
 bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velocity; }
 bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
+bool acts_everywhere(std::string_view law) {
+  return law != no_law && !has_gap(law) && !has_friction(law) && acts_on_both_sides(law);
+}
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
 bool names_friction(const Contact& contact) {
   return has_friction(contact.law) ||

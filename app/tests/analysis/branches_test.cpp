@@ -216,7 +216,8 @@ TEST(SweepWithoutBranches, HasTheColumnsOfOneCurve) {
   EXPECT_EQ(record.sweep.columns(),
             (std::vector<std::string>{"frequency_Hz", "max_displacement_m", "rms_displacement_m",
                                       "min_displacement_m", "max_abs_displacement_m", "max_contact_force_N",
-                                      "contact_fraction", "unstable", "contacts"}));
+                                      "contact_fraction", "vibration_m", "rms_vibration_m", "unstable",
+                                      "contacts"}));
 }
 
 TEST(Sweep, WarnsThatMotionsBecomeQuasiPeriodicAtNeimarkSackerPoints) {

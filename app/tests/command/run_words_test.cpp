@@ -61,20 +61,7 @@ TEST(RunWords, WithoutAMotionNothingIsSaidToFollow) {
       one.value = unknown;
   const std::string text = joined(outcome_sentences(none, unknown));
   EXPECT_NE(text.find("There is no motion to show."), std::string::npos) << text;
-  EXPECT_EQ(text.find("What follows"), std::string::npos) << text;
-}
-
-TEST(RunWords, UnstablePartsEndAtTheSpecialPointsBetweenTheirPoints) {
-  Table curve;
-  curve.add_column("frequency_Hz", std::vector<double>{10, 11, 12, 13, 14})
-      .add_column("unstable", std::vector<double>{0, 1, 1, 0, 1});
-  Table points({"type", "frequency_Hz"});
-  points.append_row({std::string("grazing"), 10.2});
-  points.append_row({std::string("period_doubling"), 10.5});
-  points.append_row({std::string("period_doubling"), 12.25});
-  const Summary summary{{"stability", std::string("converged")}, {"special_points", points}};
-  const std::string text = joined(stability_sentences(summary, curve));
-  EXPECT_NE(text.find("unstable at 10.5 to 12.25 Hz, 14 Hz."), std::string::npos) << text;
+  EXPECT_EQ(text.find("is not a solution"), std::string::npos) << text;
 }
 
 TEST(RunWords, WordsOfModesAreExplainedWhereTheyStand) {
@@ -93,7 +80,7 @@ TEST(RunWords, WordsOfModesAreExplainedWhereTheyStand) {
   Table points({"type", "frequency_Hz"});
   points.append_row({std::string("krein_collision"), 2.0});
   const std::string stability =
-      joined(stability_sentences({{"stability", std::string("converged")}, {"special_points", points}}, {}));
+      joined(stability_sentences({{"stability", std::string("converged")}, {"special_points", points}}));
   EXPECT_NE(
       stability.find("Krein collisions, where two pairs of multipliers meet on the unit circle and leave it"),
       std::string::npos)
@@ -141,14 +128,21 @@ TEST(RunWords, SpecialPointsAreThoseOfTheStructureWhereItsWholeCurveIsKnown) {
   }
 }
 
-TEST(RunWords, UnstablePartsOfACurveAreNamedInTheirOrder) {
-  Table curve({"frequency_Hz", "unstable"});
-  for (const auto& [frequency, unstable] :
-       {std::pair{10.0, 0.0}, {11.0, 1.0}, {10.5, 1.0}, {10.2, 0.0}, {12.0, unknown}, {13.0, 2.0}})
-    curve.append_row({frequency, unstable});
-  const std::string text = joined(stability_sentences({{"stability", std::string("converged")}}, curve));
-  EXPECT_NE(text.find("unstable at 11 to 10.5 Hz, 13 Hz."), std::string::npos) << text;
-  EXPECT_NE(text.find("not known at 1 of 6 points"), std::string::npos) << text;
+TEST(RunWords, UnstablePartsOfACurveAndOfItsBranchesAreNamed) {
+  Table parts({"branch", "begin_Hz", "end_Hz"});
+  parts.append_row({std::int64_t{0}, 11.0, 10.5});
+  parts.append_row({std::int64_t{0}, 13.0, 13.0});
+  parts.append_row({std::int64_t{2}, 11.5, 11.75});
+  const std::string text =
+      joined(stability_sentences({{"stability", std::string("partly_known")},
+                                  {"points", std::int64_t{6}},
+                                  {"points_stability_not_known", std::int64_t{1}},
+                                  {"stability_not_known", std::string("too_few_samples")},
+                                  {"unstable_parts", parts}}));
+  for (const char* words : {"Along the curve motions are unstable at 11 to 10.5 Hz, 13 Hz.",
+                            "Along branch 2 motions are unstable at 11.5 to 11.75 Hz.",
+                            "Stability is known at 5 of 6 points. Where contact has just begun"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
 }  // namespace

@@ -22,14 +22,16 @@ TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
     for (const Panel& panel : figure.panels) {
       double shaded = 0.0, in_contact = 0.0;
       for (const Rectangle& one : panel.rectangles) {
-        EXPECT_GE(one.x1, 0.0);
-        EXPECT_LE(one.x2, 1.0);
+        EXPECT_GE(one.x1, panel.x.lower.value());
+        EXPECT_LE(one.x2, panel.x.upper.value());
         shaded += one.x2 - one.x1;
       }
       if (response.phases)
         for (const solvers::ContactPhase& phase : response.phases->motion.phases)
           in_contact += phase.length();
       EXPECT_NEAR(shaded, in_contact, 1e-12);
+      // The interval of contact is not cut by the edges of the picture.
+      EXPECT_EQ(panel.rectangles.size(), phases ? response.phases->motion.phases.size() : 0u);
       EXPECT_EQ(in_contact > 0.0, phases);
       EXPECT_EQ(panel.x.label.find("shaded") != std::string::npos, in_contact > 0.0);
     }

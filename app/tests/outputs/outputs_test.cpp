@@ -78,10 +78,10 @@ TEST_F(ChainOutputs, OfContactsAreTheirOwnExtremesMeansAndForces) {
   ASSERT_TRUE(record.converged);
   const auto column = [&](const std::string& name) { return record.sweep.numbers(name); };
   const std::vector<double> largest = column("max_displacement_m"), force = column("max_contact_force_N"),
-                            first = column("contact_1_max_m"), second = column("contact_2_max_m");
+                            first = column("contact_1_max_m"), second = column("contact_2_max_rad");
   for (std::size_t i = 0; i < largest.size(); ++i) {
     EXPECT_EQ(std::max(first[i], second[i]), largest[i]);
-    EXPECT_NEAR(column("contact_2_half_peak_to_peak_m")[i], 0.5 * (second[i] - column("contact_2_min_m")[i]),
+    EXPECT_NEAR(column("contact_2_half_peak_to_peak_rad")[i], 0.5 * (second[i] - column("contact_2_min_rad")[i]),
                 1e-18);
   }
   EXPECT_GT(force.back() + *std::max_element(force.begin(), force.end()), 0.0);
@@ -133,7 +133,7 @@ TEST_F(ChainOutputs, OfAResponseAreItsMotionOverThePeriod) {
   const Record record = analyse(load({"analysis.outputs=[\"node 20 z\"]", "analysis.contact_outputs=true"}));
   ASSERT_TRUE(record.converged);
   EXPECT_EQ(record.outputs.columns(),
-            (std::vector<std::string>{"time_fraction", "node_20_z_m", "contact_1_m", "contact_2_m"}));
+            (std::vector<std::string>{"time_fraction", "node_20_z_m", "contact_1_m", "contact_2_rad"}));
   const std::vector<double> node = record.outputs.numbers("node_20_z_m"),
                             contact = record.outputs.numbers("contact_1_m");
   for (std::size_t i = 0; i < node.size(); ++i) EXPECT_NEAR(node[i], contact[i], 1e-12);

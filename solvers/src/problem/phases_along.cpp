@@ -10,21 +10,22 @@ namespace wavebalance::solvers {
 namespace {
 
 PointPhases phases_at(ContactProblem& problem, const FrequencySweep& curve, const CurvePlace& place,
-                      const CurvePhasesOptions& options) {
+                      const CurvePhasesOptions& options, bool kept) {
   const PeriodicResponse response = problem.response(curve, place.value, place.unknown);
   const ResponsePhases found = near_phases(problem, response, options).value();
-  PointPhases result{found.motion.status, found.displacement_error, found.force_error, {}, 0};
+  PointPhases result{found.motion.status, found.displacement_error, found.force_error, {}, 0, {}};
+  if (kept && found.motion.parts != nullptr) result.motion = found.motion;
   if (options.stability && found.motion.converged())
     result.stability = problem.stability(response, &found.motion);
   return result;
 }
 
 PointPhases phases_near(ContactProblem& problem, const FrequencySweep& curve,
-                        const std::vector<CurvePlace>& places, const CurvePhasesOptions& options) {
-  const PointPhases first = phases_at(problem, curve, places.front(), options);
+                        const std::vector<CurvePlace>& places, const CurvePhasesOptions& options, bool kept) {
+  const PointPhases first = phases_at(problem, curve, places.front(), options, kept);
   if (first.status != PhasesStatus::not_found) return first;
   for (std::size_t i = 1; i < places.size(); ++i) {
-    PointPhases other = phases_at(problem, curve, places[i], options);
+    PointPhases other = phases_at(problem, curve, places[i], options, kept);
     other.place = i;
     if (other.status != PhasesStatus::not_found) return other;
   }
@@ -66,7 +67,8 @@ CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
   const auto work = [&](int worker, Eigen::Index index) {
     if (cancelled) return;
     const auto i = static_cast<std::size_t>(index);
-    result.points[i] = phases_near(problems[static_cast<std::size_t>(worker)], curve, places[i], options);
+    result.points[i] =
+        phases_near(problems[static_cast<std::size_t>(worker)], curve, places[i], options, options.kept == i);
     ++found;
     if (worker == 0) tell(places[i].front().value);
   };

@@ -328,6 +328,17 @@ FrequencySweep sweep_from(CondensedProblem& problem, const ContactLaws& laws,
 
 }  // namespace
 
+Vibration largest_vibration(const Eigen::MatrixXd& displacements) {
+  Vibration most;
+  for (Eigen::Index row = 0; row < displacements.rows(); ++row) {
+    const auto u = displacements.row(row);
+    const double rms = (u.array() - u.mean()).matrix().stableNorm() / std::sqrt(double(u.size()));
+    most.half_peak_to_peak = std::max(most.half_peak_to_peak, 0.5 * (u.maxCoeff() - u.minCoeff()));
+    most.rms = std::max(most.rms, rms);
+  }
+  return most;
+}
+
 SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const CurvePoint& point,
                        SweepParameter parameter) {
   CondensedProblem& problem = system.problem();
@@ -350,6 +361,9 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
     measured.rms_displacement = std::max(measured.rms_displacement, u.norm() / std::sqrt(double(u.size())));
     measured.max_abs_displacement = std::max(measured.max_abs_displacement, u.cwiseAbs().maxCoeff());
     measured.min_displacement = std::min(measured.min_displacement, u.minCoeff());
+    const Vibration vibration = largest_vibration(u.transpose());
+    measured.vibration = std::max(measured.vibration, vibration.half_peak_to_peak);
+    measured.rms_vibration = std::max(measured.rms_vibration, vibration.rms);
     const auto force = system.force().segment(c * problem.points(), problem.points());
     measured.contact_fraction =
         std::max(measured.contact_fraction, (force.array() != 0.0).cast<double>().mean());

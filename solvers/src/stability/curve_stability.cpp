@@ -291,6 +291,7 @@ class Tracker {
       const Eigen::VectorXd u = evaluator_(at.coefficients.col(c));
       point.max_displacement = std::max(point.max_displacement, u.maxCoeff());
       point.max_abs_displacement = std::max(point.max_abs_displacement, u.cwiseAbs().maxCoeff());
+      point.vibration = std::max(point.vibration, 0.5 * (u.maxCoeff() - u.minCoeff()));
     }
     return point;
   }

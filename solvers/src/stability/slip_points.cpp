@@ -178,6 +178,7 @@ class SlipFinder {
       const Eigen::VectorXd u = evaluator_(at.coefficients.col(c));
       point.max_displacement = std::max(point.max_displacement, u.maxCoeff());
       point.max_abs_displacement = std::max(point.max_abs_displacement, u.cwiseAbs().maxCoeff());
+      point.vibration = std::max(point.vibration, 0.5 * (u.maxCoeff() - u.minCoeff()));
     }
     found_.push_back(std::move(point));
   }

@@ -11,12 +11,14 @@ namespace wavebalance::app {
 
 /// What a contact with friction does in a period of its motion.
 struct FrictionMeasures {
-  int row = 0;  ///< the first of its directions of contact, from 0
+  int row = 0;     ///< the first of its directions of contact, from 0
+  int number = 1;  ///< SceneContact::number
   contact::CoulombLaw law;
   contact::FrictionPeriod period;                                         ///< at the instants of the motion
   double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
-  double slip = 0.0;  ///< m, the distance that the slider moves in the period
-  double wear = 0.0;  ///< m^3 per period [Archard]; 0 without a coefficient
+  double slip = 0.0;   ///< m, the distance that the slider moves in the period
+  double wear = 0.0;   ///< m^3 per period [Archard]; 0 without a coefficient and where it sticks
+  bool wears = false;  ///< whether its law has a coefficient of wear
 };
 
 /// The measures of all contacts with friction along a motion of one period, whose rows are the directions of

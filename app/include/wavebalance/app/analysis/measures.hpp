@@ -25,10 +25,16 @@ double energy_norm(const Scene& scene, const solvers::Motion& motion);
 
 /// Share of the samples with a contact force.
 double contact_fraction(const solvers::Motion& motion);
+/// The share of the period in which the contact of direction `row` is closed: of friction while it sticks or
+/// slips, also where its force is zero. NaN of a spring that acts everywhere, which is never open.
+double contact_fraction(const Scene& scene, const solvers::Motion& contacts, int row);
 
 /// The contact with the largest force; without any force, the one that comes nearest to its gap (m, one per
 /// contact). From 0; 0 of an empty motion.
 int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps);
+/// The same of a scene: where that is a direction of a contact with tangents, the one of them that vibrates
+/// most, since a static normal displacement shows no motion.
+int leading_contact(const Scene& scene, const solvers::Motion& contacts, const Eigen::VectorXd& gaps);
 
 /// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
 /// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not

@@ -23,6 +23,7 @@ namespace wavebalance::app {
 struct PointImpacts {
   int count = 0;                 ///< in the period of the motion
   double largest_impulse = 0.0;  ///< N s
+  double largest_speed = 0.0;    ///< m/s, before an impact
   double energy_lost = 0.0;      ///< J in a period of the load
 };
 

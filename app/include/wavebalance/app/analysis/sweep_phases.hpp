@@ -15,7 +15,7 @@ inline constexpr std::size_t most_special_points_with_phases = 24;
 struct SweepPhases {
   using Point = std::optional<solvers::PointPhases>;
 
-  Point peak;                         ///< of the main curve
+  Point peak;                         ///< of the main curve, with its motion
   std::vector<Point> special_points;  ///< one for each of CurveStability::special_points
   std::vector<Point> points;          ///< one for each point of the curve with analysis.phases; else none
 };
@@ -40,5 +40,12 @@ StabilityAlong stability_along(const solvers::CurveStability& balance, const Swe
 
 /// The index of the point with the largest displacement, of a curve with points.
 std::size_t peak_of(const solvers::FrequencySweep& curve);
+/// The index of the point that vibrates most.
+std::size_t vibration_peak_of(const solvers::FrequencySweep& curve);
+
+/// The relative error of the vibration, half the peak-to-peak value, at the peak of a curve against the
+/// motion of the structure near it; NaN where that is not known there.
+double error_of_vibration(const solvers::FrequencySweep& curve, const SweepPhases::Point& peak,
+                          int output_points);
 
 }  // namespace wavebalance::app

@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,20 @@ struct Output {
   std::string column;      ///< the name as that of a column begins, "minus_row_17"
   std::string unit = "m";  ///< or "rad" of a rotation
   int dof = 0;             ///< as in analysis.outputs; 0 of a contact
-  int contact = -1;        ///< from 0; -1 of a degree of freedom
+  int contact = -1;        ///< the direction of contact, from 0; -1 of a degree of freedom
+  /// The direction whose force tells whether that contact is closed, the normal one where it has tangents; -1
+  /// where it never opens.
+  int closed_by = -1;
 
   bool is_contact() const { return contact >= 0; }
 };
 
 /// analysis.outputs of a scene and, with analysis.contact_outputs, its contacts after them.
 std::vector<Output> outputs_of(const Scene& scene);
+
+/// The index of the output that was asked for first: that of analysis.peak_of, else the first of
+/// analysis.outputs; none where contacts alone are outputs.
+std::optional<std::size_t> leading_output(const std::vector<Output>& outputs, const Scene& scene);
 
 /// outputs x r: the displacements of degrees of freedom from the coordinates of the structure that is solved;
 /// zero rows of contacts. O(outputs r).

@@ -19,7 +19,7 @@ struct OutputMeasures {
   double rms = std::numeric_limits<double>::quiet_NaN();        ///< of the vibration, without its mean
   Eigen::VectorXcd harmonics = {};                              ///< of the load, from 1: moduli and phases
   double max_force = std::numeric_limits<double>::quiet_NaN();  ///< N, of a contact
-  double contact_fraction = std::numeric_limits<double>::quiet_NaN();  ///< of a contact
+  double contact_fraction = std::numeric_limits<double>::quiet_NaN();  ///< of a contact that opens
 
   double half_peak_to_peak() const { return 0.5 * (max - min); }
 };
@@ -43,15 +43,22 @@ struct SweepOutputs {
   std::vector<Output> outputs;
   std::vector<std::vector<MeasuredPoint>> curves;  ///< of the curve, then of each branch
   std::vector<std::vector<MeasuredPoint>> isolas;  ///< of each isola
+  MeasuredPoint exact_at_peak = {};  ///< of the exact motion at the peak of the curve; empty where not known
 
   bool empty() const { return outputs.empty(); }
 };
 
 /// Measures the outputs of a scene at each point of a sweep of it, of its branches and of its isolas, and
 /// sets the sweep's peak where analysis.peak_of names one. Nothing without outputs. A condensation for each
-/// point. An observer that stops it leaves the other points unmeasured.
+/// point. The points of a curve that was interrupted are solutions, and all of them are measured; otherwise
+/// an observer that stops it leaves the other points unmeasured.
 SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sweep& sweep,
                              const Observer& observer = {});
+
+/// The outputs of the exact motion near a response of a balance; empty where that is not known. A
+/// condensation.
+MeasuredPoint exact_outputs(const Scene& scene, const StructureModel& model, const Response& response,
+                            const std::vector<Output>& outputs);
 
 /// Names of the columns of one output, and its cells; not numbers without measures.
 std::vector<std::string> columns_of(const Output& output, int harmonics);

@@ -8,8 +8,9 @@ namespace wavebalance::app {
 /// time_fraction, displacement_m, velocity_m_per_s, contact_force_N of one contact, 1 x points each.
 Table response_table(const solvers::Motion& contact);
 
-/// time_fraction, contact (from 1), displacement_m, contact_force_N: every contact at every time.
-Table contacts_table(const solvers::Motion& contacts);
+/// time_fraction, contact (from 1), displacement_m, contact_force_N: every contact at every time, and of
+/// contacts with several directions a row for each, which the column `direction` names.
+Table contacts_table(const Scene& scene, const solvers::Motion& contacts);
 
 /// The table of a frequency sweep's record.
 Table sweep_table(const solvers::FrequencySweep& curve);

@@ -14,7 +14,9 @@ struct SceneContact {
   std::vector<int> dofs = {};  ///< rows of matrices, from 1; empty at a bar's tip and along a blade's
   std::vector<double> coefficients = {};  ///< one for each of dofs, with the sign of the obstacle's side
   std::optional<std::size_t> pair = {};   ///< the entry of [[contact.pairs]], from 0
-  int place = 0;  ///< among the directions of its contact, from 0
+  int place = 0;                          ///< among the directions of its contact, from 0
+  int number = 1;      ///< of its contact, from 1: the one number that files, pages and messages have
+  int directions = 1;  ///< of its contact
   std::string law{no_law};
   contact::LawValues values = {};  ///< of this law alone, its gap included
   double gap = 0.0;                ///< m; without meaning where the law has no gap
@@ -23,15 +25,24 @@ struct SceneContact {
   bool same_law(const SceneContact& other) const { return law == other.law && values == other.values; }
 };
 
-/// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a bar or blade,
-/// then those of [[contact.pairs]], of which one with obstacles on both sides has two, the positive one
-/// first. Throws std::invalid_argument for another number of gaps than one, or one each.
+/// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a
+/// bar or blade, then those of [[contact.pairs]], of which one with obstacles on both sides has two, the
+/// positive one first. Throws std::invalid_argument for another number of gaps than one, or one each.
 std::vector<SceneContact> contacts_of(const Scene& scene);
 
 /// The same without laws and gaps.
 std::vector<SceneContact> contact_places(const Scene& scene);
 /// Their number, which does not depend on laws and gaps.
 int contact_count(const Scene& scene);
+/// The number of contacts, of which one with a normal direction and tangents is one.
+int whole_contact_count(const Scene& scene);
+
+/// "normal", "tangent" or "tangent 2"; empty for the only direction of its contact.
+std::string direction_name(const SceneContact& contact);
+/// Whether a contact has several.
+bool has_directions(const std::vector<SceneContact>& contacts);
+/// "contact 2", "contact 2 tangent".
+std::string name_of(const SceneContact& contact);
 
 /// The gap of all contacts; NaN where they differ or one has none.
 double common_gap(const Scene& scene);

@@ -168,6 +168,8 @@ bool has_gap(std::string_view law);
 bool is_damped(std::string_view law);
 /// Whether it is a spring that may act below its gap, too.
 bool acts_on_both_sides(std::string_view law);
+/// Whether it is a spring without a gap, which no motion opens.
+bool acts_everywhere(std::string_view law);
 /// Whether its force beyond the gap is infinite.
 bool is_rigid(std::string_view law);
 /// Whether its force follows from the motion over a whole period: friction.

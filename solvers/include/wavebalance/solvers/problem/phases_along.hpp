@@ -20,6 +20,8 @@ struct PointPhases {
   /// That of the motion of the structure, with CurvePhasesOptions::stability and where it has converged.
   std::optional<MotionStability> stability{};
   std::size_t place = 0;  ///< which of the solutions that were tried it is near to
+  /// The motion itself at CurvePhasesOptions::kept, where it was found.
+  std::optional<PhaseMotion> motion{};
 };
 
 /// What is found along a curve, and on how many threads.
@@ -27,9 +29,10 @@ struct CurvePhasesOptions {
   ContactPhasesOptions phases{};
   /// Largest ResponsePhases::displacement_error. A motion farther away is another one, and none is near.
   double max_distance = 0.1;
-  bool stability = true;  ///< of the motions found
-  int threads = 1;        ///< that take the solutions one by one; 0: one per core
-  Observer observer{};    ///< called by the caller's thread alone
+  bool stability = true;              ///< of the motions found
+  std::optional<std::size_t> kept{};  ///< the entry of which the motion is kept, too
+  int threads = 1;                    ///< that take the solutions one by one; 0: one per core
+  Observer observer{};                ///< called by the caller's thread alone
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

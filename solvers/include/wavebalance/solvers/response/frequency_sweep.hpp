@@ -40,10 +40,19 @@ struct SweepPoint {
   bool grazing = false;               ///< a sample reaches its gap, so that the law's slope jumps
   Eigen::VectorXd unknown;            ///< PeriodicResponse::unknown; empty unless keep_unknowns
   double load_scale = 1.0;            ///< CondensedProblem::load_scale()
+  double vibration = 0.0;             ///< m, half the peak-to-peak value
+  double rms_vibration = 0.0;         ///< m, rms without the mean
 };
 
 /// What varies along a curve.
 enum class SweepParameter { frequency, load_scale };
+
+/// Half the peak-to-peak value, and the rms without the mean, of the row of displacements (rows x points)
+/// that vibrates most. 0 without rows.
+struct Vibration {
+  double half_peak_to_peak = 0.0, rms = 0.0;
+};
+Vibration largest_vibration(const Eigen::MatrixXd& displacements);
 
 /// The arc length's parameter of that kind.
 const CurveParameter& curve_parameter(SweepParameter parameter);

@@ -44,6 +44,7 @@ struct SpecialPoint {
   double unknown_parameter = 0.0;     ///< the frequency (Hz) or load scale at that end
   double load_scale = 1.0;            ///< in the middle of the bracket, whose width is then in its unit
   std::size_t next_point = 0;         ///< index of the first point of a response curve behind it
+  double vibration = 0.0;             ///< m, as in SweepPoint
 };
 
 /// How the stability of a curve is found.

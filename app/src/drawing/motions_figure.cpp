@@ -1,0 +1,65 @@
+#include "drawing/motions_figure.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr std::size_t most_motions = 8;
+
+/// A row of samples once around.
+Eigen::VectorXd once_around(const Eigen::MatrixXd& rows, int row, double factor) {
+  Eigen::VectorXd values(rows.cols() + 1);
+  values << factor * rows.row(row).transpose(), factor * rows(row, 0);
+  return values;
+}
+
+Series look(Series series, const FoundMotion& motion, std::size_t number) {
+  const std::string periods =
+      motion.found.periods == 1 ? "" : ", " + std::to_string(motion.found.periods) + " periods";
+  series.label = "motion " + std::to_string(number + 1) + periods + ", " + motion.found.stability.status;
+  if (motion.found.stability.unstable > 0) series.dash = Dash::dashed;
+  return series;
+}
+
+}  // namespace
+
+Figure motions_figure(const Scene& scene, const Motions& all) {
+  Figure figure;
+  if (all.motions.empty()) return figure;
+  const std::size_t count = std::min(all.motions.size(), most_motions);
+  const int row = all.motions.front().contact;
+  double reach = 0.0, fastest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    reach = std::max(reach, all.motions[i].contacts.displacement.row(row).cwiseAbs().maxCoeff());
+    fastest = std::max(fastest, all.motions[i].contacts.velocity.row(row).cwiseAbs().maxCoeff());
+  }
+  const Scale length = axis_scale(reach), speed = axis_scale(fastest);
+  const std::vector<SceneContact> contacts = contact_places(scene);
+  const std::string name = contacts.size() > 1 ? " of " + name_of(contacts[std::size_t(row)]) : "";
+  figure.title = all.motions.size() > count ? "The first " + std::to_string(count) + " motions" : "";
+  figure.panel_width = 600;
+  figure.panel_height = 320;
+  Panel over_time, portrait;
+  over_time.title = "Displacement" + name;
+  over_time.x.label = "Time (periods of the load)";
+  over_time.y.label = portrait.x.label = "Displacement (" + length.prefix + "m)";
+  portrait.title = "Velocity over displacement";
+  portrait.y.label = "Velocity (" + speed.prefix + "m/s)";
+  for (std::size_t i = 0; i < count; ++i) {
+    const FoundMotion& motion = all.motions[i];
+    const Eigen::VectorXd u = once_around(motion.contacts.displacement, row, length.factor),
+                          v = once_around(motion.contacts.velocity, row, speed.factor);
+    const Eigen::VectorXd periods = Eigen::VectorXd::LinSpaced(u.size(), 0.0, motion.found.periods);
+    over_time.add(look(Series("", periods, u), motion, i));
+    portrait.add(look(Series("", u, v), motion, i));
+  }
+  figure.panels = {std::move(over_time), std::move(portrait)};
+  return figure;
+}
+
+}  // namespace wavebalance::app
