@@ -1,0 +1,90 @@
+#pragma once
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/flow/law_machine.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::solvers {
+
+/// How a motion in time ended.
+enum class FlowStatus {
+  converged,        ///< it reached its end
+  step_failure,     ///< no forces of the laws were found on a panel, or the shortest does not resolve them
+  endless_events    ///< more and more events in a vanishing time
+};
+
+std::string_view to_string(FlowStatus status);
+
+struct FlowOptions {
+  int panels = 16;          ///< of a period, at least, where forces are resolved
+  double tolerance = 1e-9;  ///< of forces on a panel, relative to the largest
+  /// Below this share of the fastest impact of a contact one has no rebound, so that contact with restitution
+  /// comes to rest after finitely many.
+  double rest_velocity = 1e-6;
+
+  /// Throws std::invalid_argument for a number out of its range.
+  void validate() const;
+};
+
+/// A change of the state of a contact.
+struct FlowEvent {
+  double time = 0.0;  ///< s, from the beginning of the period
+  int contact = 0;    ///< number of the machine
+  int from = 0, to = 0;
+  double impulse = 0.0;  ///< N s
+  double speed = 0.0;    ///< m/s, before an impact
+};
+
+/// The contacts at a time, R rows.
+struct FlowSample {
+  double time = 0.0;  ///< s
+  Eigen::VectorXd displacement, velocity, force;  ///< m, m/s, N
+};
+
+/// Motions in time of a linear structure whose contacts are machines of states: between events, at which a state
+/// ends, forces are polynomials on panels, so that the motion is exact to the tolerance; impulses act at events.
+/// Laws of all kinds may act side by side. A perturbation can be taken along: over panels by the slopes of the
+/// laws, through events by saltation [R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth
+/// Mechanical Systems, 2004].
+///
+/// O(poles q^2) for each panel and, where forces are unknown, O((rows q)^3) with q = 12.
+class ContactFlow {
+ public:
+  /// Keeps no reference to the problem. Throws std::invalid_argument as machines_of() does, for structural
+  /// damping, and where motions grow without contact.
+  explicit ContactFlow(const PhasesProblem& problem, const FlowOptions& options = {});
+  ~ContactFlow();
+  ContactFlow(ContactFlow&&) noexcept;
+
+  /// Begins at time 0 with contacts at rest where they touch nothing, as far as masses let them.
+  void start();
+  /// Begins at time 0 in a state, as of state(), with the discrete states of before.
+  void start(const Eigen::VectorXd& state);
+
+  /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period.
+  FlowStatus advance_period(int points = 0, const std::function<void(const FlowSample&)>& sample = {});
+
+  /// The states of all poles, then all memories; those without a meaning are zero.
+  Eigen::VectorXd state() const;
+  const std::vector<int>& contact_states() const;
+  const std::vector<ContactMachine>& machines() const;
+  /// Events of the last period.
+  const std::vector<FlowEvent>& events() const;
+  /// Impacts without rebound since they were below rest_velocity, in the last period.
+  int rests() const;
+  double period() const;  ///< s
+
+  /// Takes perturbations of state() along from here on: columns.
+  void perturb(const Eigen::MatrixXd& columns);
+  Eigen::MatrixXd perturbation() const;
+
+ private:
+  class Engine;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace wavebalance::solvers

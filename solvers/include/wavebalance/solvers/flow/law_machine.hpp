@@ -1,0 +1,88 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/flow/dual.hpp"
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+
+namespace wavebalance::solvers {
+
+/// What a law reads of its contact at an instant, of each of its rows, and its memories.
+struct LocalSignals {
+  std::span<const Dual> displacement;  ///< m
+  std::span<const Dual> velocity;      ///< m/s
+  std::span<const Dual> acceleration;  ///< m/s^2
+  std::span<const Dual> force;         ///< N
+  std::span<const Dual> memory;
+};
+
+/// The force of a row in a state: free, so that an equation determines it, or a sum of the other rows' forces
+/// and a constant.
+struct RowForce {
+  bool free = false;
+  std::array<double, 3> of_rows{};
+  double constant = 0.0;  ///< N
+};
+
+/// An impact: an impulse along a row that leaves it with -restitution times its velocity.
+struct Impulse {
+  int row = 0;
+  double restitution = 0.0;  ///< 0..1
+};
+
+/// A way out of a state: the states that it may lead to, the first one unless choose() says otherwise.
+struct StateExit {
+  std::vector<int> targets;
+  std::optional<Impulse> impulse{};
+};
+
+/// How a contact in a state is told in results.
+enum class ContactState { open, closed, stick, slip };
+
+/// A contact law as a machine of states. A state says which forces are free and the equations that determine
+/// them, and the exits by which it ends: each has a guard, positive within the state and zero at the instant,
+/// and sets the memories of the next state. A law of one's own derives from this class. Immutable.
+class LawMachine {
+ public:
+  virtual ~LawMachine() = default;
+
+  virtual int rows() const { return 1; }
+  virtual int memories() const { return 0; }
+  /// Whether its memories have a meaning in a state.
+  virtual bool remembers(int /*state*/) const { return false; }
+  virtual ContactState kind(int state) const = 0;
+  /// One per row.
+  virtual std::vector<RowForce> forces(int state) const = 0;
+  virtual std::vector<StateExit> exits(int state) const = 0;
+  /// Writes what must vanish, one value per free row in their order.
+  virtual void equations(int state, const LocalSignals& now, std::span<Dual> out) const = 0;
+  virtual Dual guard(int state, int exit, const LocalSignals& now) const = 0;
+  /// Writes the memories behind an exit, from the signals just before it.
+  virtual void remember(int /*state*/, int /*exit*/, const LocalSignals& /*now*/,
+                        std::span<Dual> /*out*/) const {}
+  /// The state behind an exit with several targets, from the signals just before, and behind the impulse
+  /// with the forces of before.
+  virtual int choose(int state, int exit, const LocalSignals& /*before*/,
+                     const LocalSignals& /*after*/) const {
+    return exits(state)[static_cast<std::size_t>(exit)].targets.front();
+  }
+  /// The state in which displacements at rest begin, and its memories.
+  virtual int start(std::span<const double> displacement, std::span<double> memory) const = 0;
+};
+
+/// The machine of a contact and its first row among the directions of the structure.
+struct ContactMachine {
+  std::shared_ptr<const LawMachine> law;
+  int row = 0;
+};
+
+/// The machines of the laws of a structure, in the order of its directions. `length` (m) is one that the
+/// motion has. Throws std::invalid_argument for friction with two tangents.
+std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
+                                        double length);
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,322 @@
+#include "wavebalance/solvers/flow/contact_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "flow/flow_engine.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/enum_table.hpp"
+#include "linalg/option_checks.hpp"
+#include "linalg/root.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using detail::force_kind;
+
+constexpr Index node_count = 12;
+
+// Closer at the beginning, where a state may end soon after an event.
+Eigen::VectorXd dense_points() {
+  constexpr int even = 33, close = 7;
+  std::vector<double> points;
+  for (int k = 0; k < even; ++k) points.push_back(-std::cos(std::numbers::pi * k / (even - 1)));
+  for (int k = 0; k < close; ++k) points.push_back(-1.0 + std::ldexp(1.0, -6 - 2 * k));
+  std::sort(points.begin(), points.end());
+  return Eigen::Map<const Eigen::VectorXd>(points.data(), Index(points.size()));
+}
+
+// The level of panels on which the fastest pole of weight turns by a limited angle.
+int coarsest_level(const detail::ContactPoles& poles, int panels) {
+  constexpr double angle = 10.0;  // rad in half a panel, for 33 even points
+  double half = 0.5 * poles.period() / panels;
+  int level = 0;
+  for (; half * poles.fastest() > angle && level < 20; half *= 0.5) ++level;
+  return level;
+}
+
+double length_of(const PhasesProblem& problem) {
+  const double free = problem.contact_free.size() == 0 ? 0.0 : problem.contact_free.rowwise().norm().maxCoeff();
+  return std::max({free, problem.laws.largest_gap(), 1e-300});
+}
+
+}  // namespace
+
+std::string_view to_string(FlowStatus status) {
+  using enum FlowStatus;
+  return detail::name_in<FlowStatus>(
+      {{converged, "converged"}, {step_failure, "step_failure"}, {endless_events, "endless_events"}}, status);
+}
+
+void FlowOptions::validate() const {
+  constexpr const char* who = "FlowOptions";
+  detail::require_at_least(who, "panels", panels, 1);
+  detail::require_positive(who, "tolerance", tolerance);
+  detail::require_positive(who, "rest_velocity", rest_velocity);
+}
+
+ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& options)
+    : options_(options),
+      poles_(problem.dynamics, problem.contact_free, problem.frequency),
+      machines_(machines_of(problem.laws, problem.dynamics, length_of(problem))),
+      contacts_(machines_),
+      nodes_(node_count),
+      dense_(dense_points()),
+      rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
+      coarsest_(coarsest_level(poles_, options.panels)),
+      fastest_(machines_.size(), 0.0) {
+  for (const int row : problem.laws.rigid(int(poles_.rows())))
+    if (!problem.laws[row].friction()) rest_position_[row] = std::min(0.0, problem.laws[row].gap());
+  start();
+}
+
+const detail::PanelShape& ContactFlow::Engine::shape(int level) {
+  auto& kept = shapes_[level];
+  if (!kept) {
+    const double half = std::ldexp(0.5 * poles_.period() / options_.panels, -level);
+    kept = std::make_unique<detail::PanelShape>(poles_, nodes_, half, dense_);
+  }
+  return *kept;
+}
+
+// The smallest states of the poles that hold the contacts.
+void ContactFlow::Engine::start() {
+  const Index rows = poles_.rows(), n = poles_.states();
+  const auto free = poles_.contact_free(Eigen::VectorXd::Zero(1));
+  const double rate = 2.0 * std::numbers::pi / poles_.period();
+  const Eigen::MatrixXcd unit = poles_.complex_of(Eigen::MatrixXd::Identity(n, n));
+  Eigen::MatrixXd held(2 * rows, n);
+  held << (poles_.outputs(0) * unit).real(), (poles_.outputs(1) * unit).real() / rate;
+  Eigen::VectorXd wanted(2 * rows);
+  wanted << rest_position_ - free[0].col(0), -free[1].col(0) / rate;
+  states_ = poles_.complex_of(detail::least_squares(held, wanted)).col(0);
+  now_.state.clear();
+  now_.memory.assign(std::size_t(contacts_.memories()), 0.0);
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const LawMachine& law = contacts_.law(c);
+    const std::span<const double> at(rest_position_.data() + contacts_.row(c), std::size_t(law.rows()));
+    now_.state.push_back(law.start(at, std::span<double>(now_.memory).subspan(std::size_t(contacts_.memory_begin(c)),
+                                                                             std::size_t(law.memories()))));
+  }
+  time_ = 0.0;
+  level_ = coarsest_;
+}
+
+void ContactFlow::Engine::start(const Eigen::VectorXd& state) {
+  states_ = poles_.complex_of(state.head(poles_.states())).col(0);
+  for (Index m = 0; m < contacts_.memories(); ++m) now_.memory[std::size_t(m)] = state[poles_.states() + m];
+  time_ = 0.0;
+}
+
+Eigen::VectorXd ContactFlow::Engine::state() const {
+  Eigen::VectorXd result(poles_.states() + contacts_.memories());
+  result << poles_.real_of(states_), Eigen::Map<const Eigen::VectorXd>(now_.memory.data(), contacts_.memories());
+  return result;
+}
+
+void ContactFlow::Engine::perturb(const Eigen::MatrixXd& columns) {
+  variation_ = detail::Variation(poles_.complex_of(columns.topRows(poles_.states())),
+                                 columns.bottomRows(contacts_.memories()));
+}
+
+Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
+  Eigen::MatrixXd result(poles_.states() + contacts_.memories(), variation_.poles().cols());
+  for (Index k = 0; k < result.cols(); ++k)
+    result.col(k) << poles_.real_of(variation_.poles().col(k)), variation_.memory().col(k);
+  return result;
+}
+
+// Forces of the laws on the next panel, short enough to resolve them.
+std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
+  constexpr int finest = 24;
+  for (; level_ <= finest; ++level_) {
+    const detail::PanelShape& panel = shape(level_);
+    detail::PanelForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
+    if (!found.converged || !found.force.allFinite()) continue;
+    const double rough = panel.unresolved(found.force, force_size_);
+    if (rough > options_.tolerance) continue;
+    force_size_ = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
+    if (rough < 0.01 * options_.tolerance) level_ = std::max(level_ - 1, coarsest_);
+    return Solved{&panel, std::move(found.force)};
+  }
+  return std::nullopt;
+}
+
+double ContactFlow::Engine::guard_at(const Solved& panel, Index c, int exit, double at) const {
+  const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), Eigen::VectorXd::Constant(1, at));
+  const detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
+  const detail::LocalValues local(contacts_, c, signals, 0, now_.memory);
+  return contacts_.law(c).guard(now_.state[std::size_t(c)], exit, local.signals()).value;
+}
+
+// Guards that vanish at the beginning, behind an event, count by their first clear value.
+std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense, Index c,
+                                                  int exit) {
+  constexpr double clear = 1e-11;
+  const int state = now_.state[std::size_t(c)];
+  const LawMachine& law = contacts_.law(c);
+  const Index first = panel.shape->nodes() + 1, count = dense_.size();
+  std::vector<double> g;
+  double first_rate = 0.0, largest_rate = 0.0;
+  double& size = size_[{c, 64 * state + exit}];
+  for (Index k = 0; k < count; ++k) {
+    const detail::LocalValues local(contacts_, c, dense, first + k, now_.memory);
+    const Dual guard = law.guard(state, exit, local.signals());
+    const double rate = detail::SlopeOfSignals{contacts_, c, guard, 0.0}.rate(dense, first + k);
+    g.push_back(guard.value);
+    if (k == 0) first_rate = rate;
+    largest_rate = std::max(largest_rate, std::abs(rate));
+    size = std::max(size, std::abs(guard.value));
+  }
+  const auto at = [&](double x) { return guard_at(panel, c, exit, x); };
+  const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > clear * size; };
+  std::size_t k = 0;
+  while (k < g.size() && !is_clear(k)) ++k;
+  if (k == g.size()) return std::nullopt;
+  if (g[k] < 0.0) {
+    if (k == 0 || first_rate <= 1e-9 * largest_rate) return -1.0;
+    double low = dense_[Index(k)];
+    while (at(low) <= 0.0) {
+      low = -1.0 + 0.5 * (low + 1.0);
+      if (low + 1.0 < 1e-13) return -1.0;
+    }
+    return detail::root(at, {low, at(low)}, {dense_[Index(k)], g[k]}, 1e-15);
+  }
+  std::size_t last = k;
+  for (; k < g.size(); ++k) {
+    if (!is_clear(k)) continue;
+    if (g[k] < 0.0) break;
+    last = k;
+  }
+  if (k == g.size()) return std::nullopt;
+  return detail::root(at, {dense_[Index(last)], g[last]}, {dense_[Index(k)], g[k]}, 1e-15);
+}
+
+std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel) {
+  const detail::Signals dense = motion(*panel.shape).at(panel.shape->waves(), panel.force);
+  std::optional<Hit> best;
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const int exits = int(contacts_.law(c).exits(now_.state[std::size_t(c)]).size());
+    for (int exit = 0; exit < exits; ++exit) {
+      const auto at = hit_of(panel, dense, c, exit);
+      if (at && (!best || *at < best->at)) best = Hit{*at, c, exit};
+    }
+  }
+  return best;
+}
+
+void ContactFlow::Engine::take_samples(const Solved& panel, double end, int points,
+                                       const std::function<void(const FlowSample&)>& sample) {
+  const double step = poles_.period() / points, until = time_ + panel.shape->half() * (end + 1.0);
+  std::vector<double> at;
+  for (; sampled_ < points && sampled_ * step < until; ++sampled_)
+    at.push_back(std::clamp((sampled_ * step - time_) / panel.shape->half() - 1.0, -1.0, 1.0));
+  if (at.empty()) return;
+  const Eigen::VectorXd points_here = Eigen::Map<const Eigen::VectorXd>(at.data(), Index(at.size()));
+  const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), points_here);
+  const detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
+  for (Index k = 0; k < points_here.size(); ++k)
+    sample({time_ + panel.shape->half() * (at[std::size_t(k)] + 1.0), signals[0].col(k), signals[1].col(k),
+            signals[force_kind].col(k)});
+}
+
+void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before) {
+  const Index c = hit.contact;
+  const LawMachine& law = contacts_.law(c);
+  const int state = now_.state[std::size_t(c)];
+  const StateExit exit = law.exits(state)[std::size_t(hit.exit)];
+  const detail::LocalValues local(contacts_, c, signals, 0, now_.memory);
+  FlowEvent event{.time = time_, .contact = int(c), .from = state};
+  std::optional<Dual> impulse;
+  detail::Signals after = signals;
+  Index row = 0;
+  if (exit.impulse) {
+    row = contacts_.row(c) + exit.impulse->row;
+    const Dual& speed = local.signals().velocity[std::size_t(exit.impulse->row)];
+    double& fastest = fastest_[std::size_t(c)];
+    fastest = std::max(fastest, speed.value);
+    const bool rests = exit.impulse->restitution > 0.0 && speed.value < options_.rest_velocity * fastest;
+    const double rebound = rests ? 0.0 : exit.impulse->restitution;
+    rests_ += rests;
+    impulse = (1.0 + rebound) / poles_.inverse_mass()(row, row) * speed;
+    event.impulse = impulse->value;
+    event.speed = speed.value;
+    const Eigen::VectorXcd left = poles_.inputs().col(row) * impulse->value;
+    states_ -= left;
+    for (int d = 0; d < detail::levels; ++d)
+      after[std::size_t(d)] -= (poles_.outputs(d) * left).real();
+    if (rebound == 0.0) after[1](row, 0) = 0.0;
+  }
+  int to = exit.targets.front();
+  if (exit.targets.size() > 1) {
+    const detail::LocalValues behind(contacts_, c, after, 0, now_.memory);
+    to = law.choose(state, hit.exit, local.signals(), behind.signals());
+  }
+  std::vector<Dual> memory;
+  if (law.remembers(to)) {
+    memory.resize(std::size_t(law.memories()));
+    law.remember(state, hit.exit, local.signals(), memory);
+  }
+  if (!variation_.empty()) {
+    const Dual guard = law.guard(state, hit.exit, local.signals());
+    variation_.through(contacts_, poles_, {c, guard, memory, impulse, row}, signals, before);
+  }
+  for (Index m = 0; m < law.memories(); ++m)
+    now_.memory[std::size_t(contacts_.memory_begin(c) + m)] = memory.empty() ? 0.0 : memory[std::size_t(m)].value;
+  now_.state[std::size_t(c)] = event.to = to;
+  events_.push_back(event);
+}
+
+FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const FlowSample&)>& sample) {
+  constexpr int most_idle = 16;
+  const auto panel = solve_next();
+  if (!panel) return FlowStatus::step_failure;
+  const double half = panel->shape->half(), until = (poles_.period() - time_) / half - 1.0;
+  const auto hit = first_hit(*panel);
+  const bool ends_state = hit && hit->at < until;
+  const double end = ends_state ? hit->at : std::min(1.0, until);
+  if (points > 0) take_samples(*panel, end, points, sample);
+  idle_ = end > -1.0 + 1e-12 ? 0 : idle_ + 1;
+  if (idle_ > most_idle) return FlowStatus::endless_events;
+  const detail::PoleWaves waves(poles_, nodes_, half, Eigen::VectorXd::Constant(1, end));
+  const detail::PanelMotion here = motion(*panel->shape);
+  const Eigen::VectorXcd next = here.state_at(waves, 0, panel->force);
+  if (!variation_.empty()) variation_.over(contacts_, now_, here, panel->force, waves, 0);
+  const detail::Signals signals = ends_state ? here.at(waves, panel->force) : detail::Signals{};
+  states_ = next;
+  time_ = end == until ? poles_.period() : time_ + half * (end + 1.0);
+  if (ends_state) change(*hit, signals, next);
+  return FlowStatus::converged;
+}
+
+FlowStatus ContactFlow::Engine::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
+  events_.clear();
+  rests_ = sampled_ = 0;
+  while (time_ < poles_.period())
+    if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
+  time_ = 0.0;
+  return FlowStatus::converged;
+}
+
+ContactFlow::ContactFlow(const PhasesProblem& problem, const FlowOptions& options) {
+  options.validate();
+  engine_ = std::make_unique<Engine>(problem, options);
+}
+ContactFlow::~ContactFlow() = default;
+ContactFlow::ContactFlow(ContactFlow&&) noexcept = default;
+void ContactFlow::start() { engine_->start(); }
+void ContactFlow::start(const Eigen::VectorXd& state) { engine_->start(state); }
+FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
+  return engine_->advance_period(points, sample);
+}
+Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
+const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }
+const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines(); }
+const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events(); }
+int ContactFlow::rests() const { return engine_->rests(); }
+double ContactFlow::period() const { return engine_->period(); }
+void ContactFlow::perturb(const Eigen::MatrixXd& columns) { engine_->perturb(columns); }
+Eigen::MatrixXd ContactFlow::perturbation() const { return engine_->perturbation(); }
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,112 @@
+#include "flow/contact_poles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+using Complex = std::complex<double>;
+
+bool is_pair(Complex exponent) { return exponent.imag() != 0.0; }
+
+// Zeros of moments that masses make, up to rounding.
+void clear_rounding(Eigen::MatrixXd& moment, const Eigen::MatrixXd& magnitude) {
+  constexpr double rounding = 1e-11;
+  for (Index i = 0; i < moment.size(); ++i)
+    if (std::abs(moment.data()[i]) < rounding * magnitude.data()[i]) moment.data()[i] = 0.0;
+}
+
+// Poles that decay within a radian make no ripple, and those without a share in the flexibility a small one.
+double fastest_turn(const Eigen::VectorXcd& exponents, const Eigen::MatrixXcd& outputs,
+                    const Eigen::MatrixXcd& inputs) {
+  constexpr double negligible = 1e-7;
+  const Eigen::ArrayXd share = outputs.cwiseAbs().colwise().maxCoeff().transpose().array() *
+                               inputs.cwiseAbs().rowwise().maxCoeff().array() /
+                               exponents.array().abs().max(1e-300);
+  double fastest = 0.0;
+  for (Index j = 0; j < exponents.size(); ++j)
+    if (share[j] > negligible * share.sum() && std::abs(exponents[j].imag()) > -exponents[j].real())
+      fastest = std::max(fastest, exponents[j].imag());
+  return fastest;
+}
+
+}  // namespace
+
+ContactPoles::ContactPoles(const ContactDynamics& dynamics, Eigen::MatrixXcd contact_free, double frequency)
+    : period_(1.0 / frequency),
+      holding_(dynamics.holding()),
+      contact_free_(std::move(contact_free)),
+      constant_(dynamics.constant()) {
+  if (dynamics.structurally_damped())
+    throw std::invalid_argument(
+        "ContactPoles: the structure has structural damping, which has no equation in time; the damping must "
+        "be viscous");
+  const Index count = Index(dynamics.poles().size()), rows = dynamics.contacts();
+  exponents_.resize(count);
+  inputs_.resize(count, rows);
+  outputs_[0].resize(rows, count);
+  for (Index j = 0; j < count; ++j) {
+    const ContactPole& pole = dynamics.poles()[std::size_t(j)];
+    exponents_[j] = pole.exponent;
+    states_ += is_pair(pole.exponent) ? 2 : 1;
+    inputs_.row(j) = pole.left.transpose();
+    outputs_[0].col(j) = (is_pair(pole.exponent) ? 2.0 : 1.0) * pole.residue * pole.shape;
+  }
+  for (std::size_t d = 1; d < levels; ++d) outputs_[d] = outputs_[d - 1] * exponents_.asDiagonal();
+  for (std::size_t i = 0; i < levels; ++i) {
+    moments_[i] = (outputs_[i] * inputs_).real();
+    clear_rounding(moments_[i], outputs_[i].cwiseAbs() * inputs_.cwiseAbs());
+  }
+  for (Index j = 0; j < count; ++j)
+    if (exponents_[j].real() > 1e-9 * std::abs(exponents_[j]))
+      throw std::invalid_argument(
+          "ContactPoles: motions of the structure grow without contact; its damping must not be negative");
+  fastest_ = fastest_turn(exponents_, outputs_[0], inputs_);
+}
+
+const Eigen::MatrixXd& ContactPoles::feed(int level, int k) const {
+  return k == level ? constant_ : moments_[std::size_t(level - 1 - k)];
+}
+
+std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::VectorXd& times) const {
+  std::array<Eigen::MatrixXd, levels> result;
+  const double rate = 2.0 * std::numbers::pi / period_;
+  Eigen::MatrixXcd waves(contact_free_.cols(), times.size());
+  for (Index k = 0; k < times.size(); ++k)
+    for (Index n = 0; n < contact_free_.cols(); ++n) waves(n, k) = std::polar(1.0, rate * double(n) * times[k]);
+  Eigen::MatrixXcd amplitudes = contact_free_;
+  for (auto& values : result) {
+    values = (amplitudes * waves).real();
+    for (Index n = 0; n < amplitudes.cols(); ++n) amplitudes.col(n) *= Complex(0.0, rate * double(n));
+  }
+  return result;
+}
+
+double ContactPoles::displacement_scale() const {
+  return contact_free_.size() == 0 ? 0.0 : contact_free_.rowwise().norm().maxCoeff();
+}
+
+Eigen::VectorXd ContactPoles::real_of(const Eigen::VectorXcd& states) const {
+  Eigen::VectorXd result(states_);
+  Index i = 0;
+  for (Index j = 0; j < poles(); ++j) {
+    result[i++] = states[j].real();
+    if (is_pair(exponents_[j])) result[i++] = states[j].imag();
+  }
+  return result;
+}
+
+Eigen::MatrixXcd ContactPoles::complex_of(const Eigen::MatrixXd& states) const {
+  Eigen::MatrixXcd result(poles(), states.cols());
+  Index i = 0;
+  for (Index j = 0; j < poles(); ++j) {
+    result.row(j) = states.row(i++).cast<Complex>();
+    if (is_pair(exponents_[j])) result.row(j) += Complex(0.0, 1.0) * states.row(i++).cast<Complex>();
+  }
+  return result;
+}
+
+}  // namespace wavebalance::solvers::detail

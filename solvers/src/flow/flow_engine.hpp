@@ -1,0 +1,72 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "flow/panel_equations.hpp"
+#include "flow/variation.hpp"
+#include "wavebalance/solvers/flow/contact_flow.hpp"
+
+namespace wavebalance::solvers {
+
+/// What ContactFlow keeps.
+class ContactFlow::Engine {
+ public:
+  Engine(const PhasesProblem& problem, const FlowOptions& options);
+
+  void start();
+  void start(const Eigen::VectorXd& state);
+  FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample);
+  Eigen::VectorXd state() const;
+  void perturb(const Eigen::MatrixXd& columns);
+  Eigen::MatrixXd perturbation() const;
+
+  const std::vector<ContactMachine>& machines() const { return machines_; }
+  const std::vector<int>& contact_states() const { return now_.state; }
+  const std::vector<FlowEvent>& events() const { return events_; }
+  int rests() const { return rests_; }
+  double period() const { return poles_.period(); }
+
+ private:
+  /// Where a guard vanishes on a panel.
+  struct Hit {
+    double at;  ///< -1..1
+    Index contact;
+    int exit;
+  };
+  /// A panel whose forces are known.
+  struct Solved {
+    const detail::PanelShape* shape;
+    Eigen::MatrixXd force;
+  };
+
+  detail::PanelMotion motion(const detail::PanelShape& shape) const { return {poles_, shape, time_, states_}; }
+  const detail::PanelShape& shape(int level);
+  std::optional<Solved> solve_next();
+  FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
+  std::optional<Hit> first_hit(const Solved& panel);
+  std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
+  double guard_at(const Solved& panel, Index c, int exit, double at) const;
+  void take_samples(const Solved& panel, double end, int points,
+                    const std::function<void(const FlowSample&)>& sample);
+  void change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before);
+
+  FlowOptions options_;
+  detail::ContactPoles poles_;
+  std::vector<ContactMachine> machines_;
+  detail::Contacts contacts_;
+  detail::LegendreNodes nodes_;
+  Eigen::VectorXd dense_, rest_position_;
+  std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
+
+  double time_ = 0.0, force_size_ = 0.0;
+  int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0;
+  Eigen::VectorXcd states_;
+  detail::ContactStates now_;
+  detail::Variation variation_;
+  std::vector<FlowEvent> events_;
+  std::vector<double> fastest_;                  // impact of each contact, m/s
+  std::map<std::pair<Index, int>, double> size_;  // of guards, by contact and state with exit
+};
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "flow/contact_poles.hpp"
+#include "phases/legendre_integrals.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// What poles and forces at q nodes become at N points of a panel [t, t + 2 h]: exp(r h (x + 1)), P x N, of each
+/// pole the response to node forces, N x q, s, and the first derivatives by time of the forces, N x q, 1/s^k.
+struct PoleWaves {
+  PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, double half, const Eigen::VectorXd& points);
+
+  Eigen::VectorXd points;
+  Eigen::MatrixXcd decay;
+  std::vector<Eigen::MatrixXcd> driven;
+  std::array<Eigen::MatrixXd, kinds - force_kind> forces;
+};
+
+/// Panels of one length: time [t, t + 2 h] in which the forces of R rows are polynomials through q Gauss nodes,
+/// R x q. The motion is then exact. Immutable but for influences, which are computed once.
+class PanelShape {
+ public:
+  /// Points: the nodes, the end, then `dense`.
+  PanelShape(const ContactPoles& poles, const LegendreNodes& nodes, double half, const Eigen::VectorXd& dense);
+
+  double half() const { return half_; }  ///< s
+  Index nodes() const { return nodes_.count(); }
+  const PoleWaves& waves() const { return waves_; }
+  /// Rq x Rq, row a q + n and column b q + m: the derivative of a level 0 to 2 at node n of row a by the force
+  /// at node m of row b.
+  const Eigen::MatrixXd& influence(int level) const;
+  /// The forces at the beginning of a panel by those at its nodes, q.
+  Eigen::VectorXd at_begin() const;
+  /// The share of the two last Legendre coefficients in the largest force, which tells whether the nodes resolve
+  /// it; `size` (N) is the least that counts.
+  double unresolved(const Eigen::MatrixXd& force, double size) const;
+
+ private:
+  const ContactPoles& poles_;
+  const LegendreNodes& nodes_;
+  double half_;
+  PoleWaves waves_;
+  mutable std::array<std::optional<Eigen::MatrixXd>, 3> influence_;
+};
+
+/// The motion on a panel of a shape that begins at a time with states of the poles, P, under forces, R x q.
+struct PanelMotion {
+  const ContactPoles& poles;
+  const PanelShape& shape;
+  double begin;  ///< s
+  const Eigen::VectorXcd& state;
+
+  /// Signals at the points of waves; law forces have the force of the holding springs back.
+  Signals at(const PoleWaves& waves, const Eigen::MatrixXd& force) const;
+  /// The states at point k of waves.
+  Eigen::VectorXcd state_at(const PoleWaves& waves, Index k, const Eigen::MatrixXd& force) const;
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,196 @@
+#include "flow/panel_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/dense.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// Kinds that a law reads, in the order of its gradient: u, v, a, f.
+constexpr std::array<int, 4> read_kinds{0, 1, 2, force_kind};
+
+bool needs_acceleration(const std::vector<std::vector<Dual>>& equations, const Contacts& contacts,
+                        const FreeForces& free) {
+  for (std::size_t e = 0; e < equations.size(); ++e) {
+    const int rows = contacts.law(free.rows[e].first).rows();
+    for (const Dual& value : equations[e])
+      for (int i = 0; i < rows; ++i)
+        if (value.slope[std::size_t(2 * rows + i)] != 0.0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Contacts::Contacts(std::vector<ContactMachine> machines) : machines_(std::move(machines)), memory_begins_{0} {
+  for (const ContactMachine& one : machines_) memory_begins_.push_back(memory_begins_.back() + one.law->memories());
+}
+
+LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point,
+                         const std::vector<double>& memory)
+    : rows_(std::size_t(contacts.law(c).rows())), memories_(std::size_t(contacts.law(c).memories())) {
+  int number = 0;
+  for (std::size_t k = 0; k < read_kinds.size(); ++k)
+    for (std::size_t i = 0; i < rows_; ++i)
+      values_[k][i] = Dual::signal(signals[std::size_t(read_kinds[k])](contacts.row(c) + Index(i), point), number++);
+  for (std::size_t j = 0; j < memories_; ++j)
+    memory_[j] = Dual::signal(memory[std::size_t(contacts.memory_begin(c)) + j], number++);
+}
+
+LocalSignals LocalValues::signals() const {
+  const auto of = [&](std::size_t k) { return std::span<const Dual>(values_[k].data(), rows_); };
+  return {of(0), of(1), of(2), of(3), std::span<const Dual>(memory_.data(), memories_)};
+}
+
+// Springs that hold the structure act on open contacts, too, so that all forces are then unknown.
+FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states, bool all) {
+  Index total = 0;
+  for (Index c = 0; c < contacts.count(); ++c) total += contacts.law(c).rows();
+  constant.setZero(total);
+  std::vector<std::pair<Index, RowForce>> given;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const auto forces = contacts.law(c).forces(states[std::size_t(c)]);
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      if (all || forces[i].free)
+        rows.emplace_back(c, contacts.row(c) + Index(i));
+      else
+        given.emplace_back(contacts.row(c) + Index(i), forces[i]);
+    if (all) continue;
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      if (!forces[i].free) constant[contacts.row(c) + Index(i)] = forces[i].constant;
+  }
+  combine.setZero(total, Index(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) combine(rows[k].second, Index(k)) = 1.0;
+  if (all) return;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const auto forces = contacts.law(c).forces(states[std::size_t(c)]);
+    for (std::size_t i = 0; i < forces.size(); ++i)
+      for (std::size_t k = 0; k < forces.size() && !forces[i].free; ++k)
+        combine.row(contacts.row(c) + Index(i)) += forces[i].of_rows[k] * combine.row(contacts.row(c) + Index(k));
+  }
+}
+
+std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now, bool all_free,
+                                             const Signals& signals, Index nodes) {
+  std::vector<std::vector<Dual>> equations;
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const int state = now.state[std::size_t(c)];
+    const auto forces = contacts.law(c).forces(state);
+    const auto own = std::size_t(std::count_if(forces.begin(), forces.end(), [](auto& f) { return f.free; }));
+    const std::size_t count = all_free ? forces.size() : own, first = equations.size();
+    if (count == 0) continue;
+    equations.resize(first + count, std::vector<Dual>(std::size_t(nodes)));
+    std::array<Dual, 3> values;
+    for (Index n = 0; n < nodes; ++n) {
+      const LocalValues local(contacts, c, signals, n, now.memory);
+      values.fill(Dual());
+      if (own > 0) contacts.law(c).equations(state, local.signals(), {values.data(), own});
+      std::size_t next = 0;
+      for (std::size_t i = 0, e = 0; i < forces.size(); ++i) {
+        if (!forces[i].free && !all_free) continue;
+        Dual& out = equations[first + e++][std::size_t(n)];
+        if (forces[i].free) {
+          out = values[next++];
+          continue;
+        }
+        out = local.signals().force[i] - forces[i].constant;
+        for (std::size_t k = 0; k < forces.size(); ++k) out.add(local.signals().force[k], -forces[i].of_rows[k]);
+      }
+    }
+  }
+  return equations;
+}
+
+double SlopeOfSignals::by(int kind, Index row) const {
+  const int rows = contacts.law(contact).rows();
+  const Index i = row - contacts.row(contact);
+  if (i < 0 || i >= rows) return 0.0;
+  const auto slope = [&](int k) { return value.slope[std::size_t(k * rows + int(i))]; };
+  switch (kind) {
+    case 0: return slope(0) + holding * slope(3);
+    case 1: return slope(1);
+    case 2: return slope(2);
+    default: return slope(3);
+  }
+}
+
+double SlopeOfSignals::by_memory(Index j) const {
+  return value.slope[std::size_t(4 * contacts.law(contact).rows() + int(j))];
+}
+
+double SlopeOfSignals::rate(const Signals& signals, Index point) const {
+  double sum = 0.0;
+  const int rows = contacts.law(contact).rows();
+  for (std::size_t k = 0; k < read_kinds.size(); ++k)
+    for (int i = 0; i < rows; ++i)
+      sum += value.slope[k * std::size_t(rows) + std::size_t(i)] *
+             signals[std::size_t(read_kinds[k] + 1)](contacts.row(contact) + i, point);
+  return sum;
+}
+
+Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& free, const PanelShape& shape,
+                                    const std::vector<std::vector<Dual>>& equations, double holding) {
+  const Index q = shape.nodes(), rows = free.constant.size();
+  const bool accelerations = needs_acceleration(equations, contacts, free);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Index(equations.size()) * q, rows * q);
+  for (std::size_t e = 0; e < equations.size(); ++e) {
+    const Index c = free.rows[e].first;
+    for (Index n = 0; n < q; ++n) {
+      const SlopeOfSignals slope{contacts, c, equations[e][std::size_t(n)], holding};
+      auto target = result.row(Index(e) * q + n);
+      for (Index r = contacts.row(c); r < contacts.row(c) + contacts.law(c).rows(); ++r) {
+        for (int d = 0; d < (accelerations ? 3 : 2); ++d)
+          if (const double s = slope.by(d, r); s != 0.0) target += s * shape.influence(d).row(r * q + n);
+        target[r * q + n] += slope.by(force_kind, r);
+      }
+    }
+  }
+  return result;
+}
+
+namespace {
+
+// Columns of all forces put together to those of free ones.
+Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_all.rows(), free.combine.cols() * q);
+  for (Index k = 0; k < free.combine.cols(); ++k)
+    for (Index b = 0; b < free.combine.rows(); ++b)
+      if (const double s = free.combine(b, k); s != 0.0)
+        result.middleCols(k * q, q) += s * by_all.middleCols(b * q, q);
+  return result;
+}
+
+}  // namespace
+
+PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                        double force_size) {
+  constexpr int most = 25;
+  constexpr double rounding = 1e-13, stalled = 1e-9;
+  const double holding = motion.poles.holding();
+  const FreeForces free(contacts, now.state, holding > 0.0);
+  const Index q = motion.shape.nodes(), count = Index(free.rows.size());
+  Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(count, q);
+  PanelForces result{free.constant.replicate(1, q), count == 0};
+  double last = 0.0;
+  for (int n = 0; n < most && !result.converged; ++n) {
+    const Signals signals = motion.at(motion.shape.waves(), result.force);
+    const auto equations = law_equations(contacts, now, holding > 0.0, signals, q);
+    Eigen::VectorXd residual(count * q);
+    for (Index e = 0; e < count; ++e)
+      for (Index k = 0; k < q; ++k) residual[e * q + k] = equations[std::size_t(e)][std::size_t(k)].value;
+    const Eigen::VectorXd step =
+        Lu<double>(by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q))
+            .solve(residual);
+    if (!step.allFinite()) return result;
+    for (Index e = 0; e < count; ++e) unknown.row(e) -= step.segment(e * q, q).transpose();
+    result.force = (free.combine * unknown).colwise() + free.constant;
+    const double size = std::max(force_size, unknown.cwiseAbs().maxCoeff()), change = step.cwiseAbs().maxCoeff();
+    result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
+    last = change;
+  }
+  return result;
+}
+
+}  // namespace wavebalance::solvers::detail

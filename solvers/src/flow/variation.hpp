@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "flow/panel_equations.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Perturbations of the states of the poles and of the memories, a column each, that are taken along a motion.
+class Variation {
+ public:
+  Variation() = default;
+  Variation(Eigen::MatrixXcd poles, Eigen::MatrixXd memory)
+      : poles_(std::move(poles)), memory_(std::move(memory)), delay_(Eigen::RowVectorXd::Zero(memory_.cols())) {}
+
+  bool empty() const { return poles_.cols() == 0; }
+  const Eigen::MatrixXcd& poles() const { return poles_; }
+  const Eigen::MatrixXd& memory() const { return memory_; }
+
+  /// Over a panel up to point k of `waves`, under the forces found in these states.
+  void over(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+            const Eigen::MatrixXd& force, const PoleWaves& waves, Index k);
+
+  /// What an exit of contact c changes, from signals just before it.
+  struct Event {
+    Index contact;
+    const Dual& guard;
+    const std::vector<Dual>& memory;  ///< behind it; empty where the next state has none
+    std::optional<Dual> impulse{};    ///< N s
+    Index impulse_row = 0;            ///< of the structure
+  };
+  /// Through an event at the end of that panel; signals has this one point, `before` the states of the poles
+  /// before the impulse.
+  void through(const Contacts& contacts, const ContactPoles& poles, const Event& event, const Signals& signals,
+               const Eigen::VectorXcd& before);
+
+ private:
+  /// The change of a local value, a row over the perturbations.
+  Eigen::RowVectorXd change(const Contacts& contacts, Index c, const Dual& value) const;
+
+  Eigen::MatrixXcd poles_;  // P x K
+  Eigen::MatrixXd memory_;  // memories x K
+  // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without springs.
+  std::array<Eigen::MatrixXd, 4> ends_;
+  // The change of an instant behind which the forces are not known yet.
+  Eigen::RowVectorXd delay_;
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,148 @@
+// Motions in time by events against event-driven integrations that share nothing with them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "linalg/index.hpp"
+#include "phases/phase_loads.hpp"
+#include "support/friction_table.hpp"
+#include "support/impact_table.hpp"
+#include "wavebalance/contact/linear_law.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/solvers/flow/periodic_flow.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using testing::FrictionRow;
+
+/// A structure under its cosine load, with laws, and what its contacts need.
+struct Vibrating {
+  Vibrating(const LinearStructure& linear, ContactLaws laws, double frequency)
+      : structure(linear), dynamics(structure), problem{dynamics, std::move(laws), {}, frequency} {
+    Eigen::VectorXcd cosine = Eigen::VectorXcd::Zero(2);
+    cosine[1] = 1.0;
+    problem.contact_free = detail::FreeContacts(structure, cosine, dynamics.holding()).at(frequency, 1.0);
+  }
+  FlowMotion motion(int points = 4096) const {
+    return integrate_by_events(problem, {.output_points = points, .period_tolerance = 1e-9});
+  }
+
+  LinearStructure structure;
+  ContactDynamics dynamics;
+  PhasesProblem problem;
+};
+
+std::complex<double> first_harmonic(const Eigen::MatrixXd& displacement, Index row) {
+  std::complex<double> sum = 0.0;
+  const auto points = double(displacement.cols());
+  for (Index k = 0; k < displacement.cols(); ++k)
+    sum += displacement(row, k) * std::polar(2.0 / points, 2.0 * std::numbers::pi * double(k) / points);
+  return sum;
+}
+
+// A slider, an elastic stop and a rigid one with a restitution of 0.7, each on one of three masses between springs.
+Vibrating mixture(double omega) {
+  const Eigen::Matrix3d stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 2.0}}, unit = Eigen::Matrix3d::Identity();
+  LinearStructure structure;
+  structure.mass = unit.sparseView();
+  structure.damping = Eigen::Matrix3d(0.02 * stiffness + 0.02 * unit).sparseView();
+  structure.stiffness = stiffness.sparseView();
+  structure.load = Eigen::Vector3d(0.0, 1.0, 0.3);
+  structure.contact_directions = unit.sparseView();
+  return {structure,
+          ContactLaws(std::vector<AnyContactLaw>{contact::CoulombLaw({1.0, 3.0, 0.4}), contact::LinearLaw(4.0, 0.3),
+                                                 contact::RigidLaw(0.3, 0.7)}),
+          omega / (2.0 * std::numbers::pi)};
+}
+
+TEST(ContactFlow, SettlesToTheExactMotionsOfFrictionAndTheirMultipliers) {
+  constexpr double digits = 2e-9, harmonic = 2e-8;  // a harmonic of 4096 samples with kinks
+  for (const FrictionRow& row : testing::friction_rows()) {
+    if (row.scene.laws.front().tangents() > 1) continue;
+    const FlowMotion motion =
+        Vibrating(row.scene.structure, row.scene.contact_laws(), row.scene.frequency()).motion();
+    ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged) << row.name;
+    EXPECT_LT(motion.closed, 1e-11) << row.name;
+    const auto found = first_harmonic(motion.stepping.contacts.displacement, row.compared);
+    EXPECT_NEAR(std::abs(found), row.amplitude, harmonic * row.amplitude) << row.name;
+    EXPECT_NEAR(std::abs(motion.multipliers[0]), row.largest, 10 * digits) << row.name;
+    EXPECT_NEAR(std::abs(motion.multipliers[1]), row.second, 10 * digits) << row.name;
+  }
+}
+
+TEST(ContactFlow, HasTheInstantsAndImpulsesOfExactMotionsWithImpacts) {
+  for (const testing::KnownImpacts& known : testing::known_impacts()) {
+    const bool stable = std::abs(known.multipliers.front()) < 1.0;
+    if (!stable || known.periods > 1 || known.scene.contacts.rows() > 1 || known.instants.size() > 1) continue;
+    const FlowMotion motion = Vibrating(known.scene.structure(),
+                                        contact::RigidLaw(known.scene.gaps[0], known.scene.restitution),
+                                        known.scene.frequency())
+                                  .motion(64);
+    ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
+    ASSERT_EQ(motion.events.size(), 1u);
+    const double period = 1.0 / known.scene.frequency();
+    EXPECT_NEAR(motion.events[0].time / period, known.instants[0], 2e-10);
+    EXPECT_NEAR(motion.events[0].speed, known.velocities[0], 2e-9);
+    EXPECT_NEAR(motion.events[0].impulse, known.impulses[0], 2e-9);
+    EXPECT_NEAR(std::abs(motion.multipliers[0]), std::abs(known.multipliers[0]), 2e-8);
+  }
+}
+
+// Instants by DOP853 with a tolerance of 1e-13 and events, after 150 periods.
+TEST(ContactFlow, TakesLawsOfThreeKindsSideBySide) {
+  const FlowMotion motion = mixture(1.3).motion(64);
+  ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
+  constexpr std::array<double, 7> instants{0.08883868239, 0.26039026495, 0.30034908186, 0.48567138455,
+                                           0.48770849867, 0.59455410218, 0.98189906715};
+  constexpr std::array<int, 7> contacts{0, 1, 2, 1, 0, 0, 0};
+  ASSERT_EQ(motion.events.size(), instants.size());
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    EXPECT_EQ(motion.events[i].contact, contacts[i]);
+    EXPECT_NEAR(motion.events[i].time * 1.3 / (2.0 * std::numbers::pi), instants[i], 1e-9);
+  }
+  EXPECT_NEAR(motion.events[2].speed, 0.730811604448, 1e-9);
+}
+
+TEST(ContactFlow, TakesPerturbationsAlongAsDifferencesOfMotionsDo) {
+  const Vibrating vibrating = mixture(1.05);
+  ContactFlow flow(vibrating.problem);
+  for (int n = 0; n < 200; ++n) ASSERT_EQ(flow.advance_period(), FlowStatus::converged);
+  const Eigen::VectorXd state = flow.state();
+  const Index size = state.size();
+  flow.perturb(Eigen::MatrixXd::Identity(size, size));
+  ASSERT_EQ(flow.advance_period(), FlowStatus::converged);
+  const Eigen::MatrixXd map = flow.perturbation();
+  flow.perturb(Eigen::MatrixXd(size, 0));
+  const double step = 1e-6 * state.norm();
+  for (Index i = 0; i < size; ++i) {
+    Eigen::MatrixXd ends(size, 2);
+    for (const int side : {0, 1}) {
+      Eigen::VectorXd start = state;
+      start[i] += side == 0 ? -step : step;
+      flow.start(start);
+      ASSERT_EQ(flow.advance_period(), FlowStatus::converged);
+      ends.col(side) = flow.state();
+    }
+    EXPECT_LE(((ends.col(1) - ends.col(0)) / (2.0 * step) - map.col(i)).norm(), 1e-7 * map.norm());
+  }
+}
+
+// A ball that is pressed to the stop bounces with 0.5 until it rests, and leaves where the load pulls.
+TEST(ContactFlow, ComesToRestAfterFinitelyManyImpacts) {
+  testing::ImpactScene scene = testing::impact_oscillator(0.1, 0.2, 0.5, 0.2);
+  const FlowMotion motion =
+      Vibrating(scene.structure(), contact::RigidLaw(0.2, 0.5), scene.frequency()).motion(256);
+  ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
+  EXPECT_EQ(motion.rests, 1);
+  const auto rest = std::find_if(motion.events.begin(), motion.events.end(), [](auto& e) { return e.to == 1; });
+  ASSERT_NE(rest, motion.events.end());
+  EXPECT_GT(rest - motion.events.begin(), 10);
+  EXPECT_LE(motion.stepping.contacts.displacement.maxCoeff(), 0.2 + 1e-12);
+}
+
+}  // namespace
+}  // namespace wavebalance::solvers
