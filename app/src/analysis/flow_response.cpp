@@ -82,6 +82,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   if (found.multipliers.size() > 0) result.stability = solvers::stability_of_multipliers(found.multipliers);
   if (result.moves && options.structure_points > 0)
     copy_structure(problem, found, scene.forcing.frequency, options.structure_points, result);
+  result.flow = std::move(found);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -79,6 +79,14 @@ void check_form(const Document& document, const Scene& scene) {
       "\"automatic\" or \"displacement\"");
 }
 
+void check_one_tangent(const Document& document, const Scene& scene, const std::string& key,
+                       const std::string& expected) {
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    if (!scene.contact.pairs[i].second_tangent.empty())
+      fail_rule(document, {key, pair_section(i) + ".second_tangent"},
+                "not with friction along two tangents, which slips in a plane; expected " + expected);
+}
+
 /// Phases of friction are those of one tangent, of all contacts.
 void check_friction_phases(const Document& document, const Scene& scene) {
   const bool shoots = scene.analysis.type == AnalysisType::shooting;
@@ -87,10 +95,7 @@ void check_friction_phases(const Document& document, const Scene& scene) {
   if (names_rigid_friction(scene.contact))
     fail_rule(document, {key, "contact.law"},
               "not with friction without contact.tangential_stiffness, which is rigid; expected " + expected);
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
-    if (!scene.contact.pairs[i].second_tangent.empty())
-      fail_rule(document, {key, pair_section(i) + ".second_tangent"},
-                "not with friction along two tangents, which slips in a plane; expected " + expected);
+  check_one_tangent(document, scene, key, expected);
   for (const SceneContact& contact : contacts_of(scene))
     if (!has_friction(contact.law))
       fail_rule(document, {key, "contact.law"},
@@ -102,12 +107,13 @@ void check_friction_phases(const Document& document, const Scene& scene) {
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
-                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting;
+                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting || integrates_in_time(type);
   if (type == AnalysisType::nonlinear_mode) return;
   if (!taken)
     fail_rule(document, {"analysis.type", "contact.law"},
               "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
-              "\"shooting\" or \"nonlinear_mode\"");
+              "\"shooting\", \"time_stepping\" or \"nonlinear_mode\"");
+  if (integrates_in_time(type)) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
   if (solves_by_phases(scene) || type == AnalysisType::shooting) check_friction_phases(document, scene);
   if (scene.analysis.exact)
     fail_rule(document, {"analysis.exact", "contact.law"},
@@ -116,7 +122,7 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
 
 /// Rigid friction is solved in the form of the force, at contacts without mass.
 void check_rigid_friction(const Document& document, const Scene& scene) {
-  if (!names_rigid_friction(scene.contact)) return;
+  if (!names_rigid_friction(scene.contact) || integrates_in_time(scene.analysis.type)) return;
   const std::string rigid = "not with friction without contact.tangential_stiffness, which is rigid: ";
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     fail_rule(document, {"analysis.type", "contact.law"},
@@ -205,9 +211,24 @@ void check_tangents(const Document& document, const Scene& scene) {
   }
 }
 
+/// Beside a rigid contact other laws are integrated in time.
+void check_mixture(const Document& document, const Scene& scene) {
+  if (!is_rigid(scene.contact.law) || integrates_in_time(scene.analysis.type)) return;
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
+    const std::string& law = scene.contact.pairs[i].law;
+    if (is_rigid(law)) continue;
+    fail_rule(document, {pair_section(i) + ".law", "contact.law"},
+              std::string(has_friction(law) ? "friction" : "another law") +
+                  " beside a rigid contact is solved in time alone; expected analysis.type = \"time_stepping\", or a "
+                  "stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of contact.law = "
+                  "\"rigid\"");
+  }
+}
+
 }  // namespace
 
 void check_laws(const Document& document, const Scene& scene) {
+  check_mixture(document, scene);
   check_tangents(document, scene);
   const std::vector<SceneContact> contacts = contacts_of(scene);
   if (has_friction(scene)) check_friction_analysis(document, scene);

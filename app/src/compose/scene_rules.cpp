@@ -280,9 +280,10 @@ void check_impacts(const Document& document, const Scene& scene) {
   refuse(scene.structure.massless_tip, "structure.massless_tip",
          "a contact without mass has no impacts; expected false, or no contact.restitution");
   refuse(
-      scene.structure.matrices.free, "structure.free",
-      "not with contact.restitution: impacts are not solved for a structure that is free to move; expected false "
-      "and, in structure.stiffness, a spring to ground so soft that its force is small beside the loads");
+      scene.structure.matrices.free && !integrates_in_time(scene.analysis.type), "structure.free",
+      "not with contact.restitution: impacts of a structure that is free to move are solved in time alone; expected "
+      "analysis.type = \"time_stepping\", or false and, in structure.stiffness, a spring to ground so soft that its "
+      "force is small beside the loads");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
   refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",

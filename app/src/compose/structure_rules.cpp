@@ -39,11 +39,12 @@ void check_damping(const Document& document, const Scene& scene) {
 /// Contacts with mass alone hold a structure that is free to move.
 void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
-  if (names_friction(scene.contact))
+  if (names_friction(scene.contact) && !integrates_in_time(scene.analysis.type))
     fail_rule(
         document, {"structure.free", "contact.law"},
-        "not with friction, which is not solved for a structure that is free to move; expected false and, in "
-        "structure.stiffness, a soft spring to ground, of 1e-5 of contact.tangential_stiffness for example");
+        "not with friction, which is solved in time alone for a structure that is free to move; expected analysis.type = "
+        "\"time_stepping\", or false and, in structure.stiffness, a soft spring to ground, of 1e-5 of "
+        "contact.tangential_stiffness for example");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"structure.free", "contact.law"},

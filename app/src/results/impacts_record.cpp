@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
@@ -53,7 +55,37 @@ Table impacts_table(const solvers::ImpactMotion& motion) {
   return table;
 }
 
+void append_events(Record& record, const Response& response, double frequency) {
+  if (!response.flow || !response.moves) return;
+  constexpr std::array<const char*, 4> names{"open", "closed", "stick", "slip"};
+  const solvers::FlowMotion& flow = *response.flow;
+  Table table({"time_fraction", "contact", "state", "impulse_Ns", "velocity_before_m_per_s"});
+  std::int64_t impacts = 0;
+  double impulse = 0.0, velocity = 0.0;
+  for (const solvers::FlowEvent& one : flow.events) {
+    const auto kind = flow.machines[std::size_t(one.contact)].law->kind(one.to);
+    table.append_row({one.time * frequency, std::int64_t{one.contact + 1}, std::string(names[std::size_t(kind)]), one.impulse,
+                      one.speed});
+    impacts += one.impulse > 0.0;
+    impulse = std::max(impulse, one.impulse);
+    velocity = std::max(velocity, one.speed);
+  }
+  if (impacts > 0) {
+    record.summary.emplace_back(quantities::impacts, double(impacts));
+    record.summary.emplace_back(quantities::max_impulse, impulse);
+    record.summary.emplace_back(quantities::max_impact_velocity, velocity);
+  }
+  if (flow.rests > 0)
+    record.warnings.push_back(fmt::format(
+        "{} impacts of the period are slower than 1e-6 of the fastest and have no rebound, so that the contact rests.",
+        flow.rests));
+  if (!flow.events.empty())
+    record.files.push_back({"events.csv", csv_text(table),
+                            "The events of a period: instants, the states that begin there, impulses"});
+}
+
 void append_impacts(Record& record, const Scene& scene, const Response& response) {
+  append_events(record, response, scene.forcing.frequency);
   if (!response.impacts) return;
   const solvers::ImpactMotion& motion = response.impacts->motion;
   double impulse = 0.0, velocity = 0.0;

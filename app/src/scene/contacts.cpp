@@ -139,6 +139,15 @@ bool has_friction(const Scene& scene) {
                      [](const SceneContact& one) { return has_friction(one.law); });
 }
 
+bool integrates_by_events(const Scene& scene) {
+  if (!integrates_in_time(scene.analysis.type)) return false;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool rebounds = has_impacts(scene.contact);
+  return has_friction(scene) || (rebounds && scene.structure.matrices.free) ||
+         (rebounds && std::any_of(contacts.begin(), contacts.end(),
+                                  [](const SceneContact& one) { return !is_rigid(one.law); }));
+}
+
 double common_gap(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {

@@ -93,21 +93,13 @@ class PairReader {
     for (const SharedParameter& one : law_parameters()) read_parameter(one.first.name);
   }
 
-  /// Laws of pairs are beside an elastic or damped law of the scene.
+  /// Laws of pairs are beside a law of the scene.
   void check_mixture(const DocumentEntry& own) const {
     if (scene_.contact.law == no_law)
       fail_at(
           document_, own,
           "does not belong to a scene with contact.law = \"none\", which has no contact; expected another "
           "contact.law, or none, where all pairs have a law");
-    if (!is_rigid(scene_.contact.law)) return;
-    const std::string why = has_friction(pair_.law) ? "friction beside a rigid contact is not solved"
-                                                    : "another law beside a rigid contact is not solved";
-    fail_at(
-        document_, own,
-        why +
-            "; expected a stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of "
-            "contact.law = \"rigid\"");
   }
 
   void read_parameter(std::string_view name) {

@@ -87,6 +87,8 @@ struct Response {
   std::optional<solvers::ResponsePhases> phases;
   /// Set in scenes with impacts. Between them no contact exerts a force, so that `contacts` have none.
   std::optional<solvers::ImpactResponse> impacts;
+  /// Set in scenes that are integrated by events.
+  std::optional<solvers::FlowMotion> flow;
   /// Set where the response is unstable and its motion has the load's period.
   std::optional<SettledBeside> settled;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
