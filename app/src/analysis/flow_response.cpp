@@ -63,10 +63,12 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.residual = solvers::missing;
   if (model.contact_dynamics() == nullptr) return result;
   solvers::ContactProblem problem = impacts_problem(scene, model);
-  FlowMotion found = problem.flow(scene.forcing.frequency, {.output_points = scene.analysis.output_points,
-                                                            .period_tolerance = scene.analysis.tolerance,
-                                                            .max_periods = scene.analysis.max_periods,
-                                                            .observer = options.observer});
+  solvers::TimeSteppingOptions stepping_options;
+  stepping_options.output_points = scene.analysis.output_points;
+  stepping_options.period_tolerance = scene.analysis.tolerance;
+  stepping_options.max_periods = scene.analysis.max_periods;
+  stepping_options.observer = options.observer;
+  FlowMotion found = problem.flow(scene.forcing.frequency, stepping_options);
   const solvers::TimeSteppingResult& stepping = found.stepping;
   result.converged = stepping.status == solvers::TimeSteppingStatus::converged;
   result.status = found.ended == solvers::FlowStatus::endless_events ? to_string(found.ended)

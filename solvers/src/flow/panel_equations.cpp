@@ -164,6 +164,15 @@ Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& 
 
 }  // namespace
 
+Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right) {
+  constexpr double singular = 1e-12;
+  const Lu<double> lu(by_forces);
+  if (!lu.is_singular(singular)) return lu.solve(right);
+  Eigen::MatrixXd result(right.rows(), right.cols());
+  for (Index k = 0; k < right.cols(); ++k) result.col(k) = least_squares(by_forces, right.col(k));
+  return result;
+}
+
 PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                         double force_size) {
   constexpr int most = 25;
@@ -181,8 +190,8 @@ PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, cons
     for (Index e = 0; e < count; ++e)
       for (Index k = 0; k < q; ++k) residual[e * q + k] = equations[std::size_t(e)][std::size_t(k)].value;
     const Eigen::VectorXd step =
-        Lu<double>(by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q))
-            .solve(residual);
+        solve_for_forces(by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q),
+                         residual);
     if (!step.allFinite()) return result;
     for (Index e = 0; e < count; ++e) unknown.row(e) -= step.segment(e * q, q).transpose();
     result.force = (free.combine * unknown).colwise() + free.constant;

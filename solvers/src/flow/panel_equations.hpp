@@ -69,7 +69,11 @@ struct SlopeOfSignals {
   double rate(const Signals& signals, Index point) const;
 };
 
-/// Forces on a panel that satisfy the laws at its nodes, and the factorized derivative of the equations.
+/// The free forces by the derivative of their equations. Contacts that hold each other, as a stop and a stuck slider at
+/// one mass, leave forces undetermined: the smallest are taken.
+Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
+
+/// Forces on a panel that satisfy the laws at its nodes, and whether they were found.
 struct PanelForces {
   Eigen::MatrixXd force;  ///< R x q, N
   bool converged = false;

@@ -57,7 +57,7 @@ void Variation::over(const Contacts& contacts, const ContactStates& now, const P
           by_start.row(e * q + n) += slope.by_memory(m) * memory_.row(contacts.memory_begin(c) + m);
       }
     }
-    const Eigen::MatrixXd solved = Lu<double>(by_free).solve(by_start);
+    const Eigen::MatrixXd solved = solve_for_forces(by_free, by_start);
     for (Index f = 0; f < count; ++f)
       for (Index b = 0; b < rows; ++b)
         if (free.combine(b, f) != 0.0)

@@ -1,0 +1,100 @@
+"""Motions in time from event to event: friction, rebounds and other laws side by side, and structures that are free."""
+
+import csv
+import math
+
+import pytest
+
+
+def scene(structure, contacts, forcing, frequency, analysis=""):
+    return (f'[structure]\ntype = "matrices"\nmass = "m.mtx"\nstiffness = "k.mtx"\n{structure}\n{contacts}\n'
+            f'[forcing]\nfrequency = {frequency!r}\n{forcing}\n[analysis]\ntype = "time_stepping"\n{analysis}\n')
+
+
+def events(record):
+    with open(record.folder / "events.csv") as file:
+        return [(float(row["time_fraction"]), int(row["contact"]), row["state"], float(row["velocity_before_m_per_s"]))
+                for row in csv.DictReader(file)]
+
+
+def impacts(record):
+    return [(time, contact, speed) for time, contact, _, speed in events(record) if speed > 0.0]
+
+
+def test_a_slider_has_the_instants_and_the_multipliers_of_the_exact_motion(run, matrix):
+    # A mass of 1 kg on 1 N/m with a slider of 1 N/m that yields at 1 N; by event-driven integration.
+    for name, value in ("m", 1.0), ("k", 1.0), ("c", 0.05):
+        matrix(f"{name}.mtx", [[value]])
+    slider = '[contact]\nlaw = "coulomb"\nfriction = 1.0\nnormal_load = 1.0\ntangential_stiffness = 1.0\n[[contact.pairs]]\ndofs = [1]'
+    found = run(scene('damping = "c.mtx"', slider, "load_dofs = [1]\namplitude = 2.0", 1.2 / (2.0 * math.pi),
+                      "tolerance = 1e-9"))
+    assert found.code == 0, found.errors
+    assert found.summary["residual"] < 1e-11
+    assert abs(found.summary["leading_multiplier_real"] + 1j * found.summary["leading_multiplier_imaginary"]) == pytest.approx(0.64754840, abs=2e-8)
+    assert found.summary["max_displacement_m"] == pytest.approx(5.030259141, rel=1e-5)  # of samples
+    expected = [(0.029958836, "slip"), (0.385848543, "stick"), (0.529958836, "slip"), (0.885848543, "stick")]
+    assert [(pytest.approx(time, abs=2e-9), state) for time, state in expected] == [(row[0], row[2]) for row in events(found)]
+
+
+def test_a_block_that_friction_alone_holds_slides_as_in_closed_form(run, matrix):
+    # 1 kg on a table with 10 cos(2 pi 2 t) m/s^2 and 3 N of rigid friction: half its travel is 0.0558537 m.
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[0.0]])
+    block = '[contact]\nlaw = "coulomb"\nfriction = 0.3\nnormal_load = 10.0\n[[contact.pairs]]\ndofs = [1]'
+    load = '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\namplitude = 10.0'
+    found = run(scene("free = true", block, load, 2.0, "output_points = 4096"))
+    assert found.code == 0, found.errors
+    travel = found.summary["max_displacement_m"] - found.summary["min_displacement_m"]
+    assert travel == pytest.approx(0.111707316, rel=1e-6)
+
+
+def test_a_free_ball_in_a_cavity_strikes_when_exact_flights_do(run, matrix):
+    matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
+    matrix("k.mtx", [[1.0, 0.0], [0.0, 0.0]])
+    matrix("c.mtx", [[0.02, 0.0], [0.0, 0.0]])
+    cavity = '[contact]\nlaw = "rigid"\nrestitution = 0.6\ngap = 1.0\n[[contact.pairs]]\ndofs = [2, 1]\nside = "both"'
+    found = run(scene('free = true\ndamping = "c.mtx"', cavity, "load_dofs = [1]\namplitude = 0.06", 1.0 / (2.0 * math.pi),
+                      "tolerance = 1e-8\nmax_periods = 3000"))
+    assert found.code == 0, found.errors
+    strikes = impacts(found)
+    assert [time for time, _, _ in strikes] == pytest.approx([0.48027891, 0.98027891], abs=2e-8)
+    assert [speed for _, _, speed in strikes] == pytest.approx([1.13388806] * 2, abs=2e-8)
+
+
+def test_a_valve_between_stops_with_friction_comes_to_rest_and_leaves_again(run, matrix):
+    # Between two rigid stops, with dry friction; instants and speeds by an event-driven simulation.
+    matrix("m.mtx", [[3.3612e-4]])
+    matrix("k.mtx", [[1488.58]])
+    valve = """[contact]
+law = "rigid"
+restitution = 0.3
+[[contact.pairs]]
+dofs = [1]
+gap = 1.016e-3
+[[contact.pairs]]
+dofs = [1]
+coefficients = [-1.0]
+gap = 0.0
+[[contact.pairs]]
+dofs = [1]
+law = "coulomb"
+friction = 1.0
+normal_load = 1.0"""
+    load = "load_dofs = [1]\namplitude = 2.03365485\n[[forcing.terms]]\nharmonic = 0\namplitude = 0.60641"
+    found = run(scene("", valve, load, 250.0, "max_periods = 300"))
+    assert found.code == 0, found.errors
+    first = sorted(impacts(found), key=lambda one: -one[2])[:4]
+    assert [time for time, _, _ in first] == pytest.approx([0.5022997, 0.0345464, 0.5865897, 0.6032446], abs=2e-6)
+    assert [speed for _, _, speed in first] == pytest.approx([2.3006885, 2.0876812, 0.2318148, 0.0109335], rel=2e-5)
+    assert any("have no rebound" in warning for warning in found.summary["warnings"])
+
+
+def test_friction_along_two_tangents_is_refused_by_name(command, matrix, tmp_path):
+    matrix("m.mtx", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    matrix("k.mtx", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    plane = ('[contact]\nlaw = "coulomb"\nfriction = 0.5\nnormal_load = 1.0\ntangential_stiffness = 1.0\nnormal_stiffness = 1.0\n'
+             "[[contact.pairs]]\ndofs = [1]\ntangent = [2]\nsecond_tangent = [3]")
+    (tmp_path / "scene.toml").write_text(scene("", plane, "load_dofs = [1]\namplitude = 1.0", 0.1))
+    checked = command("check", "scene.toml")
+    assert checked.code == 2
+    assert "second_tangent" in checked.errors and "two tangents" in checked.errors
