@@ -42,6 +42,7 @@ KnownEigenvalues with_errors(Eigen::MatrixXd map, double map_error) {
 Eigen::VectorXcd map_multipliers(Eigen::MatrixXd map) {
   constexpr double map_error = 1e-12, near = 1e-3;
   if (map.size() == 0) return {};
+  if (!map.allFinite()) return Eigen::VectorXcd::Constant(map.rows(), missing);
   // States of overdamped modes decay to numbers that keep the QR iteration from converging.
   const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
   map = (map.array().abs() > vanishing).select(map, 0.0);
