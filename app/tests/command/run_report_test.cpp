@@ -114,7 +114,7 @@ TEST(RunReport, ReportSaysThatNothingWasFound) {
       run(folder, {"run", scene, "-o", folder / "out", "--quiet", "--set", "analysis.max_points=5"});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   const std::string report = read_file(folder / "out" / "report.html");
-  EXPECT_NE(report.find("was not solved (point limit)"), std::string::npos);
+  EXPECT_NE(report.find("The curve is not complete (point limit)"), std::string::npos);
   EXPECT_NE(report.find("<h1>case2_sweep: Frequency response of a bar</h1>"), std::string::npos);
 }
 
