@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/impact_parts.hpp"
+#include "analysis/phases_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -41,14 +41,15 @@ Eigen::MatrixXd displacement_at(const Eigen::MatrixXd& samples, const Eigen::Vec
   return result;
 }
 
-void copy_structure(solvers::ContactProblem& problem, const FlowMotion& found, double frequency, int points,
+void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found, int points,
                     Response& result) {
+  const double frequency = problem.frequency();
   const solvers::ContactSource source{
       [&](int count) { return force_harmonics(found, frequency, count); },
       [&](const Eigen::VectorXd& times) { return displacement_at(found.stepping.contacts.displacement, times); },
-      problem.dynamics()->holding()};
+      holding};
   solvers::StructurePhases whole = solvers::structure_motion_of(
-      problem.condensed(), source, points, {.tolerance = 1e-3, .max_harmonics = int(result.contacts.points()) / 2});
+      problem, source, points, {.tolerance = 1e-3, .max_harmonics = int(result.contacts.points()) / 2});
   result.structure = std::move(whole.motion);
   result.structure_harmonics = whole.harmonics;
   result.structure_left_out = whole.left_out;
@@ -62,13 +63,16 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.status = "no_modes";
   result.residual = solvers::missing;
   if (model.contact_dynamics() == nullptr) return result;
-  solvers::ContactProblem problem = impacts_problem(scene, model);
+  const solvers::ContactDynamics& dynamics = *model.contact_dynamics();
+  Scene paired = scene;
+  paired.time = balance_of(scene, least_start_functions(scene)).time;  // loads need a pair, which takes no part
+  const solvers::CondensedProblem problem = make_problem(paired, model);
   solvers::TimeSteppingOptions stepping_options;
   stepping_options.output_points = scene.analysis.output_points;
   stepping_options.period_tolerance = scene.analysis.tolerance;
   stepping_options.max_periods = scene.analysis.max_periods;
   stepping_options.observer = options.observer;
-  FlowMotion found = problem.flow(scene.forcing.frequency, stepping_options);
+  FlowMotion found = solvers::integrate_by_events(problem, dynamics, make_laws(scene), stepping_options);
   const solvers::TimeSteppingResult& stepping = found.stepping;
   result.converged = stepping.status == solvers::TimeSteppingStatus::converged;
   result.status = found.ended == solvers::FlowStatus::endless_events ? to_string(found.ended)
@@ -83,7 +87,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.contact = leading_contact(result.contacts, model.gaps);
   if (found.multipliers.size() > 0) result.stability = solvers::stability_of_multipliers(found.multipliers);
   if (result.moves && options.structure_points > 0)
-    copy_structure(problem, found, scene.forcing.frequency, options.structure_points, result);
+    copy_structure(problem, dynamics.holding(), found, options.structure_points, result);
   result.flow = std::move(found);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

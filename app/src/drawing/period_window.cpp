@@ -57,6 +57,7 @@ Axis PeriodWindow::axis(const std::string& more) const {
           .lower = start_,
           .upper = start_ + 1.0,
           .ticks = {},
+          .tick_texts = {},
           .tick_format = "%.1f"};
 }
 

@@ -64,6 +64,7 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       nodes_(node_count),
       dense_(dense_points()),
       rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
+      length_(length_of(problem)),
       coarsest_(coarsest_level(poles_, options.panels)),
       fastest_(machines_.size(), 0.0) {
   for (const int row : problem.laws.rigid(int(poles_.rows())))
@@ -150,6 +151,16 @@ double ContactFlow::Engine::guard_at(const Solved& panel, Index c, int exit, dou
   return contacts_.law(c).guard(now_.state[std::size_t(c)], exit, local.signals()).value;
 }
 
+// A guard that a contact at rest keeps at zero is not as small as its values are.
+double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
+  const double rate = 2.0 * std::numbers::pi / poles_.period();
+  const std::array<double, 4> scales{length_, length_ * rate, length_ * rate * rate, force_size_};
+  double sum = 0.0;
+  for (std::size_t k = 0; k < scales.size(); ++k)
+    for (int i = 0; i < rows; ++i) sum += std::abs(guard.slope[k * std::size_t(rows) + std::size_t(i)]) * scales[k];
+  return sum;
+}
+
 // Guards that vanish at the beginning, behind an event, count by their first clear value.
 std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense, Index c,
                                                   int exit) {
@@ -165,7 +176,10 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const det
     const Dual guard = law.guard(state, exit, local.signals());
     const double rate = detail::SlopeOfSignals{contacts_, c, guard, 0.0}.rate(dense, first + k);
     g.push_back(guard.value);
-    if (k == 0) first_rate = rate;
+    if (k == 0) {
+      first_rate = rate;
+      size = std::max(size, scale_of(guard, law.rows()));
+    }
     largest_rate = std::max(largest_rate, std::abs(rate));
     size = std::max(size, std::abs(guard.value));
   }
@@ -266,6 +280,19 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     now_.memory[std::size_t(contacts_.memory_begin(c) + m)] = memory.empty() ? 0.0 : memory[std::size_t(m)].value;
   now_.state[std::size_t(c)] = event.to = to;
   events_.push_back(event);
+  if (exit.impulse) follow_impulse(c, after, event.speed);
+}
+
+void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& after, double speed) {
+  constexpr double rounding = 1e-11;
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    if (c == struck) continue;
+    const detail::LocalValues local(contacts_, c, after, 0, now_.memory);
+    int& state = now_.state[std::size_t(c)];
+    const int next = contacts_.law(c).after_impulse(state, local.signals(), rounding * std::abs(speed));
+    if (next != state) events_.push_back({.time = time_, .contact = int(c), .from = state, .to = next});
+    state = next;
+  }
 }
 
 FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const FlowSample&)>& sample) {

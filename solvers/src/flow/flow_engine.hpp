@@ -46,9 +46,11 @@ class ContactFlow::Engine {
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
   std::optional<Hit> first_hit(const Solved& panel);
   std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
+  double scale_of(const Dual& guard, int rows) const;
   double guard_at(const Solved& panel, Index c, int exit, double at) const;
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
+  void follow_impulse(Index struck, const detail::Signals& after, double speed);
   void change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before);
 
   FlowOptions options_;
@@ -59,7 +61,7 @@ class ContactFlow::Engine {
   Eigen::VectorXd dense_, rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
-  double time_ = 0.0, force_size_ = 0.0;
+  double length_ = 0.0, time_ = 0.0, force_size_ = 0.0;
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;

@@ -109,6 +109,9 @@ class ImpactMachine final : public LawMachine {
     const bool leaves = after.velocity[0].value < 0.0;
     return leaves || after.acceleration[0].value <= 0.0 ? open : closed;
   }
+  int after_impulse(int state, const LocalSignals& after, double rounding) const override {
+    return std::abs(after.velocity[0].value) > rounding ? open : state;
+  }
   int start(std::span<const double>, std::span<double>) const override { return open; }
 
  private:
@@ -221,6 +224,13 @@ class FrictionMachine final : public LawMachine {
     const double holds = before.force.back().value + before.acceleration.back().value / inverse_mass_;
     if (std::abs(holds) <= c_.friction * normal(before).value) return stick;
     return holds > 0.0 ? forward : backward;
+  }
+
+  // Rigid friction follows the sense of the velocity, which an impulse may start or reverse.
+  int after_impulse(int state, const LocalSignals& after, double rounding) const override {
+    const double v = after.velocity.back().value;
+    if (state == open || !accelerates() || std::abs(v) <= rounding) return state;
+    return v > 0.0 ? forward : backward;
   }
 
   int start(std::span<const double> displacement, std::span<double> memory) const override {

@@ -6,6 +6,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "period/repetition.hpp"
+#include "phases/phase_loads.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -133,6 +134,14 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
     }
   }
   return result;
+}
+
+FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
+                               const ContactLaws& laws, const TimeSteppingOptions& options, const FlowOptions& flow) {
+  detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
+  return integrate_by_events(PhasesProblem{dynamics, laws, free.at(problem.frequency(), problem.load_factor()),
+                                           problem.frequency()},
+                             options, flow);
 }
 
 }  // namespace wavebalance::solvers

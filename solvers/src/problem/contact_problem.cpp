@@ -52,7 +52,10 @@ ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
 
 void ContactProblem::require_well_posed() const {
   laws_.require(contacts());
-  if (laws_.have_impacts()) return;
+  if (laws_.have_impacts()) {
+    laws_.restitution(contacts());
+    return;
+  }
   require_massless_rigid_contacts(structure(), laws_);
 }
 
@@ -313,13 +316,6 @@ SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& op
   require_no_impacts();
   load_fully(frequency);
   return solvers::settle(condensed_, laws_, options);
-}
-
-FlowMotion ContactProblem::flow(double frequency, const TimeSteppingOptions& options) {
-  if (dynamics() == nullptr)
-    throw std::invalid_argument("motions are integrated by events with the modes of the structure, and it has none to compute");
-  load_fully(frequency);
-  return integrate_by_events(phases_problem_here(), options);
 }
 
 TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {

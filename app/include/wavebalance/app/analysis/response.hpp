@@ -7,6 +7,7 @@
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"

@@ -70,6 +70,9 @@ class LawMachine {
                      const LocalSignals& /*after*/) const {
     return exits(state)[static_cast<std::size_t>(exit)].targets.front();
   }
+  /// The state behind an impulse at another contact, which changes velocities at once; those below `rounding`, m/s, are
+  /// zero.
+  virtual int after_impulse(int state, const LocalSignals& /*after*/, double /*rounding*/) const { return state; }
   /// The state in which displacements at rest begin, and its memories.
   virtual int start(std::span<const double> displacement, std::span<double> memory) const = 0;
 };

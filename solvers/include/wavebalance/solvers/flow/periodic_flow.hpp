@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/flow/contact_flow.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 
@@ -27,6 +28,10 @@ struct FlowMotion {
 /// have no part in it. A slider that does not move keeps its position, which has a multiplier of 1 that is left
 /// out. Throws as ContactFlow does, and for options out of range.
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
+                               const FlowOptions& flow = {});
+/// The same of a structure under the load of a problem, at its frequency.
+FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
+                               const ContactLaws& laws, const TimeSteppingOptions& options,
                                const FlowOptions& flow = {});
 
 }  // namespace wavebalance::solvers

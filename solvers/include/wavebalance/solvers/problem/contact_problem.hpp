@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "wavebalance/solvers/exact/exact_curve.hpp"
-#include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/solvers/impacts/impact_curve.hpp"
 #include "wavebalance/solvers/impacts/impact_motions.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
@@ -148,9 +147,6 @@ class ContactProblem {
   /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
   TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
-  /// integrate_by_events(): of laws of all kinds side by side, friction and rebounds, and of structures that are
-  /// free to move. Throws std::invalid_argument without modes.
-  FlowMotion flow(double frequency, const TimeSteppingOptions& options = {});
 
  private:
   void require_well_posed() const;
