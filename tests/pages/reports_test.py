@@ -50,7 +50,7 @@ def test_facts_have_the_names_that_the_description_gives_them(look, browser, rep
     assert {"structure", "compliance", "at rest", "forcing"} <= set(names), names
     assert all(0 < len(name) <= 10 for name in names), names
     rest = browser.value("[...document.querySelectorAll('dt')].find((one) => one.textContent === 'at rest').nextElementSibling.innerText")
-    assert [line.split(":")[0] for line in rest.split("\n")[1:]] == ["contact 1 (row 2)", "contact 2 (row 1)"], rest
+    assert [line.split(":")[0] for line in rest.split("\n")[1:]] == ["contact 1 normal (row 2)", "contact 1 tangent (row 1)"], rest
 
 
 def test_overlay_is_sound(look, report, scenes):

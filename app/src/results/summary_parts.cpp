@@ -259,7 +259,7 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
   if (!none) return;
   record.warnings.emplace_back(
       "Contact phases found no motion of the structure near this response, which solves the equations at its samples "
-      "alone; whether there is one is not known. More functions may lead to it.");
+      "alone. Whether there is one is not known. More functions may lead to it.");
 }
 
 void append_start(Record& record, const StartMotion& start, bool found, double distance) {

@@ -1,6 +1,7 @@
 // A blade whose tip rubs on its casing: each corner node has a radial direction and a tangent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -25,6 +26,13 @@ Scene blade(const std::string& name, std::vector<std::string> settings) {
 
 double largest(const Record& record, const char* name) { return value_of<double>(record.summary, name); }
 
+// The largest displacement of all contacts along their normals.
+double towards_casing(const Record& record) {
+  const bool directed = record.contacts.has_column("direction");
+  const auto normal = (directed ? record.contacts.where("direction", "normal") : record.contacts).numbers("displacement_m");
+  return *std::max_element(normal.begin(), normal.end());
+}
+
 TEST(RubbingBlade, RubsWithEachCornerNodeOfItsTipAcrossItsRadius) {
   for (const int axis : {0, 1}) {
     const StructureModel model =
@@ -48,10 +56,10 @@ TEST(RubbingBlade, WithoutFrictionHasTheResponseOfAnElasticCasing) {
   const Record smooth = analyse(blade("rubbing.toml", {"contact.friction=0"}));
   const Record rough = analyse(blade("rubbing.toml", {}));
   for (const Record* record : {&pressed, &smooth, &rough}) ASSERT_TRUE(record->converged) << record->status;
-  const double displacement = largest(pressed, "max_displacement_m");
-  EXPECT_NEAR(largest(smooth, "max_displacement_m"), displacement, 1e-9 * displacement);
+  const double displacement = towards_casing(pressed);
+  EXPECT_NEAR(towards_casing(smooth), displacement, 1e-9 * displacement);
   EXPECT_EQ(largest(smooth, "friction_work_J"), 0.0);
-  EXPECT_LT(largest(rough, "max_displacement_m"), displacement);
+  EXPECT_LT(towards_casing(rough), displacement);
   EXPECT_GT(largest(rough, "friction_work_J"), 0.0);
   EXPECT_GT(displacement, 2e-4) << "the tip does not reach the casing";
 }
