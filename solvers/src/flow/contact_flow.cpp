@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "flow/flow_engine.hpp"
 #include "linalg/dense.hpp"
@@ -161,35 +162,74 @@ double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
   return sum;
 }
 
+ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel, const detail::Signals& dense,
+                                                                    Index c, int exit) {
+  const int state = now_.state[std::size_t(c)];
+  const LawMachine& law = contacts_.law(c);
+  const Index first = panel.shape->nodes() + 1;
+  GuardSamples samples;
+  double& size = size_[{c, 64 * state + exit}];
+  for (Index k = 0; k < dense_.size(); ++k) {
+    const detail::LocalValues local(contacts_, c, dense, first + k, now_.memory);
+    const Dual guard = law.guard(state, exit, local.signals());
+    samples.value.push_back(guard.value);
+    samples.rate.push_back(panel.shape->half() *
+                           detail::SlopeOfSignals{contacts_, c, guard, 0.0}.rate(dense, first + k));
+    size = std::max({size, std::abs(guard.value), k == 0 ? scale_of(guard, law.rows()) : 0.0});
+  }
+  constexpr double clear = 1e-11;
+  samples.clear = clear * size;
+  return samples;
+}
+
+// Where a guard first goes below zero between two points at which it is positive, if it does: a touch that the points
+// miss. Its cubic tells whether it comes near.
+std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c,
+                                                 int exit) const {
+  const double low = dense_[Index(k)], width = dense_[Index(k) + 1] - low, a = samples.value[k],
+               b = samples.value[k + 1], u = width * samples.rate[k], v = width * samples.rate[k + 1];
+  if (!(u < 0.0 && v > 0.0)) return std::nullopt;
+  const auto cubic = [&](double t) {
+    return a + t * (u + t * (3.0 * (b - a) - 2.0 * u - v + t * (u + v - 2.0 * (b - a))));
+  };
+  double least = std::min(a, b);
+  for (const double t : {0.2, 0.35, 0.5, 0.65, 0.8}) least = std::min(least, cubic(t));
+  constexpr double near = 0.2;
+  if (least > near * std::min(a, b)) return std::nullopt;
+  const auto at = [&](double t) { return guard_at(panel, c, exit, low + t * width); };
+  constexpr double golden = 0.381966011250105;
+  double from = 0.0, to = 1.0, left = golden, right = 1.0 - golden, at_left = at(left), at_right = at(right);
+  for (int n = 0; n < 40 && std::min(at_left, at_right) >= -samples.clear; ++n) {
+    if (at_left < at_right) {
+      to = std::exchange(right, left);
+      at_right = at_left;
+      at_left = at(left = from + golden * (to - from));
+    } else {
+      from = std::exchange(left, right);
+      at_left = at_right;
+      at_right = at(right = to - golden * (to - from));
+    }
+  }
+  const double deepest = at_left < at_right ? left : right, value = std::min(at_left, at_right);
+  if (value >= -samples.clear) return std::nullopt;
+  const auto share = detail::root(at, {0.0, a}, {deepest, value}, 1e-15);
+  return share ? std::optional(low + *share * width) : std::nullopt;
+}
+
 // Guards that vanish at the beginning, behind an event, count by their first clear value.
 std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense, Index c,
                                                   int exit) {
-  constexpr double clear = 1e-11;
-  const int state = now_.state[std::size_t(c)];
-  const LawMachine& law = contacts_.law(c);
-  const Index first = panel.shape->nodes() + 1, count = dense_.size();
-  std::vector<double> g;
-  double first_rate = 0.0, largest_rate = 0.0;
-  double& size = size_[{c, 64 * state + exit}];
-  for (Index k = 0; k < count; ++k) {
-    const detail::LocalValues local(contacts_, c, dense, first + k, now_.memory);
-    const Dual guard = law.guard(state, exit, local.signals());
-    const double rate = detail::SlopeOfSignals{contacts_, c, guard, 0.0}.rate(dense, first + k);
-    g.push_back(guard.value);
-    if (k == 0) {
-      first_rate = rate;
-      size = std::max(size, scale_of(guard, law.rows()));
-    }
-    largest_rate = std::max(largest_rate, std::abs(rate));
-    size = std::max(size, std::abs(guard.value));
-  }
+  const GuardSamples samples = sample_guard(panel, dense, c, exit);
+  const std::vector<double>& g = samples.value;
   const auto at = [&](double x) { return guard_at(panel, c, exit, x); };
-  const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > clear * size; };
+  const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
   while (k < g.size() && !is_clear(k)) ++k;
   if (k == g.size()) return std::nullopt;
   if (g[k] < 0.0) {
-    if (k == 0 || first_rate <= 1e-9 * largest_rate) return -1.0;
+    double largest_rate = 0.0;
+    for (const double rate : samples.rate) largest_rate = std::max(largest_rate, std::abs(rate));
+    if (k == 0 || samples.rate[0] <= 1e-9 * largest_rate) return -1.0;
     double low = dense_[Index(k)];
     while (at(low) <= 0.0) {
       low = -1.0 + 0.5 * (low + 1.0);
@@ -197,14 +237,14 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const det
     }
     return detail::root(at, {low, at(low)}, {dense_[Index(k)], g[k]}, 1e-15);
   }
-  std::size_t last = k;
-  for (; k < g.size(); ++k) {
+  for (std::size_t last = k++; k < g.size(); ++k) {
     if (!is_clear(k)) continue;
-    if (g[k] < 0.0) break;
+    if (g[k] < 0.0) return detail::root(at, {dense_[Index(last)], g[last]}, {dense_[Index(k)], g[k]}, 1e-15);
+    if (last + 1 == k)
+      if (const auto touched = touch(panel, samples, last, c, exit)) return touched;
     last = k;
   }
-  if (k == g.size()) return std::nullopt;
-  return detail::root(at, {dense_[Index(last)], g[last]}, {dense_[Index(k)], g[k]}, 1e-15);
+  return std::nullopt;
 }
 
 std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel) {

@@ -40,11 +40,19 @@ class ContactFlow::Engine {
     Eigen::MatrixXd force;
   };
 
+  /// A guard and its rate by x at the dense points; below `clear` its values are rounding.
+  struct GuardSamples {
+    std::vector<double> value, rate;
+    double clear = 0.0;
+  };
+
   detail::PanelMotion motion(const detail::PanelShape& shape) const { return {poles_, shape, time_, states_}; }
   const detail::PanelShape& shape(int level);
   std::optional<Solved> solve_next();
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
   std::optional<Hit> first_hit(const Solved& panel);
+  GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, Index c, int exit);
+  std::optional<double> touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c, int exit) const;
   std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
   double scale_of(const Dual& guard, int rows) const;
   double guard_at(const Solved& panel, Index c, int exit, double at) const;

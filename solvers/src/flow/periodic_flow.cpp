@@ -5,7 +5,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
-#include "period/repetition.hpp"
+#include "period/past_periods.hpp"
 #include "phases/phase_loads.hpp"
 
 namespace wavebalance::solvers {
@@ -25,52 +25,29 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion) {
   });
 }
 
-/// Periods one after the other until the motion repeats.
-class Integration {
- public:
-  Integration(ContactFlow& flow, const TimeSteppingOptions& options, Index rows, FlowMotion& result)
-      : flow_(flow), options_(options), rows_(rows), result_(result), rule_(options.longest, options.period_tolerance) {}
-
-  TimeSteppingStatus run() {
-    TimeSteppingResult& stepping = result_.stepping;
-    while (stepping.periods < options_.max_periods) {
-      Motion period = empty_motion(rows_, options_.output_points);
-      result_.ended = sampled_period(flow_, period);
-      if (result_.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
-      add(period.displacement);
-      stepping.contacts = std::move(period);
-      if (++stepping.periods > 1) stepping.period_error.push_back(rule_.change());
-      const double done = std::log(rule_.change()) / std::log(options_.period_tolerance);
-      const int repeats = rule_.found().periods;
-      if (repeats > 0) {
-        stepping.attractor_periods = repeats;
-        return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;
-      }
-      if (!goes_on(options_.observer, {"time stepping", stepping.periods, rule_.change(),
-                                       "relative difference of periods", std::clamp(done, 0.0, 1.0)}))
-        return TimeSteppingStatus::cancelled;
+// Periods one after the other until the motion repeats.
+TimeSteppingStatus run(ContactFlow& flow, const TimeSteppingOptions& options, Index rows, FlowMotion& result) {
+  TimeSteppingResult& stepping = result.stepping;
+  PastPeriods past(options.longest, options.period_tolerance);
+  while (stepping.periods < options.max_periods) {
+    Motion period = empty_motion(rows, options.output_points);
+    result.ended = sampled_period(flow, period);
+    if (result.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
+    past.add(period.displacement);
+    stepping.contacts = std::move(period);
+    if (++stepping.periods > 1) stepping.period_error.push_back(past.change());
+    if (const int repeats = past.repeats(); repeats > 0) {
+      stepping.attractor_periods = repeats;
+      return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;
     }
-    if (stepping.periods > 2 * options_.longest) stepping.attractor_periods = 0;
-    return TimeSteppingStatus::iteration_limit;
+    const double done = std::log(past.change()) / std::log(options.period_tolerance);
+    if (!goes_on(options.observer, {"time stepping", stepping.periods, past.change(),
+                                    "relative difference of periods", std::clamp(done, 0.0, 1.0)}))
+      return TimeSteppingStatus::cancelled;
   }
-
- private:
-  void add(const Eigen::MatrixXd& displacement) {
-    past_.push_front(displacement);
-    if (past_.size() > std::size_t(options_.longest) + 1) past_.pop_back();
-    rule_.add([&](int lag) {
-      const double difference = (past_.front() - past_[std::size_t(lag)]).norm();
-      return difference == 0.0 ? 0.0 : difference / past_.front().norm();
-    });
-  }
-
-  ContactFlow& flow_;
-  const TimeSteppingOptions& options_;
-  Index rows_;
-  FlowMotion& result_;
-  std::deque<Eigen::MatrixXd> past_;
-  RepetitionRule rule_;
-};
+  if (stepping.periods > 2 * options.longest) stepping.attractor_periods = 0;
+  return TimeSteppingStatus::iteration_limit;
+}
 
 // Perturbations of each state over one period from `state`; nothing unless the states of the contacts return.
 std::optional<Eigen::MatrixXd> period_map(ContactFlow& flow, const Eigen::VectorXd& state) {
@@ -119,10 +96,11 @@ void close(ContactFlow& flow, FlowMotion& result) {
 
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow_options) {
+  options.validate(0);
   ContactFlow flow(problem, flow_options);
   FlowMotion result;
   result.machines = flow.machines();
-  result.stepping.status = Integration(flow, options, problem.dynamics.contacts(), result).run();
+  result.stepping.status = run(flow, options, problem.dynamics.contacts(), result);
   result.events = flow.events();
   result.rests = flow.rests();
   if (result.stepping.status == TimeSteppingStatus::converged) close(flow, result);

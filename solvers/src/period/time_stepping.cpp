@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "period/bdf_map.hpp"
-#include "period/repetition.hpp"
+#include "period/past_periods.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -20,30 +19,6 @@ PeriodState initial_state(const BdfMap& map, const TimeSteppingOptions& options,
   };
   return map.state(or_zero(options.initial_displacement), or_zero(options.initial_velocity));
 }
-
-/// The contact displacements of the last periods, the last one first, and whether they repeat.
-class PastPeriods {
- public:
-  PastPeriods(int longest, double tolerance)
-      : longest_(static_cast<std::size_t>(longest)), rule_(longest, tolerance) {}
-
-  void add(const Eigen::MatrixXd& displacement) {
-    past_.push_front(displacement);
-    if (past_.size() > longest_ + 1) past_.pop_back();
-    rule_.add([&](int lag) {
-      const double difference = (past_.front() - past_[static_cast<std::size_t>(lag)]).norm();
-      return difference == 0.0 ? 0.0 : difference / past_.front().norm();
-    });
-  }
-  /// The relative rms difference of the last period and that before it.
-  double change() const { return rule_.change(); }
-  int repeats() const { return rule_.found().periods; }
-
- private:
-  std::size_t longest_;
-  std::deque<Eigen::MatrixXd> past_;  // contacts x points
-  RepetitionRule rule_;
-};
 
 /// Whether two periods differ by no more than the errors of their steps, which a tenth of the tolerance
 /// shows: they then cannot agree any better.

@@ -132,6 +132,18 @@ TEST(ContactFlow, TakesPerturbationsAlongAsDifferencesOfMotionsDo) {
   }
 }
 
+// Contact of 3e-3 of a radian, where points lie 2e-2 apart.
+TEST(ContactFlow, FindsATouchBetweenTwoOfItsPoints) {
+  const testing::ImpactScene scene = testing::impact_oscillator(0.2, 0.0, 1.0, 1.5);
+  const double amplitude = std::abs(scene.free_amplitudes()[0]), depth = 1e-6 * amplitude;
+  const FlowMotion motion =
+      Vibrating(scene.structure(), contact::LinearLaw(1.0, amplitude - depth), scene.frequency()).motion(64);
+  ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
+  ASSERT_EQ(motion.events.size(), 2u);
+  const double contact = std::abs(motion.events[1].time - motion.events[0].time) * scene.omega;
+  EXPECT_NEAR(contact, 2.0 * std::sqrt(2e-6), 1e-5);
+}
+
 // A ball that is pressed to the stop bounces with 0.5 until it rests, and leaves where the load pulls.
 TEST(ContactFlow, ComesToRestAfterFinitelyManyImpacts) {
   testing::ImpactScene scene = testing::impact_oscillator(0.1, 0.2, 0.5, 0.2);
