@@ -204,7 +204,7 @@ LawDescription CoulombLaw::description() {
            may_lack(
                {"tangential_stiffness", "N/m",
                 "stiffness along the tangents while the contact sticks; without it friction is rigid, and the "
-                "contact has no mass",
+                "contact has no mass unless it is integrated in time",
                 above_zero}),
            with_default({"normal_load", "N",
                          "normal force at zero displacement; above 0 where there is no normal direction",

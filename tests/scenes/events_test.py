@@ -97,3 +97,31 @@ def test_friction_along_two_tangents_is_refused_by_name(command, matrix, tmp_pat
     checked = command("check", "scene.toml")
     assert checked.code == 2
     assert "two tangents" in checked.errors and "analysis.type" in checked.errors
+
+
+def stuck(stiffness, load=0.5):
+    return (f'[contact]\nlaw = "coulomb"\nfriction = 0.5\nnormal_load = 2.0\n{stiffness}\n[[contact.pairs]]\ndofs = [1]',
+            f"load_dofs = [1]\namplitude = {load}")
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e4])
+def test_a_contact_that_sticks_all_the_time_leaves_the_multipliers_of_the_linear_structure(run, matrix, stiffness):
+    for name, value in ("m", 1.0), ("k", 1.0), ("c", 0.05):
+        matrix(f"{name}.mtx", [[value]])
+    contact, load = stuck(f"tangential_stiffness = {stiffness}")
+    found = run(scene('damping = "c.mtx"', contact, load, 0.2, "max_periods = 3000"))
+    assert found.code == 0, found.errors
+    assert found.summary["stability"] == "stable"
+    size = abs(found.summary["leading_multiplier_real"] + 1j * found.summary["leading_multiplier_imag"])
+    assert size == pytest.approx(math.exp(-0.025 * 5.0), rel=1e-6)
+    assert any("sticks all the time" in warning for warning in found.summary["warnings"])
+
+
+def test_rigid_friction_that_never_slips_holds_its_contact(run, matrix):
+    for name, value in ("m", 1.0), ("k", 1.0), ("c", 0.05):
+        matrix(f"{name}.mtx", [[value]])
+    contact, load = stuck("")
+    found = run(scene('damping = "c.mtx"', contact, load, 0.2))
+    assert found.code == 0, found.errors
+    assert abs(found.summary["max_displacement_m"]) < 1e-9
+    assert found.summary["stability"] != "unstable"

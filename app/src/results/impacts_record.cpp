@@ -70,6 +70,15 @@ void append_events(Record& record, const Response& response, double frequency) {
     impulse = std::max(impulse, one.impulse);
     velocity = std::max(velocity, one.speed);
   }
+  for (std::size_t c = 0; c < flow.machines.size(); ++c) {
+    const bool changes = std::any_of(flow.events.begin(), flow.events.end(),
+                                     [&](const solvers::FlowEvent& one) { return one.contact == int(c); });
+    if (!changes && flow.machines[c].law->kind(flow.states[c]) == solvers::ContactState::stick)
+      record.warnings.push_back(fmt::format(
+          "Contact {} sticks all the time. Where it sticks depends on the start: the contacts begin at rest, and the "
+          "structure elsewhere in its motion without contact.",
+          c + 1));
+  }
   if (impacts > 0) {
     record.summary.emplace_back(quantities::impacts, double(impacts));
     record.summary.emplace_back(quantities::max_impulse, impulse);

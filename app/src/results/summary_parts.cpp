@@ -141,6 +141,7 @@ void append_attractor(Record& record, int periods, const Response& response) {
   if (response.attractor_periods < 0) return;
   record.summary.emplace_back(quantities::attractor_periods, std::int64_t{response.attractor_periods});
   const int attractor = response.attractor_periods;
+  const char* start = response.flow ? "From contacts at rest" : "From rest";
   if (attractor > 0 && periods % attractor == 0) {
     if (!response.moves)
       record.warnings.push_back(
@@ -150,12 +151,12 @@ void append_attractor(Record& record, int periods, const Response& response) {
   }
   record.warnings.push_back(
       attractor == 0
-          ? std::string(
-                "From rest the motion did not repeat after up to 16 periods of the load within the periods "
-                "integrated: it is aperiodic, or has not settled yet.")
-          : fmt::format("From rest the structure settles to a motion of {} periods of the load, which "
-                        "analysis.subharmonic = {} computes.",
-                        attractor, attractor));
+          ? fmt::format("{} the motion did not repeat after up to 16 periods of the load within the periods "
+                        "integrated: it is aperiodic, or has not settled yet.",
+                        start)
+          : fmt::format("{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
+                        response.flow ? ""
+                                      : fmt::format(", which analysis.subharmonic = {} computes", attractor)));
 }
 
 void append_settled(Record& record, const Scene& scene, const Response& response) {

@@ -60,7 +60,7 @@ void FlowOptions::validate() const {
 ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& options)
     : options_(options),
       poles_(problem.dynamics, problem.contact_free, problem.frequency),
-      machines_(machines_of(problem.laws, problem.dynamics, length_of(problem))),
+      machines_(machines_of(problem.laws, problem.dynamics, length_of(problem), problem.frequency)),
       contacts_(machines_),
       nodes_(node_count),
       dense_(dense_points()),
@@ -136,10 +136,14 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
     const detail::PanelShape& panel = shape(level_);
     detail::PanelForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
     if (!found.converged || !found.force.allFinite()) continue;
-    const double rough = panel.unresolved(found.force, force_size_);
-    if (rough > options_.tolerance) continue;
-    force_size_ = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
-    if (rough < 0.01 * options_.tolerance) level_ = std::max(level_ - 1, coarsest_);
+    const double rough = panel.unresolved(found.force, force_size_),
+                 size = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
+    if (rough * size > std::max(options_.tolerance * size, found.rounding)) continue;
+    // Perturbations may move faster than the motion does: at most one radian a node.
+    const double turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
+    if (turns > 1.0) continue;
+    force_size_ = size;
+    if (rough < 0.01 * options_.tolerance && turns < 0.5) level_ = std::max(level_ - 1, coarsest_);
     return Solved{&panel, std::move(found.force)};
   }
   return std::nullopt;
@@ -225,6 +229,10 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const det
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
   while (k < g.size() && !is_clear(k)) ++k;
+  // What an event before has left slightly below zero, and grows, is as zero.
+  constexpr double left_over = 1e4;  // of `clear`
+  if (k == 0 && g[0] < 0.0 && g[0] > -left_over * samples.clear && samples.rate[0] > 0.0)
+    while (k < g.size() && g[k] < samples.clear) ++k;
   if (k == g.size()) return std::nullopt;
   if (g[k] < 0.0) {
     double largest_rate = 0.0;
@@ -320,16 +328,19 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     now_.memory[std::size_t(contacts_.memory_begin(c) + m)] = memory.empty() ? 0.0 : memory[std::size_t(m)].value;
   now_.state[std::size_t(c)] = event.to = to;
   events_.push_back(event);
-  if (exit.impulse) follow_impulse(c, after, event.speed);
+  if (exit.impulse) follow_impulse(c, signals, after, event.speed);
 }
 
-void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& after, double speed) {
-  constexpr double rounding = 1e-11;
+void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
+                                         double speed) {
+  constexpr double rounding = 1e-9;
   for (Index c = 0; c < contacts_.count(); ++c) {
-    if (c == struck) continue;
+    const Index row = contacts_.row(c), rows = contacts_.law(c).rows();
+    const double jump = (after[1] - before[1]).middleRows(row, rows).cwiseAbs().maxCoeff();
+    if (c == struck || jump <= rounding * std::abs(speed)) continue;
     const detail::LocalValues local(contacts_, c, after, 0, now_.memory);
     int& state = now_.state[std::size_t(c)];
-    const int next = contacts_.law(c).after_impulse(state, local.signals(), rounding * std::abs(speed));
+    const int next = contacts_.law(c).after_impulse(state, local.signals());
     if (next != state) events_.push_back({.time = time_, .contact = int(c), .from = state, .to = next});
     state = next;
   }

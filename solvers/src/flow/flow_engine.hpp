@@ -58,7 +58,7 @@ class ContactFlow::Engine {
   double guard_at(const Solved& panel, Index c, int exit, double at) const;
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
-  void follow_impulse(Index struck, const detail::Signals& after, double speed);
+  void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after, double speed);
   void change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before);
 
   FlowOptions options_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -87,7 +88,8 @@ class PieceMachine final : public LawMachine {
 /// force does.
 class ImpactMachine final : public LawMachine {
  public:
-  ImpactMachine(double gap, double restitution) : gap_(gap), restitution_(restitution) {}
+  /// rate, 1/s: at which rounding in a closed contact decays.
+  ImpactMachine(double gap, double restitution, double rate) : gap_(gap), restitution_(restitution), rate_(rate) {}
   enum : int { open, closed };
 
   ContactState kind(int state) const override {
@@ -99,7 +101,7 @@ class ImpactMachine final : public LawMachine {
     return {{{open, closed}, Impulse{0, restitution_}}};
   }
   void equations(int, const LocalSignals& now, std::span<Dual> out) const override {
-    out[0] = now.acceleration[0];
+    out[0] = now.acceleration[0] + 2.0 * rate_ * now.velocity[0] + rate_ * rate_ * (now.displacement[0] - gap_);
   }
   Dual guard(int state, int, const LocalSignals& now) const override {
     return state == open ? Dual(gap_) - now.displacement[0] : now.force[0];
@@ -109,13 +111,11 @@ class ImpactMachine final : public LawMachine {
     const bool leaves = after.velocity[0].value < 0.0;
     return leaves || after.acceleration[0].value <= 0.0 ? open : closed;
   }
-  int after_impulse(int state, const LocalSignals& after, double rounding) const override {
-    return std::abs(after.velocity[0].value) > rounding ? open : state;
-  }
+  int after_impulse(int, const LocalSignals&) const override { return open; }
   int start(std::span<const double>, std::span<double>) const override { return open; }
 
  private:
-  double gap_, restitution_;
+  double gap_, restitution_, rate_;
 };
 
 /// A rigid obstacle at a contact without mass.
@@ -147,9 +147,9 @@ class ObstacleMachine final : public LawMachine {
 /// or rigid at a contact with mass, where sticking has no acceleration, or without.
 class FrictionMachine final : public LawMachine {
  public:
-  /// inverse_mass, 1/kg: of the tangent; 0 without mass.
-  FrictionMachine(AnyContactLaw law, double inverse_mass)
-      : law_(std::move(law)), c_(*law_.friction()), inverse_mass_(inverse_mass) {}
+  /// inverse_mass, 1/kg: of the tangent; 0 without mass. rate, 1/s: at which rounding decays while it sticks.
+  FrictionMachine(AnyContactLaw law, double inverse_mass, double rate)
+      : law_(std::move(law)), c_(*law_.friction()), inverse_mass_(inverse_mass), rate_(rate) {}
   enum : int { open, stick, forward, backward };
 
   int rows() const override { return c_.normal_rows + 1; }
@@ -194,7 +194,7 @@ class FrictionMachine final : public LawMachine {
     if (has_normal()) out[next++] = now.force[0] - normal(now);
     if (state != stick) return;
     if (accelerates())
-      out[next] = now.acceleration.back();
+      out[next] = now.acceleration.back() + rate_ * now.velocity.back();
     else
       out[next] = rigid() ? now.displacement.back() - now.memory[0] : now.force.back() - elastic(now);
   }
@@ -222,15 +222,15 @@ class FrictionMachine final : public LawMachine {
     if (state == open) return closing(before);
     if (!accelerates()) return stick;
     const double holds = before.force.back().value + before.acceleration.back().value / inverse_mass_;
-    if (std::abs(holds) <= c_.friction * normal(before).value) return stick;
+    constexpr double rounding = 1e-7;  // what is more than stuck leaves at once
+    if (std::abs(holds) <= (1.0 + rounding) * c_.friction * normal(before).value) return stick;
     return holds > 0.0 ? forward : backward;
   }
 
   // Rigid friction follows the sense of the velocity, which an impulse may start or reverse.
-  int after_impulse(int state, const LocalSignals& after, double rounding) const override {
-    const double v = after.velocity.back().value;
-    if (state == open || !accelerates() || std::abs(v) <= rounding) return state;
-    return v > 0.0 ? forward : backward;
+  int after_impulse(int state, const LocalSignals& after) const override {
+    if (state == open || !accelerates()) return state;
+    return after.velocity.back().value > 0.0 ? forward : backward;
   }
 
   int start(std::span<const double> displacement, std::span<double> memory) const override {
@@ -281,7 +281,7 @@ class FrictionMachine final : public LawMachine {
 
   AnyContactLaw law_;
   FrictionConstants c_;
-  double inverse_mass_;
+  double inverse_mass_, rate_;
 };
 
 // The velocity of a row by an impulse there, 1/kg; 0 where it is displaced at once.
@@ -300,29 +300,31 @@ double inverse_mass_of(const ContactDynamics& dynamics, int row) {
 }
 
 std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics, int row,
-                                             double length) {
+                                             double length, double rate) {
   if (const auto constants = law.friction()) {
     if (constants->tangents != 1)
       throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                   " has friction with two tangents; only one is integrated by events");
-    return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows));
+    return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows), rate);
   }
   if (law.acts_over_period())
     throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                 " has a law over a period without states");
   if (!law.is_rigid()) return std::make_shared<PieceMachine>(law, length);
   if (inverse_mass_of(dynamics, row) == 0.0) return std::make_shared<ObstacleMachine>(law.gap());
-  if (const auto restitution = law.restitution()) return std::make_shared<ImpactMachine>(law.gap(), *restitution);
+  if (const auto restitution = law.restitution()) return std::make_shared<ImpactMachine>(law.gap(), *restitution, rate);
   throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                               " is rigid and has mass, so that its law must have a restitution");
 }
 
 }  // namespace
 
-std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics, double length) {
+std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics, double length,
+                                        double frequency) {
+  const double rate = 4.0 * std::numbers::pi * frequency;
   std::vector<ContactMachine> machines;
   for (int row = 0; row < dynamics.contacts(); row += machines.back().law->rows())
-    machines.push_back({machine_of(laws[row], dynamics, row, length), row});
+    machines.push_back({machine_of(laws[row], dynamics, row, length, rate), row});
   return machines;
 }
 

@@ -173,6 +173,27 @@ Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::
   return result;
 }
 
+namespace {
+
+// By the contact's own mass and the stiffness and damping of its law.
+void add_slopes(const Contacts& contacts, const FreeForces& free, const std::vector<std::vector<Dual>>& equations,
+                const PanelMotion& motion, const Signals& signals, PanelForces& result) {
+  constexpr double eps = 2.2e-16, units = 16.0;
+  for (std::size_t e = 0; e < equations.size(); ++e)
+    for (std::size_t n = 0; n < equations[e].size(); ++n) {
+      const auto [c, row] = free.rows[e];
+      const SlopeOfSignals slope{contacts, c, equations[e][n], motion.poles.holding()};
+      const double force = slope.by(force_kind, row);
+      if (force == 0.0) continue;
+      const double stiffness = std::abs(slope.by(0, row) / force), damping = std::abs(slope.by(1, row) / force),
+                   mobility = std::max(motion.poles.inverse_mass()(row, row), 0.0);
+      result.rate = std::max(result.rate, std::sqrt(stiffness * mobility) + damping * mobility);
+      result.rounding = std::max(result.rounding, units * eps * stiffness * std::abs(signals[0](row, Index(n))));
+    }
+}
+
+}  // namespace
+
 PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                         double force_size) {
   constexpr int most = 25;
@@ -198,6 +219,7 @@ PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, cons
     const double size = std::max(force_size, unknown.cwiseAbs().maxCoeff()), change = step.cwiseAbs().maxCoeff();
     result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
     last = change;
+    if (result.converged) add_slopes(contacts, free, equations, motion, signals, result);
   }
   return result;
 }

@@ -77,6 +77,8 @@ Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::
 struct PanelForces {
   Eigen::MatrixXd force;  ///< R x q, N
   bool converged = false;
+  double rate = 0.0;      ///< rad/s, at which perturbations turn or decay by the slopes of the laws
+  double rounding = 0.0;  ///< N, of forces that follow from displacements
 };
 PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                         double force_size);

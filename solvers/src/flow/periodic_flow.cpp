@@ -5,6 +5,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "period/past_periods.hpp"
 #include "phases/phase_loads.hpp"
 
@@ -68,9 +69,7 @@ Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map) {
     if (!own.isZero(0.0)) kept.push_back(i);
   }
   const Eigen::MatrixXd free = map(kept, kept);
-  Eigen::VectorXcd values = free.size() == 0 ? Eigen::VectorXcd() : detail::eigenvalues(free);
-  std::sort(values.begin(), values.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
-  return values;
+  return free.size() == 0 ? Eigen::VectorXcd() : detail::map_multipliers(free);
 }
 
 // Newton's method on the map of the period.
@@ -111,6 +110,7 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
       result.events = flow.events();
     }
   }
+  result.states = flow.contact_states();
   return result;
 }
 

@@ -70,9 +70,8 @@ class LawMachine {
                      const LocalSignals& /*after*/) const {
     return exits(state)[static_cast<std::size_t>(exit)].targets.front();
   }
-  /// The state behind an impulse at another contact, which changes velocities at once; those below `rounding`, m/s, are
-  /// zero.
-  virtual int after_impulse(int state, const LocalSignals& /*after*/, double /*rounding*/) const { return state; }
+  /// The state behind an impulse at another contact that has changed the velocity of this one.
+  virtual int after_impulse(int state, const LocalSignals& /*after*/) const { return state; }
   /// The state in which displacements at rest begin, and its memories.
   virtual int start(std::span<const double> displacement, std::span<double> memory) const = 0;
 };
@@ -84,8 +83,8 @@ struct ContactMachine {
 };
 
 /// The machines of the laws of a structure, in the order of its directions. `length` (m) is one that the
-/// motion has. Throws std::invalid_argument for friction with two tangents.
+/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for friction with two tangents.
 std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
-                                        double length);
+                                        double length, double frequency);
 
 }  // namespace wavebalance::solvers
