@@ -135,7 +135,7 @@ class Look:
         before = self.browser.value(shown)
         self.browser.click(play)
         assert self.browser.value(f"{play}.textContent") == "Pause"
-        self.browser.until(f"{shown} !== {before!r}", 5)
+        self.browser.until(f"{shown} !== {before!r}")
         self.browser.click(play)
         still = self.browser.value(shown)
         time.sleep(0.1)
