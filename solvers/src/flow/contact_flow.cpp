@@ -38,7 +38,8 @@ int coarsest_level(const detail::ContactPoles& poles, int panels) {
 }
 
 double length_of(const PhasesProblem& problem) {
-  const double free = problem.contact_free.size() == 0 ? 0.0 : problem.contact_free.rowwise().norm().maxCoeff();
+  const double free =
+      problem.contact_free.size() == 0 ? 0.0 : problem.contact_free.rowwise().norm().maxCoeff();
   return std::max({free, problem.laws.largest_gap(), 1e-300});
 }
 
@@ -98,8 +99,9 @@ void ContactFlow::Engine::start() {
   for (Index c = 0; c < contacts_.count(); ++c) {
     const LawMachine& law = contacts_.law(c);
     const std::span<const double> at(rest_position_.data() + contacts_.row(c), std::size_t(law.rows()));
-    now_.state.push_back(law.start(at, std::span<double>(now_.memory).subspan(std::size_t(contacts_.memory_begin(c)),
-                                                                             std::size_t(law.memories()))));
+    now_.state.push_back(
+        law.start(at, std::span<double>(now_.memory)
+                          .subspan(std::size_t(contacts_.memory_begin(c)), std::size_t(law.memories()))));
   }
   time_ = 0.0;
   level_ = coarsest_;
@@ -113,7 +115,8 @@ void ContactFlow::Engine::start(const Eigen::VectorXd& state) {
 
 Eigen::VectorXd ContactFlow::Engine::state() const {
   Eigen::VectorXd result(poles_.states() + contacts_.memories());
-  result << poles_.real_of(states_), Eigen::Map<const Eigen::VectorXd>(now_.memory.data(), contacts_.memories());
+  result << poles_.real_of(states_),
+      Eigen::Map<const Eigen::VectorXd>(now_.memory.data(), contacts_.memories());
   return result;
 }
 
@@ -162,12 +165,14 @@ double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
   const std::array<double, 4> scales{length_, length_ * rate, length_ * rate * rate, force_size_};
   double sum = 0.0;
   for (std::size_t k = 0; k < scales.size(); ++k)
-    for (int i = 0; i < rows; ++i) sum += std::abs(guard.slope[k * std::size_t(rows) + std::size_t(i)]) * scales[k];
+    for (int i = 0; i < rows; ++i)
+      sum += std::abs(guard.slope[k * std::size_t(rows) + std::size_t(i)]) * scales[k];
   return sum;
 }
 
-ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel, const detail::Signals& dense,
-                                                                    Index c, int exit) {
+ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel,
+                                                                    const detail::Signals& dense, Index c,
+                                                                    int exit) {
   const int state = now_.state[std::size_t(c)];
   const LawMachine& law = contacts_.law(c);
   const Index first = panel.shape->nodes() + 1;
@@ -186,10 +191,10 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
   return samples;
 }
 
-// Where a guard first goes below zero between two points at which it is positive, if it does: a touch that the points
-// miss. Its cubic tells whether it comes near.
-std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c,
-                                                 int exit) const {
+// Where a guard first goes below zero between two points at which it is positive, if it does: a touch that
+// the points miss. Its cubic tells whether it comes near.
+std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const GuardSamples& samples,
+                                                 std::size_t k, Index c, int exit) const {
   const double low = dense_[Index(k)], width = dense_[Index(k) + 1] - low, a = samples.value[k],
                b = samples.value[k + 1], u = width * samples.rate[k], v = width * samples.rate[k + 1];
   if (!(u < 0.0 && v > 0.0)) return std::nullopt;
@@ -283,7 +288,8 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
             signals[force_kind].col(k)});
 }
 
-void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before) {
+void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
+                                 const Eigen::VectorXcd& before) {
   const Index c = hit.contact;
   const LawMachine& law = contacts_.law(c);
   const int state = now_.state[std::size_t(c)];
@@ -306,8 +312,7 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     event.speed = speed.value;
     const Eigen::VectorXcd left = poles_.inputs().col(row) * impulse->value;
     states_ -= left;
-    for (int d = 0; d < detail::levels; ++d)
-      after[std::size_t(d)] -= (poles_.outputs(d) * left).real();
+    for (int d = 0; d < detail::levels; ++d) after[std::size_t(d)] -= (poles_.outputs(d) * left).real();
     if (rebound == 0.0) after[1](row, 0) = 0.0;
   }
   int to = exit.targets.front();
@@ -325,14 +330,15 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     variation_.through(contacts_, poles_, {c, guard, memory, impulse, row}, signals, before);
   }
   for (Index m = 0; m < law.memories(); ++m)
-    now_.memory[std::size_t(contacts_.memory_begin(c) + m)] = memory.empty() ? 0.0 : memory[std::size_t(m)].value;
+    now_.memory[std::size_t(contacts_.memory_begin(c) + m)] =
+        memory.empty() ? 0.0 : memory[std::size_t(m)].value;
   now_.state[std::size_t(c)] = event.to = to;
   events_.push_back(event);
   if (exit.impulse) follow_impulse(c, signals, after, event.speed);
 }
 
-void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
-                                         double speed) {
+void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& before,
+                                         const detail::Signals& after, double speed) {
   constexpr double rounding = 1e-9;
   for (Index c = 0; c < contacts_.count(); ++c) {
     const Index row = contacts_.row(c), rows = contacts_.law(c).rows();
@@ -368,7 +374,8 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   return FlowStatus::converged;
 }
 
-FlowStatus ContactFlow::Engine::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
+FlowStatus ContactFlow::Engine::advance_period(int points,
+                                               const std::function<void(const FlowSample&)>& sample) {
   events_.clear();
   rests_ = sampled_ = 0;
   while (time_ < poles_.period())

@@ -76,7 +76,8 @@ std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::Vect
   const double rate = 2.0 * std::numbers::pi / period_;
   Eigen::MatrixXcd waves(contact_free_.cols(), times.size());
   for (Index k = 0; k < times.size(); ++k)
-    for (Index n = 0; n < contact_free_.cols(); ++n) waves(n, k) = std::polar(1.0, rate * double(n) * times[k]);
+    for (Index n = 0; n < contact_free_.cols(); ++n)
+      waves(n, k) = std::polar(1.0, rate * double(n) * times[k]);
   Eigen::MatrixXcd amplitudes = contact_free_;
   for (auto& values : result) {
     values = (amplitudes * waves).real();

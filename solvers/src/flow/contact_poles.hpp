@@ -14,20 +14,22 @@ inline constexpr int levels = 4, kinds = 7, force_kind = 4;
 /// Signals of R rows at N points: one R x N matrix per kind.
 using Signals = std::array<Eigen::MatrixXd, kinds>;
 
-/// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative of the
-/// displacements Re(c r^d y) - sum_k feed(d, k) f^(k) beside the motion without contact. The feeds are the
-/// moments H_i = Re(c r^i b) and the flexibility of contacts without mass. Times in s.
+/// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative of
+/// the displacements Re(c r^d y) - sum_k feed(d, k) f^(k) beside the motion without contact. The feeds are
+/// the moments H_i = Re(c r^i b) and the flexibility of contacts without mass. Times in s.
 class ContactPoles {
  public:
-  /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t in
-  /// periods. Throws std::invalid_argument for structural damping, and where motions grow without contact.
+  /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
+  /// in periods. Throws std::invalid_argument for structural damping, and where motions grow without contact.
   ContactPoles(const ContactDynamics& dynamics, Eigen::MatrixXcd contact_free, double frequency);
 
   Index rows() const { return inputs_.cols(); }
   Index poles() const { return exponents_.size(); }
   Index states() const { return states_; }  ///< real: one of a real pole, two of a pair
   double period() const { return period_; }
-  double holding() const { return holding_; }  ///< N/m, of the springs that ContactDynamics puts to the contacts
+  double holding() const {
+    return holding_;
+  }  ///< N/m, of the springs that ContactDynamics puts to the contacts
   const Eigen::VectorXcd& exponents() const { return exponents_; }  ///< 1/s
   const Eigen::MatrixXcd& inputs() const { return inputs_; }        ///< b, P x R
   /// c r^d, R x P.

@@ -46,19 +46,23 @@ class ContactFlow::Engine {
     double clear = 0.0;
   };
 
-  detail::PanelMotion motion(const detail::PanelShape& shape) const { return {poles_, shape, time_, states_}; }
+  detail::PanelMotion motion(const detail::PanelShape& shape) const {
+    return {poles_, shape, time_, states_};
+  }
   const detail::PanelShape& shape(int level);
   std::optional<Solved> solve_next();
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
   std::optional<Hit> first_hit(const Solved& panel);
   GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, Index c, int exit);
-  std::optional<double> touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c, int exit) const;
+  std::optional<double> touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c,
+                              int exit) const;
   std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
   double scale_of(const Dual& guard, int rows) const;
   double guard_at(const Solved& panel, Index c, int exit, double at) const;
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
-  void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after, double speed);
+  void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
+                      double speed);
   void change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before);
 
   FlowOptions options_;
@@ -75,7 +79,7 @@ class ContactFlow::Engine {
   detail::ContactStates now_;
   detail::Variation variation_;
   std::vector<FlowEvent> events_;
-  std::vector<double> fastest_;                  // impact of each contact, m/s
+  std::vector<double> fastest_;                   // impact of each contact, m/s
   std::map<std::pair<Index, int>, double> size_;  // of guards, by contact and state with exit
 };
 

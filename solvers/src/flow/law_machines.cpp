@@ -14,8 +14,8 @@ RowForce free_force() { return {.free = true}; }
 RowForce no_force() { return {}; }
 RowForce constant_force(double value) { return {.constant = value}; }
 
-/// A law of the displacement, or of displacement and velocity: a state for each of its pieces, and where it does
-/// not pull one more for each piece that is left before the displacement comes back.
+/// A law of the displacement, or of displacement and velocity: a state for each of its pieces, and where it
+/// does not pull one more for each piece that is left before the displacement comes back.
 class PieceMachine final : public LawMachine {
  public:
   PieceMachine(AnyContactLaw law, double length)
@@ -39,10 +39,14 @@ class PieceMachine final : public LawMachine {
   Dual guard(int state, int exit, const LocalSignals& now) const override {
     const Way way = ways(state)[std::size_t(exit)];
     switch (way.kind) {
-      case Kind::up: return Dual(law_.breakpoint(piece(state))) - now.displacement[0];
-      case Kind::down: return now.displacement[0] - Dual(law_.breakpoint(piece(state) - 1));
-      case Kind::release: return force(state, now);
-      default: return -force(piece(state), now);
+      case Kind::up:
+        return Dual(law_.breakpoint(piece(state))) - now.displacement[0];
+      case Kind::down:
+        return now.displacement[0] - Dual(law_.breakpoint(piece(state) - 1));
+      case Kind::release:
+        return force(state, now);
+      default:
+        return -force(piece(state), now);
     }
   }
 
@@ -84,24 +88,28 @@ class PieceMachine final : public LawMachine {
   detail::LawPieces law_;
 };
 
-/// A rigid obstacle at a contact with mass: it rebounds, or stays closed, by a vanishing acceleration, until its
-/// force does.
+/// A rigid obstacle at a contact with mass: it rebounds, or stays closed, by a vanishing acceleration, until
+/// its force does.
 class ImpactMachine final : public LawMachine {
  public:
   /// rate, 1/s: at which rounding in a closed contact decays.
-  ImpactMachine(double gap, double restitution, double rate) : gap_(gap), restitution_(restitution), rate_(rate) {}
+  ImpactMachine(double gap, double restitution, double rate)
+      : gap_(gap), restitution_(restitution), rate_(rate) {}
   enum : int { open, closed };
 
   ContactState kind(int state) const override {
     return state == open ? ContactState::open : ContactState::closed;
   }
-  std::vector<RowForce> forces(int state) const override { return {state == open ? no_force() : free_force()}; }
+  std::vector<RowForce> forces(int state) const override {
+    return {state == open ? no_force() : free_force()};
+  }
   std::vector<StateExit> exits(int state) const override {
     if (state == closed) return {{{open}}};
     return {{{open, closed}, Impulse{0, restitution_}}};
   }
   void equations(int, const LocalSignals& now, std::span<Dual> out) const override {
-    out[0] = now.acceleration[0] + 2.0 * rate_ * now.velocity[0] + rate_ * rate_ * (now.displacement[0] - gap_);
+    out[0] =
+        now.acceleration[0] + 2.0 * rate_ * now.velocity[0] + rate_ * rate_ * (now.displacement[0] - gap_);
   }
   Dual guard(int state, int, const LocalSignals& now) const override {
     return state == open ? Dual(gap_) - now.displacement[0] : now.force[0];
@@ -127,7 +135,9 @@ class ObstacleMachine final : public LawMachine {
   ContactState kind(int state) const override {
     return state == open ? ContactState::open : ContactState::closed;
   }
-  std::vector<RowForce> forces(int state) const override { return {state == open ? no_force() : free_force()}; }
+  std::vector<RowForce> forces(int state) const override {
+    return {state == open ? no_force() : free_force()};
+  }
   std::vector<StateExit> exits(int state) const override { return {{{state == open ? closed : open}}}; }
   void equations(int, const LocalSignals& now, std::span<Dual> out) const override {
     out[0] = now.displacement[0] - gap_;
@@ -143,8 +153,8 @@ class ObstacleMachine final : public LawMachine {
   double gap_;
 };
 
-/// Coulomb friction along one tangent, of a constant normal force or of a normal row that may open. It is elastic,
-/// or rigid at a contact with mass, where sticking has no acceleration, or without.
+/// Coulomb friction along one tangent, of a constant normal force or of a normal row that may open. It is
+/// elastic, or rigid at a contact with mass, where sticking has no acceleration, or without.
 class FrictionMachine final : public LawMachine {
  public:
   /// inverse_mass, 1/kg: of the tangent; 0 without mass. rate, 1/s: at which rounding decays while it sticks.
@@ -256,7 +266,8 @@ class FrictionMachine final : public LawMachine {
   bool accelerates() const { return rigid() && inverse_mass_ > 0.0; }
 
   Dual normal(const LocalSignals& now) const {
-    return has_normal() ? Dual(c_.normal_load) + c_.normal_stiffness * now.displacement[0] : Dual(c_.normal_load);
+    return has_normal() ? Dual(c_.normal_load) + c_.normal_stiffness * now.displacement[0]
+                        : Dual(c_.normal_load);
   }
   /// By displacements, so that its rate is known at every instant.
   Dual elastic(const LocalSignals& now) const {
@@ -299,28 +310,30 @@ double inverse_mass_of(const ContactDynamics& dynamics, int row) {
   return moved > 0.0 && std::abs(displaced) * fastest <= rounding * moved ? moved : 0.0;
 }
 
-std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics, int row,
-                                             double length, double rate) {
+std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics,
+                                             int row, double length, double rate) {
   if (const auto constants = law.friction()) {
     if (constants->tangents != 1)
       throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                   " has friction with two tangents; only one is integrated by events");
-    return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows), rate);
+    return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows),
+                                             rate);
   }
   if (law.acts_over_period())
     throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                 " has a law over a period without states");
   if (!law.is_rigid()) return std::make_shared<PieceMachine>(law, length);
   if (inverse_mass_of(dynamics, row) == 0.0) return std::make_shared<ObstacleMachine>(law.gap());
-  if (const auto restitution = law.restitution()) return std::make_shared<ImpactMachine>(law.gap(), *restitution, rate);
+  if (const auto restitution = law.restitution())
+    return std::make_shared<ImpactMachine>(law.gap(), *restitution, rate);
   throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                               " is rigid and has mass, so that its law must have a restitution");
 }
 
 }  // namespace
 
-std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics, double length,
-                                        double frequency) {
+std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
+                                        double length, double frequency) {
   const double rate = 4.0 * std::numbers::pi * frequency;
   std::vector<ContactMachine> machines;
   for (int row = 0; row < dynamics.contacts(); row += machines.back().law->rows())

@@ -50,10 +50,14 @@ PoleWaves::PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, doub
 
 PanelShape::PanelShape(const ContactPoles& poles, const LegendreNodes& nodes, double half,
                        const Eigen::VectorXd& dense)
-    : poles_(poles), nodes_(nodes), half_(half), waves_(poles, nodes, half, nodes_end_and(nodes.points, dense)) {}
+    : poles_(poles),
+      nodes_(nodes),
+      half_(half),
+      waves_(poles, nodes, half, nodes_end_and(nodes.points, dense)) {}
 
 Eigen::VectorXd PanelShape::at_begin() const {
-  return product(legendre_values(Eigen::VectorXd::Constant(1, -1.0), nodes()), nodes_.coefficients).transpose();
+  return product(legendre_values(Eigen::VectorXd::Constant(1, -1.0), nodes()), nodes_.coefficients)
+      .transpose();
 }
 
 const Eigen::MatrixXd& PanelShape::influence(int level) const {
@@ -116,7 +120,8 @@ Signals PanelMotion::at(const PoleWaves& waves, const Eigen::MatrixXd& force) co
     Eigen::MatrixXd& own = signals[std::size_t(d)];
     own = (poles.outputs(d) * states).real() + free[std::size_t(d)];
     for (int k = 0; k <= d && k < kinds - force_kind; ++k)
-      if (!poles.feed(d, k).isZero(0.0)) own -= product(poles.feed(d, k), signals[std::size_t(force_kind + k)]);
+      if (!poles.feed(d, k).isZero(0.0))
+        own -= product(poles.feed(d, k), signals[std::size_t(force_kind + k)]);
   }
   if (poles.holding() > 0.0)
     for (int k = 0; k < kinds - force_kind; ++k)

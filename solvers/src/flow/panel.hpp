@@ -8,10 +8,12 @@
 
 namespace wavebalance::solvers::detail {
 
-/// What poles and forces at q nodes become at N points of a panel [t, t + 2 h]: exp(r h (x + 1)), P x N, of each
-/// pole the response to node forces, N x q, s, and the first derivatives by time of the forces, N x q, 1/s^k.
+/// What poles and forces at q nodes become at N points of a panel [t, t + 2 h]: exp(r h (x + 1)), P x N, of
+/// each pole the response to node forces, N x q, s, and the first derivatives by time of the forces, N x q,
+/// 1/s^k.
 struct PoleWaves {
-  PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, double half, const Eigen::VectorXd& points);
+  PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, double half,
+            const Eigen::VectorXd& points);
 
   Eigen::VectorXd points;
   Eigen::MatrixXcd decay;
@@ -19,23 +21,24 @@ struct PoleWaves {
   std::array<Eigen::MatrixXd, kinds - force_kind> forces;
 };
 
-/// Panels of one length: time [t, t + 2 h] in which the forces of R rows are polynomials through q Gauss nodes,
-/// R x q. The motion is then exact. Immutable but for influences, which are computed once.
+/// Panels of one length: time [t, t + 2 h] in which the forces of R rows are polynomials through q Gauss
+/// nodes, R x q. The motion is then exact. Immutable but for influences, which are computed once.
 class PanelShape {
  public:
   /// Points: the nodes, the end, then `dense`.
-  PanelShape(const ContactPoles& poles, const LegendreNodes& nodes, double half, const Eigen::VectorXd& dense);
+  PanelShape(const ContactPoles& poles, const LegendreNodes& nodes, double half,
+             const Eigen::VectorXd& dense);
 
   double half() const { return half_; }  ///< s
   Index nodes() const { return nodes_.count(); }
   const PoleWaves& waves() const { return waves_; }
-  /// Rq x Rq, row a q + n and column b q + m: the derivative of a level 0 to 2 at node n of row a by the force
-  /// at node m of row b.
+  /// Rq x Rq, row a q + n and column b q + m: the derivative of a level 0 to 2 at node n of row a by the
+  /// force at node m of row b.
   const Eigen::MatrixXd& influence(int level) const;
   /// The forces at the beginning of a panel by those at its nodes, q.
   Eigen::VectorXd at_begin() const;
-  /// The share of the two last Legendre coefficients in the largest force, which tells whether the nodes resolve
-  /// it; `size` (N) is the least that counts.
+  /// The share of the two last Legendre coefficients in the largest force, which tells whether the nodes
+  /// resolve it; `size` (N) is the least that counts.
   double unresolved(const Eigen::MatrixXd& force, double size) const;
 
  private:

@@ -25,7 +25,8 @@ bool needs_acceleration(const std::vector<std::vector<Dual>>& equations, const C
 }  // namespace
 
 Contacts::Contacts(std::vector<ContactMachine> machines) : machines_(std::move(machines)), memory_begins_{0} {
-  for (const ContactMachine& one : machines_) memory_begins_.push_back(memory_begins_.back() + one.law->memories());
+  for (const ContactMachine& one : machines_)
+    memory_begins_.push_back(memory_begins_.back() + one.law->memories());
 }
 
 LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point,
@@ -34,7 +35,8 @@ LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signa
   int number = 0;
   for (std::size_t k = 0; k < read_kinds.size(); ++k)
     for (std::size_t i = 0; i < rows_; ++i)
-      values_[k][i] = Dual::signal(signals[std::size_t(read_kinds[k])](contacts.row(c) + Index(i), point), number++);
+      values_[k][i] =
+          Dual::signal(signals[std::size_t(read_kinds[k])](contacts.row(c) + Index(i), point), number++);
   for (std::size_t j = 0; j < memories_; ++j)
     memory_[j] = Dual::signal(memory[std::size_t(contacts.memory_begin(c)) + j], number++);
 }
@@ -68,12 +70,13 @@ FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states,
     const auto forces = contacts.law(c).forces(states[std::size_t(c)]);
     for (std::size_t i = 0; i < forces.size(); ++i)
       for (std::size_t k = 0; k < forces.size() && !forces[i].free; ++k)
-        combine.row(contacts.row(c) + Index(i)) += forces[i].of_rows[k] * combine.row(contacts.row(c) + Index(k));
+        combine.row(contacts.row(c) + Index(i)) +=
+            forces[i].of_rows[k] * combine.row(contacts.row(c) + Index(k));
   }
 }
 
-std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now, bool all_free,
-                                             const Signals& signals, Index nodes) {
+std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now,
+                                             bool all_free, const Signals& signals, Index nodes) {
   std::vector<std::vector<Dual>> equations;
   for (Index c = 0; c < contacts.count(); ++c) {
     const int state = now.state[std::size_t(c)];
@@ -96,7 +99,8 @@ std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const Con
           continue;
         }
         out = local.signals().force[i] - forces[i].constant;
-        for (std::size_t k = 0; k < forces.size(); ++k) out.add(local.signals().force[k], -forces[i].of_rows[k]);
+        for (std::size_t k = 0; k < forces.size(); ++k)
+          out.add(local.signals().force[k], -forces[i].of_rows[k]);
       }
     }
   }
@@ -109,10 +113,14 @@ double SlopeOfSignals::by(int kind, Index row) const {
   if (i < 0 || i >= rows) return 0.0;
   const auto slope = [&](int k) { return value.slope[std::size_t(k * rows + int(i))]; };
   switch (kind) {
-    case 0: return slope(0) + holding * slope(3);
-    case 1: return slope(1);
-    case 2: return slope(2);
-    default: return slope(3);
+    case 0:
+      return slope(0) + holding * slope(3);
+    case 1:
+      return slope(1);
+    case 2:
+      return slope(2);
+    default:
+      return slope(3);
   }
 }
 
@@ -176,8 +184,9 @@ Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::
 namespace {
 
 // By the contact's own mass and the stiffness and damping of its law.
-void add_slopes(const Contacts& contacts, const FreeForces& free, const std::vector<std::vector<Dual>>& equations,
-                const PanelMotion& motion, const Signals& signals, PanelForces& result) {
+void add_slopes(const Contacts& contacts, const FreeForces& free,
+                const std::vector<std::vector<Dual>>& equations, const PanelMotion& motion,
+                const Signals& signals, PanelForces& result) {
   constexpr double eps = 2.2e-16, units = 16.0;
   for (std::size_t e = 0; e < equations.size(); ++e)
     for (std::size_t n = 0; n < equations[e].size(); ++n) {
@@ -185,10 +194,12 @@ void add_slopes(const Contacts& contacts, const FreeForces& free, const std::vec
       const SlopeOfSignals slope{contacts, c, equations[e][n], motion.poles.holding()};
       const double force = slope.by(force_kind, row);
       if (force == 0.0) continue;
-      const double stiffness = std::abs(slope.by(0, row) / force), damping = std::abs(slope.by(1, row) / force),
+      const double stiffness = std::abs(slope.by(0, row) / force),
+                   damping = std::abs(slope.by(1, row) / force),
                    mobility = std::max(motion.poles.inverse_mass()(row, row), 0.0);
       result.rate = std::max(result.rate, std::sqrt(stiffness * mobility) + damping * mobility);
-      result.rounding = std::max(result.rounding, units * eps * stiffness * std::abs(signals[0](row, Index(n))));
+      result.rounding =
+          std::max(result.rounding, units * eps * stiffness * std::abs(signals[0](row, Index(n))));
     }
 }
 
@@ -210,13 +221,14 @@ PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, cons
     Eigen::VectorXd residual(count * q);
     for (Index e = 0; e < count; ++e)
       for (Index k = 0; k < q; ++k) residual[e * q + k] = equations[std::size_t(e)][std::size_t(k)].value;
-    const Eigen::VectorXd step =
-        solve_for_forces(by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q),
-                         residual);
+    const Eigen::VectorXd step = solve_for_forces(
+        by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q),
+        residual);
     if (!step.allFinite()) return result;
     for (Index e = 0; e < count; ++e) unknown.row(e) -= step.segment(e * q, q).transpose();
     result.force = (free.combine * unknown).colwise() + free.constant;
-    const double size = std::max(force_size, unknown.cwiseAbs().maxCoeff()), change = step.cwiseAbs().maxCoeff();
+    const double size = std::max(force_size, unknown.cwiseAbs().maxCoeff()),
+                 change = step.cwiseAbs().maxCoeff();
     result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
     last = change;
     if (result.converged) add_slopes(contacts, free, equations, motion, signals, result);

@@ -52,11 +52,11 @@ struct FreeForces {
 };
 
 /// The laws' equations at the nodes of a panel: values and gradients, one per free force and node.
-std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now, bool all_free,
-                                             const Signals& signals, Index nodes);
+std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now,
+                                             bool all_free, const Signals& signals, Index nodes);
 
-/// The change of a local value, with gradient `slope`, of contact c by linear changes of the signals of its rows.
-/// Row i of contact c is structure row contacts.row(c) + i.
+/// The change of a local value, with gradient `slope`, of contact c by linear changes of the signals of its
+/// rows. Row i of contact c is structure row contacts.row(c) + i.
 struct SlopeOfSignals {
   const Contacts& contacts;
   Index contact;
@@ -69,8 +69,8 @@ struct SlopeOfSignals {
   double rate(const Signals& signals, Index point) const;
 };
 
-/// The free forces by the derivative of their equations. Contacts that hold each other, as a stop and a stuck slider at
-/// one mass, leave forces undetermined: the smallest are taken.
+/// The free forces by the derivative of their equations. Contacts that hold each other, as a stop and a stuck
+/// slider at one mass, leave forces undetermined: the smallest are taken.
 Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
 
 /// Forces on a panel that satisfy the laws at its nodes, and whether they were found.

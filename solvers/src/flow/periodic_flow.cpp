@@ -27,7 +27,8 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion) {
 }
 
 // Periods one after the other until the motion repeats.
-TimeSteppingStatus run(ContactFlow& flow, const TimeSteppingOptions& options, Index rows, FlowMotion& result) {
+TimeSteppingStatus run(ContactFlow& flow, const TimeSteppingOptions& options, Index rows,
+                       FlowMotion& result) {
   TimeSteppingResult& stepping = result.stepping;
   PastPeriods past(options.longest, options.period_tolerance);
   while (stepping.periods < options.max_periods) {
@@ -60,7 +61,8 @@ std::optional<Eigen::MatrixXd> period_map(ContactFlow& flow, const Eigen::Vector
   return flow.perturbation();
 }
 
-// Memories that the period does not change have rows of the unit matrix, and those that open contacts have none.
+// Memories that the period does not change have rows of the unit matrix, and those that open contacts have
+// none.
 Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map) {
   std::vector<Index> kept;
   for (Index i = 0; i < map.rows(); ++i) {
@@ -115,11 +117,12 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
 }
 
 FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
-                               const ContactLaws& laws, const TimeSteppingOptions& options, const FlowOptions& flow) {
+                               const ContactLaws& laws, const TimeSteppingOptions& options,
+                               const FlowOptions& flow) {
   detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
-  return integrate_by_events(PhasesProblem{dynamics, laws, free.at(problem.frequency(), problem.load_factor()),
-                                           problem.frequency()},
-                             options, flow);
+  return integrate_by_events(
+      PhasesProblem{dynamics, laws, free.at(problem.frequency(), problem.load_factor()), problem.frequency()},
+      options, flow);
 }
 
 }  // namespace wavebalance::solvers

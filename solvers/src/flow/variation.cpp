@@ -62,15 +62,17 @@ void Variation::over(const Contacts& contacts, const ContactStates& now, const P
       for (Index b = 0; b < rows; ++b)
         if (free.combine(b, f) != 0.0)
           for (Index i = 0; i < columns; ++i)
-            changes.row(b).segment(i * q, q) -= free.combine(b, f) * solved.col(i).segment(f * q, q).transpose();
+            changes.row(b).segment(i * q, q) -=
+                free.combine(b, f) * solved.col(i).segment(f * q, q).transpose();
   }
   // The signals at the end, then the states there.
   Eigen::MatrixXcd next(poles_.rows(), columns);
   const Eigen::MatrixXcd inputs = poles.inputs() * changes.cast<Complex>();  // P x q K
   for (Index j = 0; j < poles_.rows(); ++j)
     for (Index i = 0; i < columns; ++i)
-      next(j, i) = waves.decay(j, k) * poles_(j, i) -
-                   (waves.driven[std::size_t(j)].row(k) * inputs.row(j).segment(i * q, q).transpose()).value();
+      next(j, i) =
+          waves.decay(j, k) * poles_(j, i) -
+          (waves.driven[std::size_t(j)].row(k) * inputs.row(j).segment(i * q, q).transpose()).value();
   poles_ = std::move(next);
   std::array<Eigen::MatrixXd, 3> forces;
   for (int d = 0; d < 3; ++d) {

@@ -5,12 +5,15 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Perturbations of the states of the poles and of the memories, a column each, that are taken along a motion.
+/// Perturbations of the states of the poles and of the memories, a column each, that are taken along a
+/// motion.
 class Variation {
  public:
   Variation() = default;
   Variation(Eigen::MatrixXcd poles, Eigen::MatrixXd memory)
-      : poles_(std::move(poles)), memory_(std::move(memory)), delay_(Eigen::RowVectorXd::Zero(memory_.cols())) {}
+      : poles_(std::move(poles)),
+        memory_(std::move(memory)),
+        delay_(Eigen::RowVectorXd::Zero(memory_.cols())) {}
 
   bool empty() const { return poles_.cols() == 0; }
   const Eigen::MatrixXcd& poles() const { return poles_; }
@@ -30,8 +33,8 @@ class Variation {
   };
   /// Through an event at the end of that panel; signals has this one point, `before` the states of the poles
   /// before the impulse.
-  void through(const Contacts& contacts, const ContactPoles& poles, const Event& event, const Signals& signals,
-               const Eigen::VectorXcd& before);
+  void through(const Contacts& contacts, const ContactPoles& poles, const Event& event,
+               const Signals& signals, const Eigen::VectorXcd& before);
 
  private:
   /// The change of a local value, a row over the perturbations.
@@ -39,7 +42,8 @@ class Variation {
 
   Eigen::MatrixXcd poles_;  // P x K
   Eigen::MatrixXd memory_;  // memories x K
-  // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without springs.
+  // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without
+  // springs.
   std::array<Eigen::MatrixXd, 4> ends_;
   // The change of an instant behind which the forces are not known yet.
   Eigen::RowVectorXd delay_;

@@ -12,9 +12,9 @@ namespace wavebalance::solvers {
 
 /// How a motion in time ended.
 enum class FlowStatus {
-  converged,        ///< it reached its end
-  step_failure,     ///< no forces of the laws were found on a panel, or the shortest does not resolve them
-  endless_events    ///< more and more events in a vanishing time
+  converged,      ///< it reached its end
+  step_failure,   ///< no forces of the laws were found on a panel, or the shortest does not resolve them
+  endless_events  ///< more and more events in a vanishing time
 };
 
 std::string_view to_string(FlowStatus status);
@@ -41,15 +41,15 @@ struct FlowEvent {
 
 /// The contacts at a time, R rows.
 struct FlowSample {
-  double time = 0.0;  ///< s
+  double time = 0.0;                              ///< s
   Eigen::VectorXd displacement, velocity, force;  ///< m, m/s, N
 };
 
-/// Motions in time of a linear structure whose contacts are machines of states: between events, at which a state
-/// ends, forces are polynomials on panels, so that the motion is exact to the tolerance; impulses act at events.
-/// Laws of all kinds may act side by side. A perturbation can be taken along: over panels by the slopes of the
-/// laws, through events by saltation [R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth
-/// Mechanical Systems, 2004].
+/// Motions in time of a linear structure whose contacts are machines of states: between events, at which a
+/// state ends, forces are polynomials on panels, so that the motion is exact to the tolerance; impulses act
+/// at events. Laws of all kinds may act side by side. A perturbation can be taken along: over panels by the
+/// slopes of the laws, through events by saltation [R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of
+/// Non-Smooth Mechanical Systems, 2004].
 ///
 /// O(poles q^2) for each panel and, where forces are unknown, O((rows q)^3) with q = 12.
 class ContactFlow {

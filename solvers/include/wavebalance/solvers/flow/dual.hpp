@@ -4,8 +4,8 @@
 
 namespace wavebalance::solvers {
 
-/// A value with its gradient by what a law reads at an instant: laws are written as formulas, their derivatives
-/// are exact (forward differentiation).
+/// A value with its gradient by what a law reads at an instant: laws are written as formulas, their
+/// derivatives are exact (forward differentiation).
 struct Dual {
   static constexpr int capacity = 14;  ///< four signals of three rows and two memories
 

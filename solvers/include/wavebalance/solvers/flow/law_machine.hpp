@@ -83,7 +83,8 @@ struct ContactMachine {
 };
 
 /// The machines of the laws of a structure, in the order of its directions. `length` (m) is one that the
-/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for friction with two tangents.
+/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for friction with two
+/// tangents.
 std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
                                         double length, double frequency);
 

@@ -10,24 +10,25 @@ namespace wavebalance::solvers {
 
 /// A motion that was integrated from event to event until it repeated.
 struct FlowMotion {
-  TimeSteppingResult stepping;    ///< the last period, and how it was reached
+  TimeSteppingResult stepping;  ///< the last period, and how it was reached
   FlowStatus ended = FlowStatus::converged;
   std::vector<FlowEvent> events;  ///< of the last period, in s from its beginning
   std::vector<ContactMachine> machines;
   std::vector<int> states;  ///< of the machines at the end
-  int rests = 0;  ///< impacts of the last period without rebound, FlowOptions::rest_velocity
-  /// Relative distance of the state from that one period later, after Newton's method on the map of the period;
-  /// missing where that was not tried or found no motion.
+  int rests = 0;            ///< impacts of the last period without rebound, FlowOptions::rest_velocity
+  /// Relative distance of the state from that one period later, after Newton's method on the map of the
+  /// period; missing where that was not tried or found no motion.
   double closed = missing;
   /// Floquet multipliers by falling modulus; empty unless the motion is closed.
   Eigen::VectorXcd multipliers;
 };
 
-/// Integrates from contacts at rest, and the structure elsewhere in its motion without contact, until two successive periods of the displacements differ by less than
-/// period_tolerance, then closes the period by Newton's method: the motion is then exact to the tolerance of the
-/// panels, and its multipliers are known. Of the options those of steps and of initial values, and full_history,
-/// have no part in it. A slider that does not move keeps its position, which has a multiplier of 1 that is left
-/// out. Throws as ContactFlow does, and for options out of range.
+/// Integrates from contacts at rest, and the structure elsewhere in its motion without contact, until two
+/// successive periods of the displacements differ by less than period_tolerance, then closes the period by
+/// Newton's method: the motion is then exact to the tolerance of the panels, and its multipliers are known.
+/// Of the options those of steps and of initial values, and full_history, have no part in it. A slider that
+/// does not move keeps its position, which has a multiplier of 1 that is left out. Throws as ContactFlow
+/// does, and for options out of range.
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow = {});
 /// The same of a structure under the load of a problem, at its frequency.
