@@ -92,7 +92,8 @@ class Look:
         assert (found["withoutWords"], found["withoutRoom"], found["formulasLeft"], found["scrollInside"]) == ([], [], 0, 0)
 
     def fits(self, page, width):
-        """Nothing is wider than the window, folded or not, as pictures or as curves; titles of axes are whole and legends seen."""
+        """Nothing is wider than the window, folded or not, as pictures or as curves; titles of axes are whole, legends seen, and
+        each of their names hides something."""
         place = f"{page} at {width} px"
         assert self.browser.value("look.overflow()") <= 0, place
         for curves in ("false", "true"):
@@ -100,6 +101,7 @@ class Look:
             assert self.browser.value("look.tooWide()") == [], place
             assert self.browser.value("look.overflow()") <= 0, place
         assert self.browser.value("look.unreadable()") == [], place
+        assert self.browser.value("look.idle()") == [], place
 
     def legible(self, picture, least=2):
         """In an SVG picture no two texts lie on each other, none is cut by its edge, no curve passes through a name of the legend,

@@ -38,19 +38,36 @@ window.look ??= (() => {
     }
     return 255;
   }
+  const overlap = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 4 && b.top < a.bottom - 4;
   function unreadable() {
     // Keys of lists that are broken within a word.
     const lines = (one) => { const range = document.createRange(); range.selectNodeContents(one); return range.getClientRects().length; };
     const broken = [...document.querySelectorAll("dt")].filter((one) => !one.textContent.includes(" ") && lines(one) > 1);
-    const cut = [...document.querySelectorAll(".plot .label")].filter((one) => {
+    const cut = [...document.querySelectorAll(".plot .label, .motion text")].filter((one) => {
       const label = one.getBoundingClientRect(), box = one.closest("svg").getBoundingClientRect();
       return label.top < box.top - 1 || label.bottom > box.bottom + 1 || label.left < box.left - 1 || label.right > box.right + 1;
     });
+    const words = [...document.querySelectorAll(".motion text")].map((one) => ({ one, box: one.getBoundingClientRect() }));
+    const upon = words.filter(({ one, box }, i) => words.slice(i + 1).some((other) => other.one.parentNode === one.parentNode && overlap(box, other.box)))
+      .map(({ one }) => one);
     const faint = [...document.querySelectorAll(".legend button")].filter((one) => {
       const strokes = [...one.querySelectorAll("[stroke]")].map((mark) => brightness(getComputedStyle(mark).stroke));
       return [brightness(getComputedStyle(one).color), ...strokes].some((shade) => Math.abs(shade - ground(one)) < 45);
     });
-    return [...cut, ...faint, ...broken].map((one) => one.textContent);
+    return [...cut, ...upon, ...faint, ...broken].map((one) => one.textContent);
+  }
+
+  // Names of legends whose button hides nothing, or whose second click does not bring it back.
+  function idle() {
+    return [...document.querySelectorAll(".legend button")].filter((one) => {
+      const plots = () => [...one.closest(".curves").querySelectorAll(".curve[d], .plot path:not(.curve), .plot rect")]
+        .map((mark) => mark.outerHTML).join();
+      const before = plots();
+      one.click();
+      const hidden = plots();
+      one.click();
+      return hidden === before || plots() !== before;
+    }).map((one) => one.textContent);
   }
 
   // Pixels of the canvas that are not ground, and a number that differs where they do, with the body at a place of its period.
@@ -67,5 +84,5 @@ window.look ??= (() => {
     return { ink, sum, all: pixels.length / 4, time: box.querySelector("output").textContent };
   }
 
-  return { overflow, tooWide, draw, outline, unreadable, body };
+  return { overflow, tooWide, draw, outline, unreadable, idle, body };
 })();

@@ -6,6 +6,7 @@ FEW = ("--budget", "1", "--pairs", "fourier:fourier,haar:fourier,daubechies6:dau
 REPORTS = {
     "forced response": ("run", "jones_legrand_2014/case1.toml"),
     "far from the gap": ("run", "jones_legrand_2014/case1.toml", "--set", "forcing.amplitude=1"),
+    "far beyond the gap": ("run", "jones_legrand_2014/case1.toml", "--set", "forcing.amplitude=1e10"),
     "sweep": ("run", "jones_legrand_2014/case2_sweep.toml", "--set", "analysis.motion_at=peak", "--set", "analysis.stability=true"),
     "exact curve": ("run", "jones_legrand_2014/case2_sweep.toml", "--set", "analysis.exact=true"),
     "branches": ("run", "cases_of_others/small_gap_bar.toml", "--set", "time.functions=31", "--set", "time.quadrature_points=256"),
@@ -51,6 +52,15 @@ def test_facts_have_the_names_that_the_description_gives_them(look, browser, rep
     assert all(0 < len(name) <= 10 for name in names), names
     rest = browser.value("[...document.querySelectorAll('dt')].find((one) => one.textContent === 'at rest').nextElementSibling.innerText")
     assert [line.split(":")[0] for line in rest.split("\n")[1:]] == ["contact 1 normal (row 2)", "contact 1 tangent (row 1)"], rest
+
+
+def test_a_tiny_motion_has_a_unit_in_which_it_can_be_read(look, browser, report, scenes):
+    look.open(made(report, scenes, "far from the gap") / "report.html")
+    look.near("document.querySelector('.motion')")
+    assert browser.value("document.querySelector('.motion output').textContent") == "t = \u22120.5 T, u = \u22125.728 nm, force 0"
+    look.open(made(report, scenes, "far beyond the gap") / "report.html")
+    look.near("document.querySelector('.motion')")
+    assert " m, force" in browser.value("document.querySelector('.motion output').textContent")
 
 
 def test_overlay_is_sound(look, report, scenes):

@@ -25,12 +25,19 @@
     return `M${tip},${y - 3}h${head - length}v-4l${-head},7l${head},7v-4h${length - head}z`;
   }
 
+  // The unit in which a length in metres is a readable number.
+  function unitOf(length) {
+    const units = [["m", 1], ["mm", 1e-3], ["\u00B5m", 1e-6], ["nm", 1e-9], ["pm", 1e-12]];
+    const [name, size] = units.find(([, size]) => length >= size) ?? units[1];
+    return { name, factor: 1 / size };
+  }
+
   // Round numbers between two, at most five.
   function roundValues(low, high) {
     const least = (high - low) / 4, decade = 10 ** Math.floor(Math.log10(least));
     const step = decade * [1, 2, 5, 10].find((factor) => factor * decade >= least * (1 - 1e-9));
     const values = [];
-    for (let i = Math.ceil(low / step); i * step <= high; ++i) values.push(i * step);
+    for (let i = Math.ceil(low / step); i * step <= high; ++i) values.push(i * step + 0);  // no minus zero
     return values;
   }
 
@@ -101,7 +108,7 @@
   class Bar {
     constructor(data) {
       this.data = data;
-      this.svg = svg("svg", { class: "bar", height: 120, role: "img", "aria-label": "The bar between its clamp and the obstacle" });
+      this.svg = svg("svg", { class: "bar", height: 124, role: "img", "aria-label": "The bar between its clamp and the obstacle" });
     }
 
     place(node, displacement) {
@@ -124,7 +131,7 @@
       const still = this.place(this.data.reference.nodes[0].length - 1, 0);
       svg("line", { x1: still, x2: still, y1: 8, y2: 90, class: "still" }, this.svg);
       text(this.svg, still - 4, 106, "at rest", "end");
-      text(this.svg, at + 4, 106, "gap", "middle");
+      text(this.svg, at + 4, Math.abs(at - still) < 70 ? 119 : 106, "gap", "middle");
       this.body = svg("g", {}, this.svg);
       this.reference = svg("line", { y1: 16, y2: 82, class: "time-stepping" }, this.svg);
       this.tip = svg("line", { y1: 26, y2: 72, class: "tip" }, this.svg);
@@ -158,15 +165,16 @@
       (place) => choose(Math.floor(place * data.order.length)));
     const set = (next) => { play.pause(); choose(next); };
     const bar = new Bar(data);
+    const unit = unitOf(Math.max(...[data.reference, ...data.pairs].flatMap((motion) => motion.tip.map(Math.abs))));
     const diagrams = [
-      new Diagram(data, "Displacement of the tip (mm)", (motion) => motion.tip, 1e3, set),
+      new Diagram(data, `Displacement of the tip (${unit.name})`, (motion) => motion.tip, unit.factor, set),
       new Diagram(data, "Contact force over the amplitude of the load", (motion) => motion.force, 1, set)];
     const show = () => {
       const { index, time } = data.order[position];
       slider.value = position;
       bar.show(index, pair);
       diagrams.forEach((diagram) => diagram.show(position));
-      values.textContent = `t = ${number(time)} T, u = ${number(1e3 * pair.tip[index], 4)} mm, force ${number(pair.force[index])}`;
+      values.textContent = `t = ${number(time)} T, u = ${number(unit.factor * pair.tip[index], 4)} ${unit.name}, force ${number(pair.force[index])}`;
     };
     const draw = () => {
       bar.draw();
