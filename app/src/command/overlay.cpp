@@ -238,7 +238,7 @@ Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
     draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], scale.factor);
   }
   if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
-    panel.mark_level(scale.factor * overlay.gap, "gap", scale.prefix + "m");
+    panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, "m"));
   return figure;
 }
 

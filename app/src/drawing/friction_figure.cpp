@@ -11,7 +11,9 @@
 namespace wavebalance::app {
 namespace {
 
-constexpr std::size_t most_loops = 6;
+constexpr std::size_t most_loops = 4;
+// Those of the fifth and the sixth curve, which no loop has.
+constexpr Colour stick_colour = Colour::sky_blue, slip_colour = Colour::orange;
 
 // Closed once around.
 Eigen::VectorXd closed(const Eigen::MatrixXd& rows, int row, double factor) {
@@ -64,12 +66,13 @@ Series swatch(const std::string& label, Colour colour, double at) {
   Series series(label, std::vector<double>{at}, std::vector<double>{std::nan("")});
   series.colour = colour;
   series.width = 8.0;
+  series.area = true;
   return series;
 }
 
 // Runs of one state as rectangles, a row for each contact.
 void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, const PeriodWindow& window) {
-  constexpr double half = 0.4;
+  constexpr double half = 0.4, opacity = 0.8;
   Panel& panel = figure.add_panel("State of each contact (white: open)");
   panel.x = window.axis();
   panel.y.label = "Contact";
@@ -89,13 +92,13 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
       for (const auto& [begin, end] :
            window.spans(double(from) / double(states.size()), double(to) / double(states.size())))
         panel.rectangles.push_back({begin, double(i) + 1.0 - half, end, double(i) + 1.0 + half,
-                                    sticks ? Colour::sky_blue : Colour::orange, 0.8});
+                                    sticks ? stick_colour : slip_colour, opacity});
     }
   }
-  // A panel needs a curve for its axes.
   const double start = window.start();
-  panel.add({"", std::vector<double>{start, start + 1.0}, std::vector<double>{0.5, 0.5}});
-  panel.add(swatch("stick", Colour::sky_blue, start)).add(swatch("slip", Colour::orange, start));
+  panel.x.lower = start;
+  panel.x.upper = start + 1.0;
+  panel.add(swatch("stick", stick_colour, start)).add(swatch("slip", slip_colour, start));
 }
 
 }  // namespace

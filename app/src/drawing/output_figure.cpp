@@ -176,6 +176,21 @@ Figure empty_figure(const std::string& title, std::size_t outputs) {
 
 }  // namespace
 
+void scale_amplitudes(Figure& figure, const SweepAxis& axis) {
+  if (axis.quantity == "frequency" || (axis.unit != "N" && axis.unit != "m")) return;
+  double largest = 0.0;
+  for (const Panel& panel : figure.panels)
+    for (const Series& series : panel.series) largest = largest_of(series.x, largest);
+  const Scale scale = axis_scale(largest);
+  SweepAxis scaled = axis;
+  scaled.unit = scale.prefix + axis.unit;
+  for (Panel& panel : figure.panels) {
+    panel.x.label = scaled.label();
+    for (Series& series : panel.series)
+      for (double& x : series.x) x *= scale.factor;
+  }
+}
+
 Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output) {
   VibrationCurves curves(sweep, outputs, output);
   Panel panel;
@@ -203,6 +218,7 @@ Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs) {
     panel.y.lower = 0.0;
     for (const Line& line : lines) add_line(panel, line, scale.factor);
   }
+  scale_amplitudes(figure, sweep_axis(sweep));
   return figure;
 }
 

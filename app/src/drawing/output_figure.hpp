@@ -16,6 +16,9 @@ inline constexpr std::size_t most_drawn_outputs = 12;
 /// from what static loads deflect. Dashed where motions are unstable.
 Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs);
 
+/// Takes the amplitudes over which `figure` draws a sweep to a readable multiple of their unit.
+void scale_amplitudes(Figure& figure, const SweepAxis& axis);
+
 /// The vibration along a sweep, its branches and isolas with their special points: half the peak-to-peak
 /// value and the rms without the mean, of an output or, without one, of the contact that vibrates most.
 Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output);

@@ -236,7 +236,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   }
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
-    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", scale.prefix + "m");
+    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, "m"));
   }
   add_friction(figure, scene, response, window);
   return figure;
@@ -348,7 +348,7 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   mark_all_special_points(panel, sweep, scale.factor);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   if (const double gap = common_gap(scene); !std::isnan(gap))
-    panel.mark_level(scale.factor * gap, "gap", scale.prefix + "m");
+    panel.mark_level(scale.factor * gap, "gap", quantity(gap, "m"));
 }
 
 }  // namespace
@@ -375,6 +375,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
     figure.panels.front().title = "";
   else
     figure.panel_height = 320;
+  scale_amplitudes(figure, sweep_axis(sweep));
   return figure;
 }
 

@@ -117,6 +117,7 @@ Json series_data(const Series& series, std::size_t index, const Panel& panel) {
             {"x", x},
             {"y", y}};
   if (!told.empty()) data["told"] = told;
+  if (series.area) data["area"] = true;
   return data;
 }
 

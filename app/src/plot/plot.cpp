@@ -55,14 +55,13 @@ std::pair<double, double> range_of(const Panel& panel) {
 
 }  // namespace
 
-Panel& Panel::mark_level(double y_value, const std::string& label, const std::string& unit) {
+Panel& Panel::mark_level(double y_value, const std::string& label, const std::string& value) {
   constexpr double near = 0.5, margin = 0.05;  // of the range
   const auto [low, high] = range_of(*this);
   if (!(low <= high)) return mark_y(y_value, label);
   const double range = high - low;
   if (y_value < low - near * range || y_value > high + near * range) {
-    title +=
-        fmt::format("{}{} {:.4g} {}, outside of the axis", title.empty() ? "" : ", ", label, y_value, unit);
+    title += fmt::format("{}{} {}, outside of the axis", title.empty() ? "" : ", ", label, value);
     return *this;
   }
   if (y_value < low) y.lower = y_value - margin * range;

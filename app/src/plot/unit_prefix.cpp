@@ -35,7 +35,7 @@ const Prefix& prefix_for(double magnitude, double least, double most) {
 
 Scale axis_scale(double largest) {
   if (!(largest > 0.0)) return {};
-  const Prefix& prefix = prefix_for(largest, 1e-6, 1e6);
+  const Prefix& prefix = prefix_for(largest, 1e-9, 1e9);
   return {prefix.inverse, prefix.sign};
 }
 

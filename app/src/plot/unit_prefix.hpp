@@ -9,7 +9,7 @@ struct Scale {
   std::string prefix;
 };
 
-/// That which makes numbers up to `largest` readable, from micro to mega; none for numbers that are all zero.
+/// That which makes numbers up to `largest` readable, from nano to giga; none for numbers that are all zero.
 Scale axis_scale(double largest);
 
 /// "1.02 mm", "79.2 kN": four digits with a prefix from pico to giga, of which only forces take those above

@@ -55,7 +55,7 @@ TEST(Render, MissingValuesInterruptALine) {
 TEST(MarkLevel, StaysOnItsAxisOrIsNamedInTheTitle) {
   const auto marked = [](double level) {
     Figure figure = simple_figure();  // ordinates from 0 to 1
-    figure.panels[0].mark_level(level, "gap", "mm");
+    figure.panels[0].mark_level(level, "gap", "-0.6 mm");
     return figure.panels[0];
   };
   const Panel inside = marked(0.5), near_above = marked(1.4), near_below = marked(-0.4), far = marked(-0.6);

@@ -208,7 +208,8 @@
       this.svg.style("touch-action", transform.k > 1 ? "none" : "pan-y");
       this.plot.selectAll("*").remove();
       this.outer.selectAll("*").remove();
-      this.data.rectangles.forEach((one) => this.rectangle(one));
+      const areas = this.data.series.filter((series) => series.area && this.hidden.has(key(series))).map((series) => series.colour);
+      this.data.rectangles.filter((one) => !areas.includes(one.colour)).forEach((one) => this.rectangle(one));
       this.data.segments.forEach((one) => this.segment(one));
       this.shown().forEach((series) => this.curve(series));
       for (const mark of this.data.texts)
@@ -306,14 +307,19 @@
   // One entry of the legend stands for the curves of that name and look in all panels.
   const key = (series) => [series.label, series.colour, series.dash, series.style].join("|");
 
+  const hasPoint = (series) => series.x.some((x, i) => x !== null && series.y[i] !== null);
+  const areaOpacity = (data, series) => data.panels.flatMap((panel) => panel.rectangles).find((one) => one.colour === series.colour)?.opacity ?? 1;
+
   function legend(data, hidden, redraw) {
     const entries = new Map();
     for (const panel of data.panels)
       for (const series of panel.series)
-        if (series.label && series.x.length) entries.set(key(series), series);
+        if (series.label && (series.area || hasPoint(series))) entries.set(key(series), series);
     return element("div", { class: "legend" }, ...[...entries].map(([name, series]) => {
       const swatch = d3.create("svg").attr("class", "swatch").attr("width", 28).attr("height", 12).attr("aria-hidden", "true");
-      if (series.style !== "points")
+      if (series.area)
+        swatch.append("rect").attr("width", 28).attr("height", 12).attr("fill", series.colour).attr("opacity", areaOpacity(data, series));
+      else if (series.style !== "points")
         swatch.append("line").attr("x2", 28).attr("y1", 6).attr("y2", 6).attr("stroke", series.colour).attr("stroke-width", 2.5)
           .attr("stroke-dasharray", series.dash || null);
       if (series.style.endsWith("points")) mark(swatch, series, 14, 6);

@@ -56,6 +56,7 @@ struct Series {
   double width = 1.6;               ///< points
   int marker = 0;                   ///< 0 takes the next symbol of the panel, n > 0 the n-th
   std::optional<int> marker_every;  ///< a symbol on every n-th point only
+  bool area = false;                ///< without points: names the rectangles of its colour in the legend
 };
 
 /// A labelled axis. Labels hold quantity and unit, "Frequency (Hz)"; see enhanced() for sub- and
@@ -135,13 +136,13 @@ struct Panel {
   /// A dotted line across the panel at an abscissa or an ordinate, such as the gap, named at its right end.
   Panel& mark_x(double x_value);
   Panel& mark_y(double y_value, const std::string& label = "");
-  /// The same of a level of the `unit` of a linear axis, after all curves are added. The axis is extended to
-  /// a level within half the range of the curves; a farther one is named with its value in the title.
-  Panel& mark_level(double y_value, const std::string& label, const std::string& unit);
+  /// The same of a level of a linear axis, after all curves are added. The axis is extended to a level within
+  /// half the range of the curves; the title names a farther one with its value, "1 mm".
+  Panel& mark_level(double y_value, const std::string& label, const std::string& value);
 };
 
 /// Panels in rows, filled from the left; several are lettered (a), (b), ... One legend stands below them all:
-/// it names each label and look once. The picture is higher than its panels by the title and the legend.
+/// it names each label and look once, of series that have a point. The picture is higher than its panels by the title and the legend.
 struct Figure {
   std::string title;
   std::vector<Panel> panels;
