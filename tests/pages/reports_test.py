@@ -19,6 +19,7 @@ REPORTS = {
     "friction": ("run", "friction/lift_off.toml"),
     "impacts": ("run", "impacts/oscillator.toml"),
     "coexisting motions": ("run", "laws/duffing.toml"),
+    "motions": ("run", "impacts/between_stops.toml", "--analysis", "motions", "--set", "forcing.frequency=0.26"),
     "time stepping": ("run", "jones_legrand_2014/stepping_case1.toml"),
     "tolerance": ("run", "tolerance/case1.toml"),
     "blade with a mesh": ("run", "blade/rotating_mode.toml", "--set", "analysis.harmonics=3"),
@@ -63,6 +64,41 @@ def test_a_tiny_motion_has_a_unit_in_which_it_can_be_read(look, browser, report,
     assert " m, force" in browser.value("document.querySelector('.motion output').textContent")
 
 
+def test_the_table_of_motions_is_whole_or_keeps_the_names_of_its_rows(look, browser, report, scenes):
+    look.open(made(report, scenes, "motions") / "report.html")
+    box = "[...document.querySelectorAll('h3')].find((one) => one.textContent === 'Motions at this frequency').nextElementSibling"
+    assert browser.value(f"{box}.querySelectorAll('thead th').length") > 2
+    assert browser.value(f"{box}.scrollWidth - {box}.clientWidth") == 0
+    browser.resize(400)
+    left = f"{box}.querySelector('tbody td').getBoundingClientRect().left"
+    before = browser.value(left)
+    browser.value(f"{box}.scrollLeft = 1000")
+    assert browser.value(left) == before
+
+
+def words_of(browser):
+    """The text of the page, folded or not."""
+    return browser.value("document.querySelector('main').textContent")
+
+
+def test_frequencies_are_told_in_hz_with_the_digits_that_a_reader_takes_in(look, browser, report, scenes):
+    look.open(made(report, scenes, "friction") / "report.html")
+    text = browser.value("document.querySelector('main').innerText")
+    assert "At 0.4775 Hz" in text and "0.4774648 Hz" in text and "-40.10705 degrees" in text and "mHz" not in text
+    look.open(made(report, scenes, "blade with a mesh") / "report.html")
+    assert "mode 1 moves at" in words_of(browser)
+
+
+def test_a_comparison_gives_each_reason_once(look, browser, report, scenes):
+    look.open(report("compare", scenes / "jones_legrand_2014/case1.toml", "--budget", "1") / "report.html")
+    box = "[...document.querySelectorAll('h3')].find((one) => one.textContent === 'Not admissible').nextElementSibling"
+    why = browser.value(f"[...{box}.querySelectorAll('td:last-child')].map((one) => one.textContent)")
+    assert len(why) == len(set(why)) > 2
+    look.open(made(report, scenes, "comparison of sweeps") / "report.html")
+    places = browser.value("[...document.querySelectorAll('.named tbody tr')].map((one) => one.children[5].textContent)")
+    assert len(places) > 3 and not any("e+" in place for place in places), places
+
+
 def test_overlay_is_sound(look, report, scenes):
     folder = report("overlay", made(report, scenes, "sweep"), made(report, scenes, "exact curve"))
     sound(look, folder, "overlay.html")
@@ -78,4 +114,8 @@ def test_study_is_sound(look, report, scenes, tmp_path_factory, sampling):
     study = tmp_path_factory.mktemp("study") / f"{sampling}.toml"
     study.write_text(f'scene = "{scenes}/jones_legrand_2014/case1.toml"\nset = ["time.functions=15"]\n'
                      f'quantity = "max_displacement_m"\n{head}{frequency}{others[sampling]}')
-    sound(look, report("study", study))
+    folder = report("study", study)
+    sound(look, folder)
+    look.open(folder / "report.html")
+    quantities = look.browser.value("[...document.querySelectorAll('.named tbody td:first-child')].map((one) => one.textContent)")
+    assert "max_displacement_m" in quantities and "condition_estimate" not in quantities

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,6 +32,24 @@ std::string error_text(double error) {
   return zero == std::string::npos ? text : text.erase(zero + 2, 1);
 }
 
+std::string pair_of(const Table& table, std::size_t row) {
+  const std::string trial = cell_text(table.at(row, "trial")), weight = cell_text(table.at(row, "weight"));
+  return weight.empty() ? trial : trial + ":" + weight;
+}
+
+/// The table with a column that names the pair of each row, which takes less room than two.
+Table with_pairs(const Table& table) {
+  std::vector<std::string> columns = table.columns();
+  columns.push_back("pair");
+  Table named(columns);
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    std::vector<Cell> row = table.row(i);
+    row.emplace_back(pair_of(table, i));
+    named.append_row(std::move(row));
+  }
+  return named;
+}
+
 /// Two sentences for each error, with the table to paste where it is not that of the error before.
 std::string recommendations(const ComparisonRecord& record, const Summary& summary) {
   const Table* table = table_of(summary, "recommendations");
@@ -49,8 +68,7 @@ std::string recommendations(const ComparisonRecord& record, const Summary& summa
   }
   const std::vector<std::pair<std::string, std::string>> columns{
       {"error", "error asked for"},
-      {"trial", "trial"},
-      {"weight", "weight"},
+      {"pair", "pair"},
       {"functions", "functions"},
       {"quadrature_points", "points"},
       {"seconds", "time (s)"},
@@ -58,41 +76,51 @@ std::string recommendations(const ComparisonRecord& record, const Summary& summa
       {"force_error", "error of the force"},
       {"fourier_time_ratio", "time of Fourier:Fourier over it"},
       {"phases_seconds", "time of contact phases, where less (s)"}};
-  return html + "<h3>Side by side</h3>\n" + columns_html(*table, columns);
+  return html + "<h3>Side by side</h3>\n" + columns_html(with_pairs(*table), columns);
+}
+
+/// Each reason once, with the pairs that it excludes.
+std::string excluded_pairs(const Table& table) {
+  std::vector<std::vector<std::string>> rows{{"pairs", "why"}};
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const std::string why = cell_text(table.at(i, "failures"));
+    const auto known = std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row[1] == why; });
+    if (known == rows.end())
+      rows.push_back({pair_of(table, i), why});
+    else
+      known->front() += ", " + pair_of(table, i);
+  }
+  return table_html(rows);
 }
 
 std::string pairs(const Summary& summary) {
   const Table* table = table_of(summary, "pairs");
   if (table == nullptr) return "";
   const Table admissible = table->where("admissible", "true"), others = table->where("admissible", "false");
-  std::string html = columns_html(admissible, {{"trial", "trial"},
-                                               {"weight", "weight"},
-                                               {"solves", "solves"},
-                                               {"converged", "converged"},
-                                               {"largest_functions", "most functions"},
-                                               {"smallest_error", "smallest error"},
-                                               {"order", "order"},
-                                               {"force_order", "order of the force"},
-                                               {"failures", "what failed"}});
-  if (!others.empty())
-    html += "<h3>Not admissible</h3>\n" +
-            columns_html(others, {{"trial", "trial"}, {"weight", "weight"}, {"failures", "why"}});
+  std::string html = columns_html(with_pairs(admissible), {{"pair", "pair"},
+                                                           {"solves", "solves"},
+                                                           {"converged", "converged"},
+                                                           {"largest_functions", "most functions"},
+                                                           {"smallest_error", "smallest error"},
+                                                           {"order", "order"},
+                                                           {"force_order", "order of the force"},
+                                                           {"failures", "what failed"}});
+  if (!others.empty()) html += "<h3>Not admissible</h3>\n" + excluded_pairs(others);
   return html;
 }
 
 std::string curves(const ComparisonRecord& record, const Summary& summary) {
   if (table_of(summary, "curves") == nullptr) return "";
-  return columns_html(record.table, {{"trial", "trial"},
-                                     {"weight", "weight"},
-                                     {"functions", "functions"},
-                                     {"seconds", "time (s)"},
-                                     {"curve_points", "points of the curve"},
-                                     {"max_displacement_m", "peak (m)"},
-                                     {record.peak_column, "at (" + record.peak_unit + ")"},
-                                     {"turning_points", "turns"},
-                                     {"distance_from_finest", "distance from the finest"},
-                                     {"distance_from_exact", "distance from the exact one"},
-                                     {"status", "status"}});
+  return columns_html(with_pairs(record.table), {{"pair", "pair"},
+                                                 {"functions", "functions"},
+                                                 {"seconds", "time (s)"},
+                                                 {"curve_points", "points of the curve"},
+                                                 {"max_displacement_m", "peak (m)"},
+                                                 {record.peak_column, "at (" + record.peak_unit + ")"},
+                                                 {"turning_points", "turns"},
+                                                 {"distance_from_finest", "distance from the finest"},
+                                                 {"distance_from_exact", "distance from the exact one"},
+                                                 {"status", "status"}});
 }
 
 std::string reference_html(const Reference& reference) {

@@ -24,6 +24,11 @@ std::string value_text(const SummaryValue& value) {
   return fmt::format("{} rows", std::get<Table>(value).rows());
 }
 
+/// Columns of places along a curve.
+bool is_place(const std::string& column) {
+  return column.find("frequency_") != column.npos || column.starts_with("amplitude_");
+}
+
 /// A number with so many digits at most; empty for one that is missing.
 std::string rounded_text(const Cell& cell, int digits) {
   const auto* number = std::get_if<double>(&cell);
@@ -43,6 +48,18 @@ std::string list_html(const std::vector<std::string>& items) {
   std::string text = "<ul>\n";
   for (const auto& item : items) text += "<li>" + escaped(item) + "</li>\n";
   return text + "</ul>\n";
+}
+
+std::string sentences_html(const std::vector<std::string>& sentences) {
+  constexpr std::size_t few = 2;
+  return sentences.size() > few ? list_html(sentences) : paragraph(sentences);
+}
+
+std::vector<std::vector<std::string>> transposed(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::vector<std::string>> columns(rows.empty() ? 0 : rows.front().size());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (const auto& row : rows) columns[i].push_back(row.at(i));
+  return columns;
 }
 
 std::string section_html(const std::string& title, const std::string& body) {
@@ -74,7 +91,7 @@ std::string values_table(const Summary& summary) {
 std::vector<std::vector<std::string>> shown_rows(const Table& table) {
   std::vector<std::vector<std::string>> rows(table.rows() + 1);
   for (const std::string& column : table.columns()) {
-    const bool place = column.find("frequency_") != column.npos || column.starts_with("amplitude_");
+    const bool place = is_place(column);
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < table.rows(); ++i)
       texts.push_back(rounded_text(table.at(i, column), place ? 10 : 6));
@@ -114,9 +131,10 @@ std::string columns_html(const Table& table,
   for (const auto& [column, name] : columns) rows.front().push_back(name);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     rows.emplace_back();
-    for (const auto& [column, name] : columns) rows.back().push_back(rounded_text(table.at(row, column), 3));
+    for (const auto& [column, name] : columns)
+      rows.back().push_back(rounded_text(table.at(row, column), is_place(column) ? 6 : 3));
   }
-  return table_html(rows);
+  return table_html(rows, true);
 }
 
 std::string picture_html(const std::vector<ResultFile>& files, const std::string& stem,

@@ -12,6 +12,8 @@ namespace wavebalance::app {
 
 /// Sentences as one paragraph, with their characters escaped; empty without any.
 std::string paragraph(const std::vector<std::string>& sentences);
+/// The same, or as a list where there are more than two.
+std::string sentences_html(const std::vector<std::string>& sentences);
 /// Items of a list, escaped.
 std::string list_html(const std::vector<std::string>& items);
 /// A section with its heading; empty without a body, which is HTML.
@@ -27,11 +29,14 @@ std::string shell_word(const std::string& text);
 /// The cells of a table as text below the names of its columns: frequencies and amplitudes with ten digits,
 /// other numbers with six; columns without a value are left out.
 std::vector<std::vector<std::string>> shown_rows(const Table& table);
+/// Rows as columns.
+std::vector<std::vector<std::string>> transposed(const std::vector<std::vector<std::string>>& rows);
 /// The table `name` of a summary; null if there is none or it is empty.
 const Table* table_of(const Summary& summary, const std::string& name);
 /// All values of a summary, lists in one cell.
 std::string values_table(const Summary& summary);
-/// Columns of a table under other names, numbers with three digits.
+/// Columns of a table under other names, numbers with three digits, places along a
+/// curve with six.
 std::string columns_html(const Table& table, const std::vector<std::pair<std::string, std::string>>& columns);
 /// A sentence from what a picture shows.
 std::string sentence(std::string about);

@@ -92,7 +92,9 @@ std::string motions_of_record(const Scene& scene, const Summary& summary) {
   if (scene.analysis.type != AnalysisType::motions)
     return folded_table(summary, "motions", "Motions at points of the curve");
   const Table* table = table_of(summary, "motions");
-  return table == nullptr ? "" : "<h3>Motions at this frequency</h3>\n" + table_html(shown_rows(*table));
+  return table == nullptr
+             ? ""
+             : "<h3>Motions at this frequency</h3>\n" + table_html(transposed(shown_rows(*table)), true);
 }
 
 /// The pictures of single motions, and when each is in contact; empty without any.
@@ -171,7 +173,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
                                         folded_table(summary, "at_rest", "At rest under the static loads") +
                                         motions_of_record(scene, summary)) +
       section_html("Stability",
-                   paragraph(stability_sentences(summary, record.axis)) +
+                   sentences_html(stability_sentences(summary, record.axis)) +
                        folded_table(summary, "structure_special_points", "Special points of the structure") +
                        folded_table(summary, "special_points", "Special points") +
                        folded_table(summary, "isolas", "Isolas") +

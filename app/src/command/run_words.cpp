@@ -116,9 +116,9 @@ std::string solution_sentence(const Summary& summary) {
 /// How far a displacement passes the gap; empty where there is none.
 std::string beside_gap(double displacement, double gap) {
   if (!(gap > 0.0) || !std::isfinite(displacement)) return "";
-  constexpr double rounding = 1e-9;
+  constexpr double not_shown = 1e-5;  // with four digits
   const double past = displacement / gap - 1.0;
-  if (std::abs(past) <= rounding) return fmt::format(", the gap of {}", quantity(gap, "m"));
+  if (std::abs(past) <= not_shown) return fmt::format(", the gap of {}", quantity(gap, "m"));
   return fmt::format(", {} {} the gap of {}", percent(std::abs(past)), past < 0.0 ? "short of" : "past",
                      quantity(gap, "m"));
 }
@@ -249,8 +249,8 @@ void append_phases(std::vector<std::string>& sentences, const Summary& summary, 
         curve ? ", at the peak," : "", shown_error(error),
         std::isfinite(force) ? ", of the contact force " + shown_error(force) : ""));
   } else if (!status.empty() && status != "not_found" && status != "not_computed") {
-    sentences.push_back("Its distance from the exact periodic solution is not known (" + spaced_words(status) +
-                        ").");
+    sentences.push_back("Its distance from the exact periodic solution is not known (" +
+                        spaced_words(status) + ").");
   }
 }
 
@@ -334,10 +334,21 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
   }
 }
 
+/// A single motion of a mode.
+void append_mode_at_energy(std::vector<std::string>& sentences, const Summary& summary) {
+  const double energy = number_in(summary, quantities::energy_ratio),
+               ratio = number_in(summary, quantities::frequency_ratio);
+  if (!std::isfinite(energy) || !std::isfinite(ratio)) return;
+  sentences.push_back(fmt::format(
+      "At {:.4g} times the energy at which the linear mode touches, mode {:.0f} moves at {}, {:.4g} times the linear "
+      "frequency.",
+      energy, number_in(summary, quantities::mode), with_unit(summary, quantities::frequency), ratio));
+}
+
 void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
   append_damped_mode(sentences, summary);
   const double ratio = number_in(summary, quantities::largest_energy_ratio);
-  if (!std::isfinite(ratio)) return;
+  if (!std::isfinite(ratio)) return append_mode_at_energy(sentences, summary);
   sentences.push_back(fmt::format(
       "Mode {:.0f} was followed over {} to {:.4g} times the energy at which the linear mode touches.",
       number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"), ratio));

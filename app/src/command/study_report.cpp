@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include "command/report_parts.hpp"
+#include "files/number_text.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
@@ -81,27 +83,41 @@ std::string failures_html(const Study& study, const StudyRecord& record) {
          code_html(command_of_row(study, record.table, failures.front()));
 }
 
+/// Whether a quantity says how a run was solved and not what came out.
+bool is_of_the_solver(const std::string& quantity) {
+  static const std::set<std::string> names{
+      "residual",        "iterations",         "phases_estimated_error",
+      "phases_unknowns", "condition_estimate", "rounding_error_estimate"};
+  return names.contains(quantity);
+}
+
 /// Numbers with four digits.
-std::string quantiles_html(const Summary& summary) {
+std::string quantiles_html(const Study& study, const Summary& summary) {
   const Table* table = table_of(summary, "quantiles");
   if (table == nullptr) return "";
   std::vector<std::vector<std::string>> rows{table->columns()};
+  const bool varies_frequency =
+      std::any_of(study.parameters.begin(), study.parameters.end(),
+                  [](const StudyParameter& one) { return one.key == "forcing.frequency"; });
   for (std::size_t i = 0; i < table->rows(); ++i) {
+    const std::string name = cell_text(table->at(i, "quantity"));
+    if (is_of_the_solver(name) || (varies_frequency && name == "frequency_Hz")) continue;
     rows.emplace_back();
     for (const Cell& cell : table->row(i)) {
       const auto* number = std::get_if<double>(&cell);
       rows.back().push_back(number == nullptr ? cell_text(cell) : fmt::format("{:.4g}", *number));
     }
   }
-  return "<p>Of the runs that converged; q05 is the value that 5 % of them do not exceed.</p>\n" +
-         table_html(rows);
+  return "<p>Of the runs that converged; q05 is the value that 5 % of them do not exceed. summary.json has the quantiles "
+         "of all columns.</p>\n" +
+         table_html(rows, true);
 }
 
 std::string asked(const StudyArguments& arguments, const Study& study) {
   std::string parameters;
   for (const StudyParameter& one : study.parameters)
-    parameters += one.is_interval() ? fmt::format("{} from {} to {}{}\n", one.key, one.from, one.to,
-                                                  one.logarithmic ? ", logarithmic" : "")
+    parameters += one.is_interval() ? fmt::format("{} from {} to {}{}\n", one.key, number_text(one.from),
+                                                  number_text(one.to), one.logarithmic ? ", logarithmic" : "")
                                     : fmt::format("{} of {} values\n", one.key, one.values.size());
   return "<p>The command, which goes on where it stopped:</p>\n" + code_html(command_of_study(arguments)) +
          fmt::format("<p>The parameters ({}):</p>\n", name_of(study.sampling)) + code_html(parameters) +
@@ -136,7 +152,7 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", list_html(lines_of(study_outcome(record)))) +
       section_html("Pictures", pictures_html(record.pictures, files)) +
-      section_html("Quantiles", quantiles_html(summary)) +
+      section_html("Quantiles", quantiles_html(study, summary)) +
       section_html("Runs that did not converge", failures_html(study, record)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
       section_html("What was asked", asked(arguments, study)) +

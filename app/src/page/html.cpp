@@ -115,9 +115,10 @@ std::string figure_html(const FigureBlock& block) {
       block.caption.empty() ? "" : "<figcaption>" + block.caption + "</figcaption>\n");
 }
 
-std::string table_html(const std::vector<std::vector<std::string>>& rows) {
+std::string table_html(const std::vector<std::vector<std::string>>& rows, bool names) {
   if (rows.empty()) return "";
-  std::string text = "<div class=\"wide\"><table>\n<thead>" + row_html(rows[0], "th") + "</thead>\n<tbody>\n";
+  std::string text = std::string("<div class=\"wide") + (names ? " named" : "") + "\"><table>\n<thead>" +
+                     row_html(rows[0], "th") + "</thead>\n<tbody>\n";
   for (std::size_t i = 1; i < rows.size(); ++i) text += row_html(rows[i], "td");
   return text + "</tbody></table></div>\n";
 }

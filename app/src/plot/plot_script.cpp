@@ -68,7 +68,8 @@ std::string map_text(const HeatMap& map) {
   const std::string end = number_text(map.largest);
   std::string text =
       map.from_zero ? "set palette defined (0 '#FFFFFF', 0.25 '#ADD8F0', 0.5 '#56B4E9', 0.75 '#0072B2', 1 "
-                      "'#062A4E')\nset cbrange [0:"
+                      "'#062A4E')\nset cbrange [" +
+                          number_text(map.least) + ":"
                     : "set palette defined (-1 '#0072B2', -0.5 '#7FB8D8', 0 '#FFFFFF', 0.5 '#EAAE7F', 1 "
                       "'#D55E00')\nset cbrange [-" +
                           end + ":";

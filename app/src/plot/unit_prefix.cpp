@@ -41,9 +41,9 @@ Scale axis_scale(double largest) {
 
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not known";
-  constexpr double least = 1e-12;
+  const double least = unit == "Hz" ? 1.0 : 1e-12;
   const double magnitude = std::abs(value);
-  if (magnitude < least) return fmt::format("{:.4g} {}", value, unit);
+  if (magnitude < least || magnitude == 0.0) return fmt::format("{:.4g} {}", value, unit);
   const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
   return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);
 }

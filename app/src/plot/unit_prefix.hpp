@@ -13,7 +13,7 @@ struct Scale {
 Scale axis_scale(double largest);
 
 /// "1.02 mm", "79.2 kN": four digits with a prefix from pico to giga, of which only forces take those above
-/// one; "not known" for NaN.
+/// one, and frequencies none; "not known" for NaN.
 std::string quantity(double value, const std::string& unit);
 
 }  // namespace wavebalance::app

@@ -26,6 +26,9 @@ std::string count_text(std::int64_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+/// Digits that a reader takes in; scene.toml has all of them.
+std::string seven_digits(double value) { return number_text(std::stod(fmt::format("{:.7g}", value))); }
+
 std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.
   const double first = std::sqrt(bar.youngs_modulus / bar.density) / (4.0 * bar.length);
@@ -159,7 +162,7 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
                      : term.kind == LoadKind::base_displacement ? " m"
                                                                 : " m/s^2";
   const std::string phase =
-      term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", number_text(term.phase));
+      term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
   const std::string kind = term.kind == LoadKind::force               ? "force"
                            : term.kind == LoadKind::base_displacement ? "base displacement"
                                                                       : "base acceleration";
@@ -208,9 +211,9 @@ std::string isolas_line(const Analysis& analysis) {
 
 std::string forcing_line(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  std::string frequency = number_text(scene.forcing.frequency);
+  std::string frequency = seven_digits(scene.forcing.frequency);
   if (analysis.type == AnalysisType::frequency_sweep)
-    frequency = number_text(analysis.frequency_from) + " to " + number_text(analysis.frequency_to);
+    frequency = seven_digits(analysis.frequency_from) + " to " + seven_digits(analysis.frequency_to);
   std::string terms = weight_line(scene);
   for (const ForcingTerm& term : scene.forcing.terms) terms += term_line(scene, term);
   if (analysis.type == AnalysisType::amplitude_sweep)
@@ -310,9 +313,9 @@ std::string mode_lines(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const std::string range =
       analysis.amplitude_ratio > 0.0
-          ? "the motion of amplitude ratio " + number_text(analysis.amplitude_ratio)
+          ? "the motion of amplitude ratio " + seven_digits(analysis.amplitude_ratio)
       : is_damped_mode(scene) ? fmt::format("about {} points up to amplitude ratio {}", analysis.points,
-                                            number_text(analysis.largest_amplitude))
+                                            seven_digits(analysis.largest_amplitude))
       : analysis.energy_ratio > 0.0
           ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
           : fmt::format("{} points up to energy ratio {}", analysis.points,

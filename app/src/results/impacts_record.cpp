@@ -90,7 +90,7 @@ void append_events(Record& record, const Response& response, double frequency) {
         flow.rests));
   if (!flow.events.empty())
     record.files.push_back({"events.csv", csv_text(table),
-                            "The events of a period: instants, the states that begin there, impulses"});
+                            "the events of a period: instants, the states that begin there, impulses"});
 }
 
 void append_impacts(Record& record, const Scene& scene, const Response& response) {
@@ -121,7 +121,7 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
   warn_of_lasting_contact(record, motion, scene.forcing.frequency);
   if (known && !motion.impacts.empty())
     record.files.push_back({"impacts.csv", csv_text(impacts_table(motion)),
-                            "The impacts of a period: instants, velocities, impulses and energies"});
+                            "the impacts of a period: instants, velocities, impulses and energies"});
 }
 
 void append_impacts(Record& record, const Sweep& sweep) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -181,7 +182,7 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   map.x = places_in_map(x, x.distinct);
   map.y = places_in_map(y, y.distinct);
   map.values.assign(map.x.size() * map.y.size(), missing);
-  double least = 0.0, largest = 0.0;
+  double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     map.values[place_in(y.distinct, y.numbers[i]) * map.x.size() + place_in(x.distinct, x.numbers[i])] =
         values[i];
@@ -191,6 +192,9 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   if (!(largest > 0.0)) return;
   map.largest = largest;
   map.from_zero = least >= 0.0;
+  // Values near each other take all colours; white is left to what has no value.
+  constexpr double near = 0.5, pale = 0.15;
+  if (least > near * largest) map.least = least - pale * (largest - least);
   map.label = shown_as(quantity).label;
   Panel& panel = figure.add_panel();
   panel.x = axis_of_map(x);

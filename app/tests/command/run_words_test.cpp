@@ -37,6 +37,7 @@ TEST(RunWords, QuantitiesHaveAPrefixThatMakesThemReadable) {
   EXPECT_EQ(quantity(79218.0, "N"), "79.22 kN");
   EXPECT_EQ(quantity(0.0, "m"), "0 m");
   EXPECT_EQ(quantity(1327.9, "Hz"), "1328 Hz");
+  EXPECT_EQ(quantity(0.1909859, "Hz"), "0.191 Hz");
   EXPECT_EQ(quantity(unknown, "N"), "not known");
 }
 

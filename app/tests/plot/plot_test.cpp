@@ -70,6 +70,14 @@ TEST(MarkLevel, StaysOnItsAxisOrIsNamedInTheTitle) {
   EXPECT_EQ(far.title, "Tip, gap -0.6 mm, outside of the axis");
 }
 
+TEST(Legend, NamesWhatIsDrawnAlone) {
+  Figure figure = simple_figure();
+  figure.panels[0].add({"none", std::vector<double>{0.0}, std::vector<double>{nan}});
+  EXPECT_EQ(gnuplot_script(figure).find("'none'"), std::string::npos);
+  figure.panels[0].series.back().area = true;
+  EXPECT_NE(gnuplot_script(figure).find("'none'"), std::string::npos);
+}
+
 TEST(Legend, NamesEachLookOnceBelowAllPanels) {
   Figure figure = simple_figure();
   figure.panels.push_back(figure.panels[0]);
@@ -186,6 +194,8 @@ TEST(Render, ColourBarsSayWhereValuesLieBeyondTheirEnds) {
   EXPECT_NE(gnuplot_script(figure).find("cbtics add ('≤ -0.25' -0.25)"), std::string::npos);
   panel.heat_map->from_zero = true;
   EXPECT_NE(gnuplot_script(figure).find("cbrange [0:0.25]"), std::string::npos);
+  panel.heat_map->least = 0.125;
+  EXPECT_NE(gnuplot_script(figure).find("cbrange [0.125:0.25]"), std::string::npos);
   EXPECT_NE(render(figure, PictureFormat::svg).find("</svg>"), std::string::npos);
 }
 

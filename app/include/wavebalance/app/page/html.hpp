@@ -43,8 +43,9 @@ std::string picture_size(std::string_view bytes);
 std::string figure_html(const FigureBlock& block);
 
 /// A table in a box of its own that scrolls sideways where it is too wide. The first row is the head; every
-/// cell may have formulas between dollar signs. Empty for a table without rows.
-std::string table_html(const std::vector<std::vector<std::string>>& rows);
+/// cell may have formulas between dollar signs. The first column stays where it `names` the rows. Empty for a
+/// table without rows.
+std::string table_html(const std::vector<std::vector<std::string>>& rows, bool names = false);
 
 /// What page_html() puts together.
 struct PageParts {

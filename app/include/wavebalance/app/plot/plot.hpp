@@ -79,7 +79,8 @@ struct HeatMap {
   std::vector<double> values;  ///< one row of x values per y; NaN is left out
   double largest = 1.0;        ///< > 0: colours end at -largest and largest
   std::string label;           ///< what the colours show
-  bool from_zero = false;      ///< for values >= 0: white for zero, dark blue for the largest
+  bool from_zero = false;      ///< for values >= 0: white for `least`, dark blue for the largest
+  double least = 0.0;
 };
 
 /// A straight line from (x1, y1) to (x2, y2); unset ends run to the panel's edge.
