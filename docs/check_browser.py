@@ -29,12 +29,21 @@ def faults_of(browser, page):
     return found + browser.value(LOOK) + browser.errors
 
 
+def dark_faults(browser, page):
+    """Whether the page stays bright where the screen is dark, or its text cannot be told from it."""
+    browser.open(page, WIDTHS[1], dark=True)
+    ground, text = browser.value("""["backgroundColor", "color"].map((one) => getComputedStyle(document.body)[one].match(/\\d+/g)
+      .slice(0, 3).reduce((sum, part) => sum + Number(part) / 3, 0))""")
+    return [] if ground < 60 and text > 180 else [f"in the dark the ground is {ground:.0f} and the text {text:.0f} of 255"]
+
+
 def look_at(chromium, folder):
     """The number of pages, and what is wrong with them."""
     pages = sorted(folder.rglob("*.html"))
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = Browser(chromium, profile)
         found = [f"{page.relative_to(folder)}: {fault}" for page in pages for fault in faults_of(browser, page)]
+        found += [f"{pages[0].relative_to(folder)}: {fault}" for fault in dark_faults(browser, pages[0])]
         browser.close()
     return len(pages), found
 
