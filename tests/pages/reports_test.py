@@ -76,6 +76,16 @@ def test_the_table_of_motions_is_whole_or_keeps_the_names_of_its_rows(look, brow
     assert browser.value(left) == before
 
 
+def test_on_a_wide_screen_what_follows_the_picture_stands_beside_it(look, browser, report, scenes):
+    look.open(made(report, scenes, "forced response") / "report.html")
+    places = browser.value("""["figure", ".motion"].map((one) => document.querySelector(one).getBoundingClientRect())
+      .map(({ left, right, top, bottom }) => [left, right, top, bottom])""")
+    (_, right, _, bottom), (left, _, top, _) = places
+    assert top < bottom and left >= right
+    browser.resize(800)
+    assert browser.value("document.querySelector('.motion').getBoundingClientRect().top > document.querySelector('figure').getBoundingClientRect().bottom")
+
+
 def words_of(browser):
     """The text of the page, folded or not."""
     return browser.value("document.querySelector('main').textContent")

@@ -45,10 +45,11 @@ double rounded(double value, int digits) {
 std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
                       double place_resolution, const SweepAxis& axis) {
   constexpr int most = 4, most_of_place = 5;
-  return fmt::format("{} (half peak to peak), at {}{:.10g} {}",
+  const double at = rounded(place, digits_of(place, place_resolution, most_of_place));
+  return fmt::format("{} (half peak to peak), at {}",
                      quantity(rounded(vibration, digits_of(1.0, resolution, most)), unit),
-                     axis.quantity == "frequency" ? "" : "an amplitude of ",
-                     rounded(place, digits_of(place, place_resolution, most_of_place)), axis.unit);
+                     axis.quantity == "frequency" ? fmt::format("{:.10g} {}", at, axis.unit)
+                                                  : "an amplitude of " + quantity(at, axis.unit));
 }
 
 /// Why a response by phases was not found, and what to take instead; empty for other statuses.
