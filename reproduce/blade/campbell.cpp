@@ -67,12 +67,22 @@ Diagram campbell(const RotatingBlade& blade, const app::Scene& scene) {
   return diagram;
 }
 
-/// The last point of a curve that ends within the picture is marked by words.
-void mark_end(app::Panel& panel, const app::Table& table, double energy) {
-  const auto rpm = table.numbers("rotation_rpm"), hz = table.numbers(column(energy));
-  for (std::size_t i = 0; i + 1 < hz.size(); ++i)
-    if (!std::isnan(hz[i]) && std::isnan(hz[i + 1]))
-      panel.texts.push_back({rpm[i] + 200.0, hz[i] + 20.0, "not found beyond", app::TextMark::Align::right});
+/// The last points of curves that end within the picture.
+app::Series ends(const app::Table& table) {
+  const auto rpm = table.numbers("rotation_rpm");
+  app::Series marks("not found beyond", std::vector<double>(), std::vector<double>(),
+                    app::SeriesStyle::points);
+  for (const double energy : energies) {
+    const auto hz = table.numbers(column(energy));
+    for (std::size_t i = 0; i + 1 < hz.size(); ++i)
+      if (!std::isnan(hz[i]) && std::isnan(hz[i + 1])) {
+        marks.x.push_back(rpm[i]);
+        marks.y.push_back(hz[i]);
+      }
+  }
+  marks.colour = Colour::black;
+  marks.marker = 7;  // open
+  return marks;
 }
 
 app::Figure drawn(const app::Table& table) {
@@ -91,8 +101,8 @@ app::Figure drawn(const app::Table& table) {
                        "rotation_rpm", column(energy), app::SeriesStyle::line_points);
     series.marker = 1;
     panel.add(series);
-    mark_end(panel, table, energy);
   }
+  panel.add(ends(table));
   // Every order whose line crosses the picture, up to one that only the slowest blade meets.
   const int first_order = static_cast<int>(std::ceil(60.0 * lowest / largest_rpm)), last_order = 10;
   for (int order = first_order; order <= last_order; ++order) {

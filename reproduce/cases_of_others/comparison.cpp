@@ -16,10 +16,7 @@ std::string kind(solvers::SpecialPointType type) {
   return name == "neimark sacker" ? "Neimark-Sacker point" : name;
 }
 
-std::string verdict(const Row& row) {
-  if (!row.reference) return "no value given";
-  return row.agrees() ? "agrees" : "differs";
-}
+std::string verdict(const Row& row) { return row.agrees() ? "agrees" : "differs"; }
 
 /// The nearest special point of a type that is not taken yet.
 const solvers::SpecialPoint* nearest(const Curve& curve, const references::KnownPoint& known,
@@ -40,12 +37,20 @@ const solvers::SpecialPoint* nearest(const Curve& curve, const references::Known
 app::Table printed_table(const std::vector<Row>& rows) {
   app::Table table({"quantity", "computed here", "given", "difference", "tolerance", "source", "verdict"});
   for (const Row& row : rows)
-    table.append_row({row.quantity, report::number(row.computed, row.digits),
-                      row.reference ? report::number(*row.reference, row.digits) : std::string("-"),
-                      row.reference ? report::number(row.difference(), 2) : std::string("-"),
-                      row.reference ? report::number(row.tolerance, 2) : std::string("-"), row.source,
-                      verdict(row)});
+    if (row.reference)
+      table.append_row({row.quantity, report::number(row.computed, row.digits),
+                        report::number(*row.reference, row.digits), report::number(row.difference(), 2),
+                        report::number(row.tolerance, 2), row.source, verdict(row)});
   return table;
+}
+
+/// What was computed and has no value to compare it with; empty without any.
+std::string others_text(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows)
+    if (!row.reference)
+      text += (text.empty() ? "" : ", ") + row.quantity + " " + report::number(row.computed, row.digits);
+  return text.empty() ? "" : "Computed beside these, with no value to compare with: " + text + ".";
 }
 
 app::Table data_table(const std::vector<Row>& rows) {
@@ -109,6 +114,7 @@ void claim_count(report::Artefact& artefact, const Curve& curve, double from, do
 
 void report_rows(report::Artefact& artefact, const std::vector<Row>& rows) {
   artefact.printed(printed_table(rows));
+  if (const std::string others = others_text(rows); !others.empty()) artefact.note(others);
   artefact.more_data("comparison", data_table(rows), "as each quantity names them");
   std::vector<std::string> sources;
   for (const Row& row : rows)

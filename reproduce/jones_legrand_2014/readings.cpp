@@ -213,6 +213,10 @@ std::string spread(const std::vector<report::Reading>& readings) {
   return beside.empty() ? text : text + "; " + instead_part(beside);
 }
 
+void refer_to_readings(report::Artefact& artefact) {
+  artefact.note("The readings and the other ways to form the sums are those of Fig. 6, which explains them.");
+}
+
 void note_readings(report::Artefact& artefact) {
   artefact.note(fmt::format(
       "The paper takes 256 points for all inner products, and the last of its 64 Fourier functions is the cosine. It "

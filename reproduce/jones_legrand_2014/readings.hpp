@@ -96,5 +96,7 @@ std::string spread(const std::vector<report::Reading>& readings);
 
 /// Notes which keys of the scene the readings set.
 void note_readings(report::Artefact& artefact);
+/// Where that is noted.
+void refer_to_readings(report::Artefact& artefact);
 
 }  // namespace wavebalance::jl14

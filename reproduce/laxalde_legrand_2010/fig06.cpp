@@ -69,7 +69,7 @@ void add_contact_direction(app::Panel& panel, const blade::SurfaceView& view, co
 
 app::Figure drawn(const fem::Blade& blade) {
   app::Figure figure;
-  figure.columns = 2;
+  figure.columns = 3;
   figure.panel_width = 350;
   figure.panel_height = 330;
   const auto held = held_nodes(blade);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "curve_measures.hpp"
@@ -214,6 +215,10 @@ app::Figure case1_figure(const Case& study, const Values& u) {
       bound.dash = app::Dash::dotted;
       contact[i].add(std::move(bound));
     }
+    constexpr double beyond = 1.2;  // so that both bounds are on the axis
+    auto& y = contact[i].y;
+    y.lower = std::min(*y.lower, view.reference.maxCoeff() - beyond * near);
+    y.upper = std::max(*y.upper, view.reference.maxCoeff() + beyond * near);
   }
   return pair_rows("Tip displacement at 150 Hz, 64 functions", {0.0, -1.2, {}}, whole, std::move(contact),
                    "in contact");

@@ -162,7 +162,7 @@ void fig07(report::Artefact& artefact) {
   state_suited(artefact, study, Readings(artefact, study, pairs_named({"haar_fourier", "haar_bspline"})));
   state_penetration(artefact);
   state_no_plateau(artefact, study);
-  note_readings(artefact);
+  refer_to_readings(artefact);
 }
 
 }  // namespace wavebalance::jl14

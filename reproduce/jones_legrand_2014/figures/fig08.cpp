@@ -314,7 +314,7 @@ void fig08(report::Artefact& artefact) {
       "displacement at 256 points stand beside them.");
   attach_sums(artefact, "fig08_tip_velocity_case1", study, readings,
               {.label = "Velocity (m/s)", .history = &app::Response::velocity, .from = -0.17, .to = 0.17});
-  note_readings(artefact);
+  refer_to_readings(artefact);
 }
 
 }  // namespace wavebalance::jl14

@@ -265,7 +265,7 @@ void fig09(report::Artefact& artefact) {
                .scale = 1.0 / amplitude,
                .from = -0.17,
                .to = 0.17});
-  note_readings(artefact);
+  refer_to_readings(artefact);
 }
 
 }  // namespace wavebalance::jl14

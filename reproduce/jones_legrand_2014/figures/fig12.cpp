@@ -42,7 +42,7 @@ app::Panel first_panel(const Curves& curves, const std::string& title, bool enla
     panel.add(std::move(modulus));
   }
   Series style;
-  style.label = "Fourier, 63 functions";
+  style.label = "Fourier, by arc length";
   style.colour = app::Colour::black;
   add_stable_sweep(panel, style, curves.full);
   // Every other point of either, so that the symbols do not cover each other.
@@ -57,7 +57,7 @@ app::Panel first_panel(const Curves& curves, const std::string& title, bool enla
 app::Panel second_panel(const Resonance& resonance) {
   app::Panel panel = sweep_panel("second resonance, " + gap_text(resonance), resonance);
   Series style;
-  style.label = "Fourier, (c), (d)";
+  style.label = "Fourier, by arc length";
   style.colour = app::Colour::black;
   add_stable_sweep(panel, style, resonance.sweeps[0]);
   constexpr int every = 8;

@@ -232,7 +232,7 @@ void haar_readings(report::Artefact& artefact) {
       "no solution found.");
   explain(artefact, rows);
   several.note(artefact);
-  note_readings(artefact);
+  refer_to_readings(artefact);
 }
 
 }  // namespace wavebalance::jl14

@@ -170,6 +170,33 @@ TEST(Page, StatesTheRuleAndWhatWasJudgedOtherwiseEarlier) {
   EXPECT_TRUE(holds(section(page(record), "rule"), "verdict before, and 1 were not judged"));
 }
 
+TEST(Page, OpensWithWhatIsComparedAndHistoryIsFolded) {
+  EXPECT_LT(page().find("sentences of the papers and not their curves"), page().find("id=\"brief\""));
+  EXPECT_FALSE(holds(page(), "<dt>Earlier</dt>"));
+  const std::string rule = section(page(), "rule");
+  EXPECT_LT(rule.find("Criteria and verdicts that have changed"), rule.find("The rule was proposed"));
+}
+
+TEST(Page, ReadingsAreOpenWhereTheVerdictDependsOnThem) {
+  EXPECT_EQ(count_of(page(), "<details class=\"readings\" open>"), 1u);
+  Record record = judged();
+  record.statements[1].verdict = Verdict::agrees;
+  EXPECT_FALSE(holds(page(record), "<details class=\"readings\" open>"));
+}
+
+TEST(Page, HeadsOfTablesMayBreakBetweenWords) {
+  Record record = judged();
+  record.table.front().front() = "smallest_coefficient_error";
+  EXPECT_TRUE(holds(page(record), "<th>smallest coefficient error</th>"));
+}
+
+TEST(Page, AnOwnPageDoesNotRepeatItsNameInTheNextHeading) {
+  Paper paper = some_paper(true);
+  paper.citation = paper.name + ": what is at the edge";
+  const std::string own = own_page_html({paper, {judged()}, {}, {}}, Origin{});
+  EXPECT_TRUE(holds(own, ">What is at the edge</h2>"));
+}
+
 TEST(Page, ChecksAreFoldedAndNotCounted) {
   EXPECT_TRUE(holds(page(), "One check of the code, not counted: it passes"));
   Record failing = judged();

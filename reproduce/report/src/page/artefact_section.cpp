@@ -65,13 +65,21 @@ std::string sums_html(const Record& record, const Place& place) {
                      record.identity.stem, place.folder, app::escaped(script));
 }
 
+/// A table whose heads may be broken between the words of a column's name.
+std::vector<std::vector<std::string>> with_blanks(std::vector<std::vector<std::string>> table) {
+  if (!table.empty())
+    for (std::string& head : table.front())
+      if (head.find('$') == head.npos) std::replace(head.begin(), head.end(), '_', ' ');
+  return table;
+}
+
 }  // namespace
 
 std::string artefact_html(const Record& record, const Place& place) {
   const std::string image = picture(record, place), said = statements_html(record),
                     sums = sums_html(record, place), moving = moving_html(record, place);
   std::string shown = image.empty() ? "<p>" + app::with_formulas(record.caption) + "</p>\n" : image;
-  shown += app::table_html(record.table) + ways_on(sums, moving, record.identity.stem);
+  shown += app::table_html(with_blanks(record.table)) + ways_on(sums, moving, record.identity.stem);
   const std::string more =
       checks_html(record) + notes(record) + theirs(record, place.section.paper) + origin_html(record, place);
   return fmt::format(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "page/page_parts.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -67,11 +68,20 @@ std::string totals(const Section& section) {
   return fmt::format("{} {}, {:.1f} s of computing", count, count == 1 ? "result" : "results", seconds);
 }
 
+/// The citation; on a page of its own what it says behind the name, which is the heading of the page.
+std::string heading_of(const Paper& paper) {
+  const std::string name = paper.name + ": ";
+  if (!paper.own_page || !paper.citation.starts_with(name)) return paper.citation;
+  std::string text = paper.citation.substr(name.size());
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 std::string section_html(const Place& place) {
   const Section& section = place.section;
   const Paper& paper = section.paper;
   std::string text = fmt::format("<h2 id=\"{}\">{}</h2>\n<p class=\"quiet\">{}.", paper.folder,
-                                 app::escaped(paper.citation), totals(section));
+                                 app::escaped(heading_of(paper)), totals(section));
   if (!paper.link.empty())
     text += fmt::format(" The paper: <a href=\"{0}\">{0}</a>. Sentences are quoted from it under {1}.",
                         app::escaped(paper.link), app::escaped(paper.licence));
@@ -116,9 +126,10 @@ std::string page_html(const std::vector<Section>& given, const Origin& origin, b
   for (const Section& section : given) sections.push_back(in_order(section));
   const std::string brief = brief_html(sections);
   std::string main = fmt::format(
-      "<h1>Two papers, regenerated and judged</h1>\n<p>Every figure and table below was computed from scene files by "
-      "Wavebalance {}. Each statement of a paper stands beside the figure that shows it, with the value that this run "
-      "found and the verdict that <a href=\"#rule\">one rule</a> computes from it.</p>\n",
+      "<h1>Two papers, reproduced and checked</h1>\n<p>Every figure and table below was computed from scene files by "
+      "Wavebalance {}. Compared are sentences of the papers and not their curves, which are not at hand. Each sentence "
+      "stands beside the figure that shows it, with the value that this run found and the verdict that <a "
+      "href=\"#rule\">one rule</a> computes from it.</p>\n",
       app::version());
   main += brief + matrix_html(sections) + rule_html(sections);
   for (const Section& section : sections)
@@ -128,7 +139,7 @@ std::string page_html(const std::vector<Section>& given, const Origin& origin, b
     main += fmt::format(
         "<h2 id=\"bench\">Speed against accuracy</h2>\n<p><a href=\"{}\">What make bench measured</a>.</p>\n",
         bench_page);
-  return app::page_html(parts("Wavebalance: papers regenerated", "assets/",
+  return app::page_html(parts("Wavebalance: papers reproduced", "assets/",
                               layout(contents(sections, !brief.empty(), measured), main)));
 }
 

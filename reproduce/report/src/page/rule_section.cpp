@@ -10,14 +10,14 @@
 namespace wavebalance::report {
 namespace {
 
-std::string folded(const std::string& summary, const std::vector<std::string>& heads,
-                   const std::string& rows) {
+std::string folded(const std::string& summary, const std::vector<std::string>& heads, const std::string& rows,
+                   const std::string& before = "") {
   std::string head;
   for (const auto& one : heads) head += "<th>" + one + "</th>";
   return fmt::format(
-      "<details><summary>{}</summary>\n<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>{}</tbody>"
+      "<details><summary>{}</summary>\n{}<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>{}</tbody>"
       "</table></div></details>\n",
-      summary, head, rows);
+      summary, before, head, rows);
 }
 
 std::string cells(const std::vector<std::string>& texts) {
@@ -54,8 +54,8 @@ std::string rule_html(const std::vector<Section>& sections) {
     for (const Found& found : changed)
       rows += fmt::format("<tr>{}<td>{}</td><td>{}</td></tr>\n", statement_cell(found),
                           app::with_formulas(found.statement().earlier), badge(found.statement()));
-    text += history_text(changed) + folded("Criteria and verdicts that have changed",
-                                           {"Figure", "The paper says", "Earlier", "Now"}, rows);
+    text += folded("Criteria and verdicts that have changed", {"Figure", "The paper says", "Earlier", "Now"},
+                   rows, history_text(changed));
   }
   return text + unjudged_html(sections) + misprints_html(sections) + "</section>\n";
 }

@@ -9,8 +9,6 @@
 namespace wavebalance::report {
 namespace {
 
-constexpr std::size_t most_open_readings = 6;
-
 std::string item(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, app::with_formulas(text));
 }
@@ -44,13 +42,13 @@ std::string reading_table(const std::string& summary, const std::vector<Reading>
       open ? " open" : "", summary, reading_rows(readings));
 }
 
-/// Those of the text open where they are few, the others folded.
+/// Those of the text are open where the verdict depends on them.
 std::string readings_html(const Statement& one) {
   const auto text = of_text(one.readings), beside = of_text(one.readings, false);
   return reading_table(fmt::format("{} that the text allows", text.size() == 1
                                                                   ? std::string("The reading")
                                                                   : fmt::format("{} readings", text.size())),
-                       text, text.size() <= most_open_readings) +
+                       text, one.verdict == Verdict::depends) +
          reading_table(
              fmt::format("If instead: {} of {} agree", agreeing(one.readings, false), beside.size()), beside,
              false);
@@ -68,10 +66,10 @@ std::string card(const Record& record, std::size_t index) {
   return fmt::format(
       "<li class=\"card {0}\" id=\"{1}\">\n<p class=\"head\"><a href=\"#{1}\" aria-label=\"Link to statement {2}\">{2}"
       "</a> <span class=\"badge\">{3} {4}</span> <span class=\"quiet\">{5}</span></p>\n<blockquote>{6}</blockquote>\n"
-      "<dl>\n{7}{8}{9}{10}</dl>\n{11}</li>\n",
+      "<dl>\n{7}{8}{9}</dl>\n{10}</li>\n",
       kind(one.verdict), id, index + 1, sign(one.verdict), word(one), where(one),
       app::with_formulas(one.quote), item("Decided by", one.criterion), item("Found", one.measured),
-      item("Because", one.because), item("Earlier", one.earlier), readings_html(one));
+      item("Because", one.because), readings_html(one));
 }
 
 }  // namespace
