@@ -43,10 +43,11 @@ window.look ??= (() => {
     // Keys of lists that are broken within a word.
     const lines = (one) => { const range = document.createRange(); range.selectNodeContents(one); return range.getClientRects().length; };
     const broken = [...document.querySelectorAll("dt")].filter((one) => !one.textContent.includes(" ") && lines(one) > 1);
-    const cut = [...document.querySelectorAll(".plot .label, .motion text")].filter((one) => {
+    const cut = [...document.querySelectorAll(".plot .label, .plot .tick text, .motion text")].filter((one) => one.textContent).filter((one) => {
       const label = one.getBoundingClientRect(), box = one.closest("svg").getBoundingClientRect();
       return label.top < box.top - 1 || label.bottom > box.bottom + 1 || label.left < box.left - 1 || label.right > box.right + 1;
     });
+    const raw = [...document.querySelectorAll(".plot text")].filter((one) => /[\^_]\{/.test(one.textContent));
     const words = [...document.querySelectorAll(".motion text")].map((one) => ({ one, box: one.getBoundingClientRect() }));
     const upon = words.filter(({ one, box }, i) => words.slice(i + 1).some((other) => other.one.parentNode === one.parentNode && overlap(box, other.box)))
       .map(({ one }) => one);
@@ -54,7 +55,7 @@ window.look ??= (() => {
       const strokes = [...one.querySelectorAll("[stroke]")].map((mark) => brightness(getComputedStyle(mark).stroke));
       return [brightness(getComputedStyle(one).color), ...strokes].some((shade) => Math.abs(shade - ground(one)) < 45);
     });
-    return [...cut, ...upon, ...faint, ...broken].map((one) => one.textContent);
+    return [...cut, ...raw, ...upon, ...faint, ...broken].map((one) => one.textContent);
   }
 
   // Names of legends whose button hides nothing, or whose second click does not bring it back.

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "command/report_parts.hpp"
+#include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
@@ -32,9 +33,10 @@ std::string error_text(double error) {
   return zero == std::string::npos ? text : text.erase(zero + 2, 1);
 }
 
+/// As pictures name it.
 std::string pair_of(const Table& table, std::size_t row) {
   const std::string trial = cell_text(table.at(row, "trial")), weight = cell_text(table.at(row, "weight"));
-  return weight.empty() ? trial : trial + ":" + weight;
+  return trial.empty() ? "" : label_of({trial, weight});
 }
 
 /// The table with a column that names the pair of each row, which takes less room than two.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -37,17 +38,24 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   for (const fs::path& folder : arguments.folders) list += "<li>" + escaped(folder.string()) + "</li>\n";
   std::string warnings;
   for (const std::string& one : overlay.warnings) warnings += "<p>" + escaped(one) + ".</p>\n";
+  const bool has_unstable =
+      std::any_of(overlay.curves.begin(), overlay.curves.end(), [](const OverlayCurve& curve) {
+        return std::any_of(curve.unstable.begin(), curve.unstable.end(),
+                           [](double count) { return count > 0.0; });
+      });
   PageParts page;
   page.title = "Responses and modes, Wavebalance";
   page.assets = "";
   page.libraries = {Library::d3};
-  page.body = "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
-              (holds_file(files, "overlay.svg")
-                   ? picture_html(files, "overlay", "Displacement over the frequency, of all folders")
-                   : "<p>There is no picture: gnuplot was not found.</p>\n") +
-              "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n" + list +
-              "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
-              fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  page.body =
+      "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
+      (holds_file(files, "overlay.svg")
+           ? picture_html(files, "overlay", "Displacement over the frequency, of all folders")
+           : "<p>There is no picture: gnuplot was not found.</p>\n") +
+      (has_unstable ? "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n"
+                    : "<p>The curves are those of</p>\n<ul>\n") +
+      list + "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
+      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
   return page_html(page);
 }
 

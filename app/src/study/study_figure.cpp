@@ -353,7 +353,9 @@ Figure study_figure(const Study& study, const StudyRuns& runs, const Table& tabl
   } else {
     add_distribution(figure, values, quantity);
     add_scatters(figure, varying, values, outcomes, quantity);
-    figure.columns = 2;
+    figure.columns = 2;  // of half the width, so that letters keep their size
+    figure.panel_width = 480;
+    figure.panel_height = 340;
   }
   return figure;
 }

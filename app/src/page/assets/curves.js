@@ -24,6 +24,9 @@
     return "10" + [...String(exponent)].map((c) => (c === "-" ? "\u207B" : "\u2070\u00B9\u00B2\u00B3\u2074\u2075\u2076\u2077\u2078\u2079"[c])).join("");
   };
 
+  // A text given for a tick, in which powers of ten are marked as gnuplot has them; a tick holds no parts.
+  const tickText = (text) => text?.replace(/10\^\{?(-?\d+)\}?/g, (_, exponent) => power(10 ** exponent));
+
   // gnuplot's enhanced text as parts {text, level, bold, italic}; level 1 is raised and -1 lowered.
   function parts(text, style = { level: 0, bold: false, italic: false }) {
     const found = [];
@@ -76,7 +79,7 @@
     const [low, high] = scale.domain(), decimals = /^%\.(\d)f$/.exec(axis.format)?.[1];
     const decades = axis.logarithmic && high >= 1000 * low;
     if (chosen)
-      return (value, i) => axis.texts[i] || (decimals ? value.toFixed(decimals) : (decades && power(value)) || number(value));
+      return (value, i) => tickText(axis.texts[i]) || (decimals ? value.toFixed(decimals) : (decades && power(value)) || number(value));
     return axis.logarithmic ? scale.tickFormat(count, decades ? power : number) : scale.tickFormat(count);
   }
 
@@ -343,9 +346,10 @@
   function drawFigure(box, data) {
     const hidden = new Set();
     const panels = [];
-    const width = box.clientWidth;
-    const columns = columnsFor(Math.min(data.columns, data.panels.length), width);
     const grid = element("div", { class: "panels" });
+    box.replaceChildren(grid);
+    const width = grid.clientWidth;
+    const columns = columnsFor(Math.min(data.columns, data.panels.length), width);
     grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
     const each = Math.floor(width / columns) - 1;
     const redraw = () => panels.forEach((panel) => panel.draw());
