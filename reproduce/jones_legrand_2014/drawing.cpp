@@ -134,7 +134,8 @@ Figure levels_figure(const Table& table, const std::string& name, SeriesStyle st
     series.colour = Colour::blue;
     panel.add(std::move(series));
     panel.x = axis(level >= 4 ? time_label : "", 0.0, 1.0);
-    panel.y = axis(level % 2 == 0 ? name : "", -0.45 * (1 << level), 1.45 * (1 << level));
+    panel.y = axis(name, -0.45 * (1 << level), 1.45 * (1 << level));
+    if (level == 0) panel.y.ticks = {0.0, 0.5, 1.0};
   }
   return figure;
 }

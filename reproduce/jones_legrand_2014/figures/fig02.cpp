@@ -39,7 +39,7 @@ app::Figure functions_figure(const Table& table) {
     auto& panel = figure.add_panel(basis_names[i]);
     panel.add(periodic_series("", Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
     panel.x = axis(i >= 4 ? time_label : "", 0.0, 1.0);
-    panel.y = axis(i % 2 == 0 ? "Amplitude (-)" : "", -1.2, 1.2);
+    panel.y = axis("Amplitude (-)", -1.2, 1.2);
   }
   return figure;
 }
