@@ -193,6 +193,18 @@ def test_curves_zoom_tell_values_and_hide(look, browser, results):
     assert browser.value(path) == whole
 
 
+def test_curves_without_room_wait_for_it(look, browser, results):
+    look.open(results / "index.html")
+    browser.value("look.draw(true)")
+    browser.value("document.querySelectorAll('.curves').forEach((one) => { one.style.width = '0'; })")
+    browser.resize(1000)  # draws them again, as a page does that is opened in a window without size
+    browser.until("!(document.querySelector('.plot svg')?.getAttribute('width') > 20)")
+    browser.value("document.querySelectorAll('.curves').forEach((one) => { one.style.width = ''; })")
+    browser.resize(1400)
+    browser.until("document.querySelector('.plot svg').getAttribute('width') > 200")
+    assert browser.errors == []
+
+
 def test_ticks_of_an_axis_are_numbers_of_one_kind(look, browser, results):
     look.open(results / "index.html")
     browser.value("look.draw(true)")

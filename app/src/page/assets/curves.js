@@ -351,7 +351,7 @@
     const width = grid.clientWidth;
     const columns = columnsFor(Math.min(data.columns, data.panels.length), width);
     grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
-    const each = Math.floor(width / columns) - 1;
+    const each = Math.max(1, Math.floor(width / columns) - 1);  // 1 in a window that has no size yet
     const redraw = () => panels.forEach((panel) => panel.draw());
     box.replaceChildren();
     if (data.title) box.append(element("p", { class: "title" }, ...html(data.title)));
