@@ -43,17 +43,13 @@ random_starts = 0
 """)
 
 
-def test_a_motion_that_phases_do_not_solve_for_is_told_with_what_failed(run, matrix, tmp_path):
-    """A table of many points has too many phases; the motion that the structure settles to is there all the same."""
+def test_the_motion_of_a_law_of_many_pieces_is_solved_for(run, matrix, tmp_path):
+    """A table of 1500 points has too many phases for their equations; the flow passes from piece to piece."""
     record = run(tapping(matrix, tmp_path, 1500))
-    assert record.code == 3
-    assert record.summary["status"] == "not_solved"
-    (unsolved,) = record.summary["unsolved_motions"]
-    assert unsolved["phases_status"] == "too_many_phases"
-    assert unsolved["period"] == 1
-    assert unsolved["max_displacement_m"] == pytest.approx(16.1378e-9, rel=1e-3)
-    assert any("too_many_phases" in warning for warning in record.summary["warnings"])
-    assert "no motion" not in record.errors
+    assert record.code == 0, record.errors
+    (motion,) = record.summary["motions"]
+    assert motion["period"] == 1 and motion["stability"] == "stable"
+    assert motion["max_displacement_m"] == pytest.approx(16.1378e-9, rel=1e-4)  # of an integration in time
 
 
 def test_the_box_of_random_states_follows_the_law(run, matrix):

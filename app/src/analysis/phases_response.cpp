@@ -37,6 +37,11 @@ struct PhasesFound {
   std::optional<SettledBeside> settled;  ///< what the structure settles to, where that was the start
 
   bool may_go_on() const { return !motion || motion->status == solvers::PhasesStatus::not_found; }
+  /// Whether a slider is where the start has it.
+  bool depends_on_history() const {
+    return motion && std::any_of(motion->friction.begin(), motion->friction.end(),
+                                 [](const solvers::FrictionAlong& one) { return one.always_sticks(); });
+  }
 };
 
 void note(PhasesFound& found, solvers::PhaseMotion motion, const char* strategy, int functions) {
@@ -74,7 +79,8 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
   return found;
 }
 
-/// From the motion that the structure settles to, where there is one.
+/// From the motion that the structure settles to, where there is one: its sliders are where the first periods
+/// from rest have put them.
 void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Scene& scene,
                   const Observer& observer) {
   solvers::SettlingOptions options;
@@ -86,7 +92,8 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
                    settled.last.force.maxCoeff()};
   auto motion = problem.phases(scene.forcing.frequency, settled,
                                {.tolerance = tolerance_of(scene), .observer = observer});
-  if (motion) note(found, *std::move(motion), "from_settling", 0);
+  if (motion && (motion->converged() || found.may_go_on()))
+    note(found, *std::move(motion), "from_settling", 0);
 }
 
 void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
@@ -123,7 +130,8 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   solvers::ContactProblem problem =
       compose_problem(balance_of(scene, std::max(phases_starts.front(), found.start_functions)), model);
   const bool searched = found.status == "no_start" || found.motion.has_value();
-  if (settling && searched && found.may_go_on()) try_settling(found, problem, scene, options.observer);
+  if (settling && searched && (found.may_go_on() || found.depends_on_history()))
+    try_settling(found, problem, scene, options.observer);
   result.status = found.status;
   result.solved_by = name_of(TimeMethod::phases);
   result.strategy = found.strategy;

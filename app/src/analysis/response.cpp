@@ -50,56 +50,6 @@ void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   result.phases_seconds = seconds_since(start);
 }
 
-/// The stability of the balance with twice the functions and points near a response, if it converges there.
-std::optional<ResponseStability> finer_stability(solvers::ContactProblem& problem,
-                                                 const solvers::PeriodicResponse& found, Scene scene,
-                                                 const StructureModel& model, const Observer& observer,
-                                                 const Response& result) {
-  constexpr double near = 0.1;
-  scene.time = solved_time(scene.time, result);
-  scene.time.tolerance = 0.0;
-  scene.time.functions = 2 * scene.time.functions + scene.time.functions % 2;
-  scene.time.quadrature_points *= 2;
-  solvers::ContactProblem finer = compose_problem(scene, model);
-  solvers::ForcedResponseOptions options;
-  options.observer = observer;
-  options.form = scene.contact.form;
-  options.stay_near_guess = true;
-  const int points = finer.pair().points();
-  const solvers::Motion start = problem.motion(found, points);
-  const auto sampled = [&](const Eigen::MatrixXd& values) {
-    return solvers::resample(values, points, -finer.pair().first_sample());
-  };
-  const auto response =
-      finer.respond(scene.forcing.frequency, options, {sampled(start.displacement), sampled(start.force)});
-  if (!response.converged()) return std::nullopt;
-  const Eigen::MatrixXd apart = finer.motion(response, points).displacement - start.displacement;
-  if (!(apart.norm() <= near * start.displacement.norm())) return std::nullopt;
-  return finer.stability(response);
-}
-
-/// Multipliers of a balance are those of its samples. Where contact phases cannot tell the structure's, they
-/// count as known if a finer balance has as many outside the unit circle.
-void confirm_stability(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
-                       const Scene& scene, const StructureModel& model, const Observer& observer,
-                       Response& result) {
-  using solvers::PhasesStatus;
-  const bool alone = result.phases && (result.phases->motion.status == PhasesStatus::mixed_laws ||
-                                       result.phases->motion.status == PhasesStatus::too_many_phases);
-  if (!alone || result.stability->unstable < 0) return;
-  const auto start = Clock::now();
-  const auto finer = finer_stability(problem, found, scene, model, observer, result);
-  ResponseStability& stability = *result.stability;
-  const double seconds = stability.wall_seconds + seconds_since(start);
-  if (finer && finer->unstable == stability.unstable) {
-    stability = *finer;
-  } else {
-    stability = {};
-    stability.status = "not_confirmed";
-  }
-  stability.wall_seconds = seconds;
-}
-
 /// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
 /// require it.
 void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found, const Scene& scene,
@@ -112,7 +62,6 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   if (options.phases) note_phases(problem, found, options, result);
   if (options.stability)
     result.stability = problem.stability(found, result.phases ? &result.phases->motion : nullptr);
-  if (options.stability) confirm_stability(problem, found, scene, model, options.observer, result);
   note_settled(problem, scene, options.observer, result);
 }
 

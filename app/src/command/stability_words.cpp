@@ -33,9 +33,8 @@ std::string status_sentence(const std::string& status) {
       {"undamped", "Stability is not asymptotic: the structure has a mode without damping."},
       {"on_unit_circle",
        "Stability is not known: a multiplier lies on the unit circle within its own error, and none outside."},
-      {"not_confirmed",
-       "Stability is not known: contact phases do not take this motion, and the balance with twice the functions has "
-       "another number of multipliers outside the unit circle, or no response near. More functions may settle it."},
+      {"too_many_phases",
+       "Stability is not known: so many contacts change so often that the motion of the structure was not sought."},
       {"coupled_massless",
        "Stability is not known: contacts without mass and damping deflect each other at once."},
       {"no_modes", "Stability is not known: the modes of the structure could not be computed."},

@@ -25,8 +25,7 @@ constexpr int most_divided = 64;  // panels: rounding may keep the estimate abov
 bool is_refusal(solvers::PhasesStatus status) {
   using enum solvers::PhasesStatus;
   return status == rigid_contact || status == velocity_and_no_mass || status == resonant ||
-         status == structural_damping || status == slip_in_a_plane || status == mixed_laws ||
-         status == free_structure;
+         status == structural_damping || status == slip_in_a_plane || status == law_over_period;
 }
 
 }  // namespace
@@ -44,10 +43,8 @@ std::string phrase_of(solvers::PhasesStatus status) {
       return "a loss factor has no equation in time";
     case slip_in_a_plane:
       return "a contact slips along two tangents";
-    case mixed_laws:
-      return "contacts with friction stand beside others";
-    case free_structure:
-      return "friction acts on a structure that is free to move";
+    case law_over_period:
+      return "a law acts over the period and has no states";
     case tolerance_missed:
       return "their error stays above 1e-6";
     case too_many_phases:

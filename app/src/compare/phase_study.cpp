@@ -8,7 +8,7 @@
 
 #include "compare/phase_reference.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/friction/friction_phases.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 
 namespace wavebalance::app {
@@ -74,7 +74,7 @@ class PhaseStudy {
     const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
     found.phases = solvers::response_phases(problem.condensed(), problem.laws(), found.balance, dynamics,
                                             {.tolerance = tolerance, .nodes = nodes, .observer = observer},
-                                            solvers::phases_of_any_law);
+                                            solvers::exact_motion);
     return found;
   }
 

@@ -87,22 +87,6 @@ void check_one_tangent(const Document& document, const Scene& scene, const std::
                 "not with friction along two tangents, which slips in a plane; expected " + expected);
 }
 
-/// Phases of friction are those of one tangent, of all contacts.
-void check_friction_phases(const Document& document, const Scene& scene) {
-  const bool shoots = scene.analysis.type == AnalysisType::shooting;
-  const std::string key = shoots ? "analysis.type" : "time.method",
-                    expected = shoots ? "\"forced_response\"" : "\"balance\"";
-  if (names_rigid_friction(scene.contact))
-    fail_rule(document, {key, "contact.law"},
-              "not with friction without contact.tangential_stiffness, which is rigid; expected " + expected);
-  check_one_tangent(document, scene, key, expected);
-  for (const SceneContact& contact : contacts_of(scene))
-    if (!has_friction(contact.law))
-      fail_rule(document, {key, "contact.law"},
-                "not with contacts of the law \"" + contact.law + "\" beside those with friction; expected " +
-                    expected);
-}
-
 /// Friction is solved by balances in the displacement form, and by phases.
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
@@ -114,7 +98,8 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
               "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
               "\"shooting\", \"time_stepping\" or \"nonlinear_mode\"");
   if (integrates_in_time(type)) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
-  if (solves_by_phases(scene) || type == AnalysisType::shooting) check_friction_phases(document, scene);
+  if (type == AnalysisType::shooting) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
+  if (solves_by_phases(scene)) check_one_tangent(document, scene, "time.method", "\"balance\"");
   if (scene.analysis.exact)
     fail_rule(document, {"analysis.exact", "contact.law"},
               "not with friction, whose phases are not followed along curves; expected false");

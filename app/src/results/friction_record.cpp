@@ -11,7 +11,7 @@
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
-#include "wavebalance/solvers/friction/friction_phases.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -16,8 +16,6 @@ namespace {
 
 using detail::force_kind;
 
-constexpr Index node_count = 12;
-
 // Closer at the beginning, where a state may end soon after an event.
 Eigen::VectorXd dense_points() {
   constexpr int even = 33, close = 7;
@@ -63,7 +61,7 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       poles_(problem.dynamics, problem.contact_free, problem.frequency),
       machines_(machines_of(problem.laws, problem.dynamics, length_of(problem), problem.frequency)),
       contacts_(machines_),
-      nodes_(node_count),
+      nodes_(detail::panel_nodes),
       dense_(dense_points()),
       rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
       length_(length_of(problem)),
@@ -88,9 +86,8 @@ void ContactFlow::Engine::start() {
   const Index rows = poles_.rows(), n = poles_.states();
   const auto free = poles_.contact_free(Eigen::VectorXd::Zero(1));
   const double rate = 2.0 * std::numbers::pi / poles_.period();
-  const Eigen::MatrixXcd unit = poles_.complex_of(Eigen::MatrixXd::Identity(n, n));
   Eigen::MatrixXd held(2 * rows, n);
-  held << (poles_.outputs(0) * unit).real(), (poles_.outputs(1) * unit).real() / rate;
+  held << poles_.real_outputs(0), poles_.real_outputs(1) / rate;
   Eigen::VectorXd wanted(2 * rows);
   wanted << rest_position_ - free[0].col(0), -free[1].col(0) / rate;
   states_ = poles_.complex_of(detail::least_squares(held, wanted)).col(0);
@@ -107,10 +104,44 @@ void ContactFlow::Engine::start() {
   level_ = coarsest_;
 }
 
-void ContactFlow::Engine::start(const Eigen::VectorXd& state) {
+void ContactFlow::Engine::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   states_ = poles_.complex_of(state.head(poles_.states())).col(0);
   for (Index m = 0; m < contacts_.memories(); ++m) now_.memory[std::size_t(m)] = state[poles_.states() + m];
+  now_.state = contacts;
   time_ = 0.0;
+  idle_ = 0;
+}
+
+void ContactFlow::Engine::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
+                                     const Eigen::VectorXd& force) {
+  const double rate = 2.0 * std::numbers::pi / poles_.period();
+  states_.setZero(poles_.poles());
+  for (Index n = 0; n < harmonics.cols(); ++n)
+    for (Index j = 0; j < states_.size(); ++j)
+      for (const double turn : {1.0, -1.0}) {
+        std::complex<double> input = 0.0;
+        for (Index b = 0; b < harmonics.rows(); ++b)
+          input += poles_.inputs()(j, b) * (turn > 0.0 ? harmonics(b, n) : std::conj(harmonics(b, n)));
+        states_[j] -=
+            0.5 * input / (std::complex<double>(0.0, turn * rate * double(n)) - poles_.exponents()[j]);
+      }
+  now_.memory.assign(std::size_t(contacts_.memories()), 0.0);
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const LawMachine& law = contacts_.law(c);
+    const auto rows = std::size_t(law.rows());
+    now_.state[std::size_t(c)] =
+        law.at({displacement.data() + contacts_.row(c), rows}, {force.data() + contacts_.row(c), rows},
+               std::span<double>(now_.memory)
+                   .subspan(std::size_t(contacts_.memory_begin(c)), std::size_t(law.memories())));
+  }
+  time_ = 0.0;
+  idle_ = 0;
+}
+
+Eigen::VectorXd ContactFlow::Engine::displacements_by_state() const {
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(poles_.states() + contacts_.memories());
+  result.head(poles_.states()) = poles_.real_outputs(0).cwiseAbs().colwise().maxCoeff().transpose();
+  return result;
 }
 
 Eigen::VectorXd ContactFlow::Engine::state() const {
@@ -121,14 +152,12 @@ Eigen::VectorXd ContactFlow::Engine::state() const {
 }
 
 void ContactFlow::Engine::perturb(const Eigen::MatrixXd& columns) {
-  variation_ = detail::Variation(poles_.complex_of(columns.topRows(poles_.states())),
-                                 columns.bottomRows(contacts_.memories()));
+  variation_ = detail::Variation(columns.topRows(poles_.states()), columns.bottomRows(contacts_.memories()));
 }
 
 Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
   Eigen::MatrixXd result(poles_.states() + contacts_.memories(), variation_.poles().cols());
-  for (Index k = 0; k < result.cols(); ++k)
-    result.col(k) << poles_.real_of(variation_.poles().col(k)), variation_.memory().col(k);
+  result << variation_.poles(), variation_.memory();
   return result;
 }
 
@@ -137,7 +166,7 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
   constexpr int finest = 24;
   for (; level_ <= finest; ++level_) {
     const detail::PanelShape& panel = shape(level_);
-    detail::PanelForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
+    detail::SolvedForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
     if (!found.converged || !found.force.allFinite()) continue;
     const double rough = panel.unresolved(found.force, force_size_),
                  size = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
@@ -198,11 +227,9 @@ std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guar
   const double low = dense_[Index(k)], width = dense_[Index(k) + 1] - low, a = samples.value[k],
                b = samples.value[k + 1], u = width * samples.rate[k], v = width * samples.rate[k + 1];
   if (!(u < 0.0 && v > 0.0)) return std::nullopt;
-  const auto cubic = [&](double t) {
-    return a + t * (u + t * (3.0 * (b - a) - 2.0 * u - v + t * (u + v - 2.0 * (b - a))));
-  };
-  double least = std::min(a, b);
-  for (const double t : {0.2, 0.35, 0.5, 0.65, 0.8}) least = std::min(least, cubic(t));
+  const double c2 = 3.0 * (b - a) - 2.0 * u - v, c3 = u + v - 2.0 * (b - a),
+               lowest = -u / (c2 + std::sqrt(c2 * c2 - 3.0 * c3 * u)),
+               least = a + lowest * (u + lowest * (c2 + lowest * c3));
   constexpr double near = 0.2;
   if (least > near * std::min(a, b)) return std::nullopt;
   const auto at = [&](double t) { return guard_at(panel, c, exit, low + t * width); };
@@ -271,6 +298,16 @@ std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Sol
     }
   }
   return best;
+}
+
+void ContactFlow::Engine::keep(const Solved& panel, double end) {
+  constexpr double nothing = 1e-13;  // periods
+  const double half = panel.shape->half(), until = std::min(time_ + half * (end + 1.0), poles_.period());
+  if (until - time_ < nothing * poles_.period()) return;
+  const Eigen::VectorXd within = 0.5 * (end + 1.0) * (nodes_.points.array() + 1.0) - 1.0;
+  const Eigen::MatrixXd restriction =
+      detail::product(detail::legendre_values(within, detail::panel_nodes), nodes_.coefficients);
+  panels_.push_back({time_, until, detail::product_transposed(panel.force, restriction), now_.state});
 }
 
 void ContactFlow::Engine::take_samples(const Solved& panel, double end, int points,
@@ -361,6 +398,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);
+  keep(*panel, end);
   idle_ = end > -1.0 + 1e-12 ? 0 : idle_ + 1;
   if (idle_ > most_idle) return FlowStatus::endless_events;
   const detail::PoleWaves waves(poles_, nodes_, half, Eigen::VectorXd::Constant(1, end));
@@ -377,6 +415,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
 FlowStatus ContactFlow::Engine::advance_period(int points,
                                                const std::function<void(const FlowSample&)>& sample) {
   events_.clear();
+  panels_.clear();
   rests_ = sampled_ = 0;
   while (time_ < poles_.period())
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
@@ -390,8 +429,17 @@ ContactFlow::ContactFlow(const PhasesProblem& problem, const FlowOptions& option
 }
 ContactFlow::~ContactFlow() = default;
 ContactFlow::ContactFlow(ContactFlow&&) noexcept = default;
+ContactFlow& ContactFlow::operator=(ContactFlow&&) noexcept = default;
 void ContactFlow::start() { engine_->start(); }
-void ContactFlow::start(const Eigen::VectorXd& state) { engine_->start(state); }
+void ContactFlow::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
+  engine_->start(state, contacts);
+}
+void ContactFlow::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
+                             const Eigen::VectorXd& force) {
+  engine_->start_near(harmonics, displacement, force);
+}
+const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->panels(); }
+Eigen::VectorXd ContactFlow::displacements_by_state() const { return engine_->displacements_by_state(); }
 FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
   return engine_->advance_period(points, sample);
 }

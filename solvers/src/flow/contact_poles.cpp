@@ -60,10 +60,10 @@ ContactPoles::ContactPoles(const ContactDynamics& dynamics, Eigen::MatrixXcd con
     moments_[i] = (outputs_[i] * inputs_).real();
     clear_rounding(moments_[i], outputs_[i].cwiseAbs() * inputs_.cwiseAbs());
   }
-  for (Index j = 0; j < count; ++j)
-    if (exponents_[j].real() > 1e-9 * std::abs(exponents_[j]))
-      throw std::invalid_argument(
-          "ContactPoles: motions of the structure grow without contact; its damping must not be negative");
+  for (std::size_t d = 0; d < levels; ++d) {
+    real_outputs_[d].resize(rows, states_);
+    for (Index i = 0; i < rows; ++i) real_outputs_[d].row(i) = row_of(outputs_[d].row(i));
+  }
   fastest_ = fastest_turn(exponents_, outputs_[0], inputs_);
 }
 
@@ -90,14 +90,38 @@ double ContactPoles::displacement_scale() const {
   return contact_free_.size() == 0 ? 0.0 : contact_free_.rowwise().norm().maxCoeff();
 }
 
-Eigen::VectorXd ContactPoles::real_of(const Eigen::VectorXcd& states) const {
-  Eigen::VectorXd result(states_);
+Eigen::MatrixXd ContactPoles::real_of(const Eigen::MatrixXcd& states) const {
+  Eigen::MatrixXd result(states_, states.cols());
   Index i = 0;
   for (Index j = 0; j < poles(); ++j) {
-    result[i++] = states[j].real();
-    if (is_pair(exponents_[j])) result[i++] = states[j].imag();
+    result.row(i++) = states.row(j).real();
+    if (is_pair(exponents_[j])) result.row(i++) = states.row(j).imag();
   }
   return result;
+}
+
+Eigen::RowVectorXd ContactPoles::row_of(const Eigen::RowVectorXcd& weights) const {
+  Eigen::RowVectorXd result(states_);
+  Index i = 0;
+  for (Index j = 0; j < poles(); ++j) {
+    result[i++] = weights[j].real();
+    if (is_pair(exponents_[j])) result[i++] = -weights[j].imag();
+  }
+  return result;
+}
+
+void ContactPoles::multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const {
+  Index i = 0;
+  for (Index j = 0; j < poles(); ++j) {
+    if (!is_pair(exponents_[j])) {
+      states.row(i++) *= factors[j].real();
+      continue;
+    }
+    const Eigen::RowVectorXd re = states.row(i), im = states.row(i + 1);
+    states.row(i) = factors[j].real() * re - factors[j].imag() * im;
+    states.row(i + 1) = factors[j].imag() * re + factors[j].real() * im;
+    i += 2;
+  }
 }
 
 Eigen::MatrixXcd ContactPoles::complex_of(const Eigen::MatrixXd& states) const {

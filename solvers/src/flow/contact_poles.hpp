@@ -20,7 +20,7 @@ using Signals = std::array<Eigen::MatrixXd, kinds>;
 class ContactPoles {
  public:
   /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
-  /// in periods. Throws std::invalid_argument for structural damping, and where motions grow without contact.
+  /// in periods. Throws std::invalid_argument for structural damping.
   ContactPoles(const ContactDynamics& dynamics, Eigen::MatrixXcd contact_free, double frequency);
 
   Index rows() const { return inputs_.cols(); }
@@ -34,6 +34,10 @@ class ContactPoles {
   const Eigen::MatrixXcd& inputs() const { return inputs_; }        ///< b, P x R
   /// c r^d, R x P.
   const Eigen::MatrixXcd& outputs(int level) const { return outputs_[static_cast<std::size_t>(level)]; }
+  /// The same of real states, R x states().
+  const Eigen::MatrixXd& real_outputs(int level) const {
+    return real_outputs_[static_cast<std::size_t>(level)];
+  }
   /// R x R, by the k-th derivative of the forces, k <= level.
   const Eigen::MatrixXd& feed(int level, int k) const;
   /// R x R, 1/kg: velocities by impulses.
@@ -44,8 +48,12 @@ class ContactPoles {
   std::array<Eigen::MatrixXd, levels> contact_free(const Eigen::VectorXd& times) const;
   double displacement_scale() const;  ///< m, the largest rms of the motion without contact
 
+  /// The real row by which real states make Re(weights y).
+  Eigen::RowVectorXd row_of(const Eigen::RowVectorXcd& weights) const;
+  /// Multiplies real states, a column each, by a factor for each pole.
+  void multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const;
   /// Complex states and real ones: the real part, and of pairs the imaginary part.
-  Eigen::VectorXd real_of(const Eigen::VectorXcd& states) const;
+  Eigen::MatrixXd real_of(const Eigen::MatrixXcd& states) const;
   Eigen::MatrixXcd complex_of(const Eigen::MatrixXd& states) const;
 
  private:
@@ -54,6 +62,7 @@ class ContactPoles {
   Eigen::VectorXcd exponents_;
   Eigen::MatrixXcd inputs_, contact_free_;
   std::array<Eigen::MatrixXcd, levels> outputs_;
+  std::array<Eigen::MatrixXd, levels> real_outputs_;
   std::array<Eigen::MatrixXd, levels> moments_;
   Eigen::MatrixXd constant_;
 };

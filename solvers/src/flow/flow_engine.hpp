@@ -15,7 +15,9 @@ class ContactFlow::Engine {
   Engine(const PhasesProblem& problem, const FlowOptions& options);
 
   void start();
-  void start(const Eigen::VectorXd& state);
+  void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
+  void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
+                  const Eigen::VectorXd& force);
   FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample);
   Eigen::VectorXd state() const;
   void perturb(const Eigen::MatrixXd& columns);
@@ -24,6 +26,8 @@ class ContactFlow::Engine {
   const std::vector<ContactMachine>& machines() const { return machines_; }
   const std::vector<int>& contact_states() const { return now_.state; }
   const std::vector<FlowEvent>& events() const { return events_; }
+  const std::vector<FlowPanel>& panels() const { return panels_; }
+  Eigen::VectorXd displacements_by_state() const;
   int rests() const { return rests_; }
   double period() const { return poles_.period(); }
 
@@ -59,6 +63,7 @@ class ContactFlow::Engine {
   std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
   double scale_of(const Dual& guard, int rows) const;
   double guard_at(const Solved& panel, Index c, int exit, double at) const;
+  void keep(const Solved& panel, double end);
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
   void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
@@ -79,6 +84,7 @@ class ContactFlow::Engine {
   detail::ContactStates now_;
   detail::Variation variation_;
   std::vector<FlowEvent> events_;
+  std::vector<FlowPanel> panels_;
   std::vector<double> fastest_;                   // impact of each contact, m/s
   std::map<std::pair<Index, int>, double> size_;  // of guards, by contact and state with exit
 };

@@ -4,11 +4,29 @@
 #include <stdexcept>
 #include <string>
 
+#include "flow/law_machines.hpp"
 #include "phases/law_pieces.hpp"
 #include "wavebalance/solvers/flow/law_machine.hpp"
 
 namespace wavebalance::solvers {
+
+double detail::inverse_mass_of(const ContactDynamics& dynamics, int row) {
+  if (dynamics.constant()(row, row) > 0.0) return 0.0;
+  double displaced = 0.0, moved = 0.0, fastest = 0.0;
+  for (const ContactPole& pole : dynamics.poles()) {
+    const std::complex<double> own = pole.residue * pole.shape[row] * pole.left[row];
+    const double weight = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
+    displaced += weight * own.real();
+    moved += weight * (pole.exponent * own).real();
+    fastest = std::max(fastest, std::abs(pole.exponent));
+  }
+  constexpr double rounding = 1e-9;
+  return moved > 0.0 && std::abs(displaced) * fastest <= rounding * moved ? moved : 0.0;
+}
+
 namespace {
+
+using detail::inverse_mass_of;
 
 RowForce free_force() { return {.free = true}; }
 RowForce no_force() { return {}; }
@@ -52,6 +70,11 @@ class PieceMachine final : public LawMachine {
 
   int start(std::span<const double> displacement, std::span<double>) const override {
     return law_.piece_at(displacement[0]);
+  }
+  int at(std::span<const double> displacement, std::span<const double> force,
+         std::span<double>) const override {
+    const int own = law_.piece_at(displacement[0]);
+    return !pulls_ && law_.exerts(own) && force[0] <= 0.0 ? law_.released(own) : own;
   }
 
  private:
@@ -121,6 +144,9 @@ class ImpactMachine final : public LawMachine {
   }
   int after_impulse(int, const LocalSignals&) const override { return open; }
   int start(std::span<const double>, std::span<double>) const override { return open; }
+  int at(std::span<const double>, std::span<const double> force, std::span<double>) const override {
+    return force[0] > 0.0 ? closed : open;
+  }
 
  private:
   double gap_, restitution_, rate_;
@@ -147,6 +173,9 @@ class ObstacleMachine final : public LawMachine {
   }
   int start(std::span<const double> displacement, std::span<double>) const override {
     return displacement[0] < gap_ ? open : closed;
+  }
+  int at(std::span<const double>, std::span<const double> force, std::span<double>) const override {
+    return force[0] > 0.0 ? closed : open;
   }
 
  private:
@@ -193,7 +222,7 @@ class FrictionMachine final : public LawMachine {
       result = {{{forward}}, {{backward}}};
     else if (accelerates())
       result = {{{stick, state == forward ? backward : forward}}};
-    else
+    else if (c_.friction > 0.0)
       result = {{{stick}}};
     if (has_normal()) result.push_back({{open}});
     return result;
@@ -220,12 +249,9 @@ class FrictionMachine final : public LawMachine {
   }
 
   void remember(int state, int, const LocalSignals& now, std::span<Dual> out) const override {
-    if (rigid())
-      out[0] = now.displacement.back();
-    else if (state == open)
-      out[0] = c_.tangential_stiffness * now.displacement.back();
-    else
-      out[0] = c_.tangential_stiffness * now.displacement.back() - sign(state) * c_.friction * normal(now);
+    out[0] = now.displacement.back();
+    if (!rigid() && state != open)
+      out[0].add(normal(now), -sign(state) * c_.friction / c_.tangential_stiffness);
   }
 
   int choose(int state, int, const LocalSignals& before, const LocalSignals&) const override {
@@ -246,17 +272,26 @@ class FrictionMachine final : public LawMachine {
   int start(std::span<const double> displacement, std::span<double> memory) const override {
     std::array<double, 2> force{};
     const std::array<double, 2> none{};
-    if (rigid()) {
-      memory[0] = displacement.back();
-    } else {
+    memory[0] = displacement.back();
+    if (!rigid()) {
       law_.start(displacement, {none.data(), std::size_t(rows())}, {force.data(), std::size_t(rows())});
-      memory[0] = c_.tangential_stiffness * displacement.back() - force[std::size_t(rows()) - 1];
+      memory[0] -= force[std::size_t(rows()) - 1] / c_.tangential_stiffness;
     }
-    const double n = c_.normal_load + (has_normal() ? c_.normal_stiffness * displacement[0] : 0.0);
+    const double n = normal_at(displacement);
     if (has_normal() && n <= 0.0) return open;
     const double limit = c_.friction * n, own = force[std::size_t(rows()) - 1];
-    if (std::abs(own) < limit || limit == 0.0) return stick;
+    if (c_.friction > 0.0 && (std::abs(own) < limit || limit == 0.0)) return stick;
     return own > 0.0 ? forward : backward;
+  }
+  int at(std::span<const double> displacement, std::span<const double> force,
+         std::span<double> memory) const override {
+    constexpr double rounding = 1e-6;  // of a force that a balance has limited
+    const double n = normal_at(displacement), own = force.back();
+    memory[0] = 0.0;
+    if (has_normal() && n <= 0.0) return open;
+    if (std::abs(own) >= (1.0 - rounding) * c_.friction * n) return own > 0.0 ? forward : backward;
+    if (!accelerates()) memory[0] = displacement.back() - (rigid() ? 0.0 : own / c_.tangential_stiffness);
+    return stick;
   }
 
  private:
@@ -265,13 +300,16 @@ class FrictionMachine final : public LawMachine {
   bool rigid() const { return std::isinf(c_.tangential_stiffness); }
   bool accelerates() const { return rigid() && inverse_mass_ > 0.0; }
 
+  double normal_at(std::span<const double> displacement) const {
+    return c_.normal_load + (has_normal() ? c_.normal_stiffness * displacement[0] : 0.0);
+  }
   Dual normal(const LocalSignals& now) const {
     return has_normal() ? Dual(c_.normal_load) + c_.normal_stiffness * now.displacement[0]
                         : Dual(c_.normal_load);
   }
   /// By displacements, so that its rate is known at every instant.
   Dual elastic(const LocalSignals& now) const {
-    return c_.tangential_stiffness * now.displacement.back() - now.memory[0];
+    return c_.tangential_stiffness * (now.displacement.back() - now.memory[0]);
   }
   /// Positive while the slider goes on.
   Dual slip_rate(int state, const LocalSignals& now) const {
@@ -284,6 +322,7 @@ class FrictionMachine final : public LawMachine {
   }
   int closing(const LocalSignals& before) const {
     const double v = before.velocity.back().value;
+    if (c_.friction == 0.0) return forward;
     if (rigid()) return v == 0.0 ? stick : v > 0.0 ? forward : backward;
     const double grows = c_.friction * c_.normal_stiffness * before.velocity[0].value;
     if (c_.tangential_stiffness * std::abs(v) < grows) return stick;
@@ -294,21 +333,6 @@ class FrictionMachine final : public LawMachine {
   FrictionConstants c_;
   double inverse_mass_, rate_;
 };
-
-// The velocity of a row by an impulse there, 1/kg; 0 where it is displaced at once.
-double inverse_mass_of(const ContactDynamics& dynamics, int row) {
-  if (dynamics.constant()(row, row) > 0.0) return 0.0;
-  double displaced = 0.0, moved = 0.0, fastest = 0.0;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const std::complex<double> own = pole.residue * pole.shape[row] * pole.left[row];
-    const double weight = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
-    displaced += weight * own.real();
-    moved += weight * (pole.exponent * own).real();
-    fastest = std::max(fastest, std::abs(pole.exponent));
-  }
-  constexpr double rounding = 1e-9;
-  return moved > 0.0 && std::abs(displaced) * fastest <= rounding * moved ? moved : 0.0;
-}
 
 std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics,
                                              int row, double length, double rate) {

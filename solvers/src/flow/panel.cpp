@@ -112,13 +112,14 @@ Signals PanelMotion::at(const PoleWaves& waves, const Eigen::MatrixXd& force) co
   for (Index j = 0; j < poles.poles(); ++j)
     states.row(j) = waves.decay.row(j) * state[j] -
                     (waves.driven[std::size_t(j)] * inputs.row(j).transpose()).transpose();
+  const Eigen::MatrixXd real_states = poles.real_of(states);
   Signals signals;
   for (int k = 0; k < kinds - force_kind; ++k)
     signals[std::size_t(force_kind + k)] = product_transposed(force, waves.forces[std::size_t(k)]);
   const auto free = poles.contact_free(Eigen::VectorXd(begin + shape.half() * (waves.points.array() + 1.0)));
   for (int d = 0; d < levels; ++d) {
     Eigen::MatrixXd& own = signals[std::size_t(d)];
-    own = (poles.outputs(d) * states).real() + free[std::size_t(d)];
+    own = product(poles.real_outputs(d), real_states) + free[std::size_t(d)];
     for (int k = 0; k <= d && k < kinds - force_kind; ++k)
       if (!poles.feed(d, k).isZero(0.0))
         own -= product(poles.feed(d, k), signals[std::size_t(force_kind + k)]);

@@ -158,9 +158,6 @@ Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& 
   return result;
 }
 
-namespace {
-
-// Columns of all forces put together to those of free ones.
 Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_all.rows(), free.combine.cols() * q);
   for (Index k = 0; k < free.combine.cols(); ++k)
@@ -169,8 +166,6 @@ Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& 
         result.middleCols(k * q, q) += s * by_all.middleCols(b * q, q);
   return result;
 }
-
-}  // namespace
 
 Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right) {
   constexpr double singular = 1e-12;
@@ -186,7 +181,7 @@ namespace {
 // By the contact's own mass and the stiffness and damping of its law.
 void add_slopes(const Contacts& contacts, const FreeForces& free,
                 const std::vector<std::vector<Dual>>& equations, const PanelMotion& motion,
-                const Signals& signals, PanelForces& result) {
+                const Signals& signals, SolvedForces& result) {
   constexpr double eps = 2.2e-16, units = 16.0;
   for (std::size_t e = 0; e < equations.size(); ++e)
     for (std::size_t n = 0; n < equations[e].size(); ++n) {
@@ -205,15 +200,15 @@ void add_slopes(const Contacts& contacts, const FreeForces& free,
 
 }  // namespace
 
-PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-                        double force_size) {
+SolvedForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                         double force_size) {
   constexpr int most = 25;
   constexpr double rounding = 1e-13, stalled = 1e-9;
   const double holding = motion.poles.holding();
   const FreeForces free(contacts, now.state, holding > 0.0);
   const Index q = motion.shape.nodes(), count = Index(free.rows.size());
   Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(count, q);
-  PanelForces result{free.constant.replicate(1, q), count == 0};
+  SolvedForces result{free.constant.replicate(1, q), count == 0};
   double last = 0.0;
   for (int n = 0; n < most && !result.converged; ++n) {
     const Signals signals = motion.at(motion.shape.waves(), result.force);

@@ -74,14 +74,17 @@ struct SlopeOfSignals {
 Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
 
 /// Forces on a panel that satisfy the laws at its nodes, and whether they were found.
-struct PanelForces {
+struct SolvedForces {
   Eigen::MatrixXd force;  ///< R x q, N
   bool converged = false;
   double rate = 0.0;      ///< rad/s, at which perturbations turn or decay by the slopes of the laws
   double rounding = 0.0;  ///< N, of forces that follow from displacements
 };
-PanelForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-                        double force_size);
+SolvedForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                         double force_size);
+
+/// Columns of all forces at q nodes put together to those of free ones.
+Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q);
 
 /// (free q) x (R q): the derivative of the equations by all node forces.
 Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& free, const PanelShape& shape,

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
-#include "linalg/dense.hpp"
+#include "flow/closed_period.hpp"
 #include "linalg/index.hpp"
-#include "linalg/multipliers.hpp"
 #include "period/past_periods.hpp"
 #include "phases/phase_loads.hpp"
 
@@ -51,46 +51,17 @@ TimeSteppingStatus run(ContactFlow& flow, const TimeSteppingOptions& options, In
   return TimeSteppingStatus::iteration_limit;
 }
 
-// Perturbations of each state over one period from `state`; nothing unless the states of the contacts return.
-std::optional<Eigen::MatrixXd> period_map(ContactFlow& flow, const Eigen::VectorXd& state) {
-  const std::vector<int> states = flow.contact_states();
-  flow.start(state);
-  flow.perturb(Eigen::MatrixXd::Identity(state.size(), state.size()));
-  const bool back = flow.advance_period() == FlowStatus::converged && flow.contact_states() == states;
-  if (!back) return std::nullopt;
-  return flow.perturbation();
-}
-
-// Memories that the period does not change have rows of the unit matrix, and those that open contacts have
-// none.
-Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map) {
-  std::vector<Index> kept;
-  for (Index i = 0; i < map.rows(); ++i) {
-    Eigen::RowVectorXd own = map.row(i);
-    own[i] -= 1.0;
-    if (!own.isZero(0.0)) kept.push_back(i);
-  }
-  const Eigen::MatrixXd free = map(kept, kept);
-  return free.size() == 0 ? Eigen::VectorXcd() : detail::map_multipliers(free);
-}
-
-// Newton's method on the map of the period.
+// Newton's method finds the motion that was reached, unless it leads elsewhere.
 void close(ContactFlow& flow, FlowMotion& result) {
   constexpr int most = 6;
-  constexpr double rounding = 1e-11, near = 1e-6;
-  Eigen::VectorXd state = flow.state();
-  for (int n = 0; n < most; ++n) {
-    const auto map = period_map(flow, state);
-    if (!map) return;
-    const Eigen::VectorXd change = flow.state() - state;
-    const double closed = change.norm() / std::max(state.norm(), 1e-300);
-    if (!(closed < near) || (n > 0 && closed > result.closed)) return;
-    result.closed = closed;
-    result.multipliers = multipliers_of(*map);
-    if (closed < rounding) return;
-    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(state.size(), state.size()) - *map;
-    state += detail::least_squares(left, change);
-  }
+  constexpr double same = 1e-5;
+  const Eigen::VectorXd reached = flow.state(), weights = flow.displacements_by_state();
+  const detail::ClosedPeriod closed = detail::close_period(flow, most);
+  const double size = reached.cwiseProduct(weights).norm();
+  const bool found = closed.found && (closed.state - reached).cwiseProduct(weights).norm() <= same * size;
+  if (!found) return;
+  result.closed = closed.distance;
+  result.multipliers = detail::multipliers_of(flow, closed);
 }
 
 }  // namespace
@@ -98,12 +69,17 @@ void close(ContactFlow& flow, FlowMotion& result) {
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow_options) {
   options.validate(0);
+  for (const ContactPole& pole : problem.dynamics.poles())
+    if (pole.exponent.real() > 1e-9 * std::abs(pole.exponent))
+      throw std::invalid_argument(
+          "integrate_by_events: motions of the structure grow without contact; its damping must not be negative");
   ContactFlow flow(problem, flow_options);
   FlowMotion result;
   result.machines = flow.machines();
   result.stepping.status = run(flow, options, problem.dynamics.contacts(), result);
   result.events = flow.events();
   result.rests = flow.rests();
+  result.states = flow.contact_states();
   if (result.stepping.status == TimeSteppingStatus::converged) close(flow, result);
   if (std::isfinite(result.closed)) {
     Motion period = empty_motion(problem.dynamics.contacts(), options.output_points);
@@ -112,7 +88,6 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
       result.events = flow.events();
     }
   }
-  result.states = flow.contact_states();
   return result;
 }
 

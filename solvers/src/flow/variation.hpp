@@ -10,13 +10,13 @@ namespace wavebalance::solvers::detail {
 class Variation {
  public:
   Variation() = default;
-  Variation(Eigen::MatrixXcd poles, Eigen::MatrixXd memory)
+  Variation(Eigen::MatrixXd poles, Eigen::MatrixXd memory)
       : poles_(std::move(poles)),
         memory_(std::move(memory)),
         delay_(Eigen::RowVectorXd::Zero(memory_.cols())) {}
 
   bool empty() const { return poles_.cols() == 0; }
-  const Eigen::MatrixXcd& poles() const { return poles_; }
+  const Eigen::MatrixXd& poles() const { return poles_; }
   const Eigen::MatrixXd& memory() const { return memory_; }
 
   /// Over a panel up to point k of `waves`, under the forces found in these states.
@@ -37,10 +37,13 @@ class Variation {
                const Signals& signals, const Eigen::VectorXcd& before);
 
  private:
+  /// The changes of the free forces at the nodes of a panel, free q x K.
+  Eigen::MatrixXd of_forces(const Contacts& contacts, const ContactStates& now, const FreeForces& free,
+                            const PanelMotion& motion, const Eigen::MatrixXd& force) const;
   /// The change of a local value, a row over the perturbations.
   Eigen::RowVectorXd change(const Contacts& contacts, Index c, const Dual& value) const;
 
-  Eigen::MatrixXcd poles_;  // P x K
+  Eigen::MatrixXd poles_;   // real states x K
   Eigen::MatrixXd memory_;  // memories x K
   // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without
   // springs.

@@ -42,7 +42,7 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start) {
   const int contacts = problem.dynamics.contacts();
   problem.laws.require(contacts);
   if (problem.laws.act_over_period())
-    throw std::invalid_argument("contact_phases: a law acts over a period; take friction_phases()");
+    throw std::invalid_argument("contact_phases: a law acts over a period; take flow_motion()");
   if (problem.contact_free.rows() != contacts || problem.contact_free.cols() < 1)
     throw std::invalid_argument("contact_phases: contact_free has " +
                                 std::to_string(problem.contact_free.rows()) + " rows; the structure has " +
@@ -290,8 +290,7 @@ std::string_view to_string(PhasesStatus status) {
                                         {resonant, "resonant"},
                                         {structural_damping, "structural_damping"},
                                         {slip_in_a_plane, "slip_in_a_plane"},
-                                        {mixed_laws, "mixed_laws"},
-                                        {free_structure, "free_structure"},
+                                        {law_over_period, "law_over_period"},
                                         {cancelled, "cancelled"}},
                                        status);
 }

@@ -107,7 +107,7 @@ Evaluation evaluate(const PhaseModel& model, const PhaseIterate& at, const Legen
   }
   result.force_size = std::max({tiny, largest_law, n > 0 ? result.force.cwiseAbs().maxCoeff() : 0.0});
   result.displacement_size = std::max(tiny, u.size() > 0 ? u.cwiseAbs().maxCoeff() : 0.0);
-  result.holding = model.holding();
+  result.holding = model.holding;
   result.released = releases_of(model, at.layout, grid);
   for (Index i = 0; i < m; ++i) {
     const Release& release = result.released[static_cast<std::size_t>(i)];

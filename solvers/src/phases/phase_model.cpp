@@ -43,7 +43,8 @@ Eigen::VectorXd sums_of_harmonics(const Eigen::MatrixXcd& amplitudes, const std:
 PhaseModel::PhaseModel(const PhasesProblem& problem, double length)
     : response(problem.dynamics, 1.0 / problem.frequency),
       contact_free(problem.contact_free),
-      frequency(problem.frequency) {
+      frequency(problem.frequency),
+      holding(problem.dynamics.holding()) {
   if (problem.laws.act_over_period()) return;
   for (int c = 0; c < problem.dynamics.contacts(); ++c) {
     const Yielding yielding{response.displacement_at_once(c), frequency * response.velocity_at_once(c)};
@@ -76,8 +77,13 @@ ContactMotion PhaseModel::free_motion(const Eigen::VectorXd& times) const {
 
 ContactMotion PhaseModel::motion(const PanelForces& forces, const LegendreNodes& nodes,
                                  const Eigen::VectorXd& times) const {
+  return motion(forces, *response.cells(forces.grid(), nodes), times);
+}
+
+ContactMotion PhaseModel::motion(const PanelForces& forces, const PeriodCells& period,
+                                 const Eigen::VectorXd& times) const {
   ContactMotion result = free_motion(times);
-  const ContactMotion forced = response.motion(forces.grid(), forces.coefficients(), nodes, times);
+  const ContactMotion forced = response.motion(period, forces.coefficients(), times);
   result.displacement -= forced.displacement;
   result.velocity -= forced.velocity;
   return result;

@@ -21,10 +21,8 @@ struct PhaseModel {
   std::vector<LawPieces> laws;    // one per contact; none of laws over a period
   Eigen::MatrixXcd contact_free;  // C x (H + 1), m
   double frequency;               // Hz
+  double holding;                 // N/m, of the springs that hold a structure which is free to move
   bool velocity = false;          // whether a force depends on it
-
-  /// N/m, of the springs that hold a structure which is free to move.
-  double holding() const { return laws.empty() ? 0.0 : laws.front().holding(); }
 
   /// Displacement (m) and velocity (m per period) without contact at instants.
   Eigen::VectorXd free_displacement(const std::vector<Instant>& instants) const;
@@ -33,6 +31,8 @@ struct PhaseModel {
   ContactMotion free_motion(const Eigen::VectorXd& times) const;
   ContactMotion motion(const PanelForces& forces, const LegendreNodes& nodes,
                        const Eigen::VectorXd& times) const;
+  /// The same with the cells of the forces.
+  ContactMotion motion(const PanelForces& forces, const PeriodCells& period, const Eigen::VectorXd& times) const;
 };
 
 /// The instants of q nodes of each panel, by panel.

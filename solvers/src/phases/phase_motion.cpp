@@ -7,33 +7,9 @@
 #include "linalg/multipliers.hpp"
 #include "phases/phase_count.hpp"
 #include "phases/phase_motion_parts.hpp"
-#include "stability/friction_monodromy.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
-#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-// By the map of a perturbation and of the sliders over a period, with the instants of the phases.
-Eigen::VectorXcd multipliers_with_friction(const PhaseMotion& motion, int max_states) {
-  const ContactDynamics& dynamics = *motion.parts->dynamics;
-  std::size_t states = static_cast<std::size_t>(dynamics.contacts());
-  for (const ContactPole& pole : dynamics.poles()) states += pole.exponent.imag() > 0.0 ? 2 : 1;
-  if (states > static_cast<std::size_t>(max_states)) return {};
-  const Eigen::VectorXcd values =
-      friction_monodromy(dynamics, contact_stiffness(motion), motion.parts->model.frequency);
-  return values.allFinite() ? values : Eigen::VectorXcd();
-}
-
-// By the determinant with memory.
-int count_with_friction(const PhaseMotion& motion, int max_evaluations) {
-  StabilityOptions options;
-  options.harmonics = 255;
-  options.max_evaluations = max_evaluations;
-  const UnstableMultipliers count = unstable_multipliers(*motion.parts->dynamics, contact_stiffness(motion),
-                                                         motion.parts->model.frequency, options);
-  return count.status == StabilityStatus::converged ? count.count : -1;
-}
 
 // How fast a perturbation of a closed contact turns or decays, in rad per period: by the contact's own mass
 // and the largest slopes of its law on a part of a phase.
@@ -88,23 +64,23 @@ std::optional<detail::PeriodMap> map_of(const PhaseMotion::Parts& parts) {
 }  // namespace
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
-  return parts->model.motion(parts->iterate.forces, parts->nodes, times).displacement;
+  return parts->model.motion(parts->iterate.forces, *parts->period, times).displacement;
 }
 
 Eigen::MatrixXd PhaseMotion::velocity(const Eigen::VectorXd& times) const {
-  return parts->model.frequency * parts->model.motion(parts->iterate.forces, parts->nodes, times).velocity;
+  return parts->model.frequency * parts->model.motion(parts->iterate.forces, *parts->period, times).velocity;
 }
 
 Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
   Eigen::MatrixXd forces = detail::force_at(parts->iterate.forces, parts->model, times);
-  if (parts->model.holding() > 0.0) forces += parts->model.holding() * displacement(times);
+  if (parts->model.holding > 0.0) forces += parts->model.holding * displacement(times);
   return forces;
 }
 
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
 
 Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
-  if (!friction.empty()) return multipliers_with_friction(*this, max_states);
+  if (parts->multipliers) return *parts->multipliers;
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
   if (!parts->iterate.forces.panels().empty()) {
     const auto map = map_of(*parts);
@@ -118,7 +94,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
 }
 
 int PhaseMotion::count_unstable(int max_evaluations) const {
-  if (!friction.empty()) return count_with_friction(*this, max_evaluations);
+  if (parts->multipliers) return detail::count_outside(*parts->multipliers);
   if (parts->iterate.forces.panels().empty())
     return detail::count_outside(parts->model.response.free_multipliers());
   const auto map = map_of(*parts);
@@ -131,7 +107,7 @@ bool PhaseMotion::is_rigid() const {
 }
 
 double PhaseMotion::tangent(int contact, double time) const {
-  return parts->tangent.at(contact, time) + parts->model.holding();
+  return parts->tangent.at(contact, time) + parts->model.holding;
 }
 
 double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
@@ -150,9 +126,9 @@ void set_parts(PhaseMotion& motion, const PhaseModel& model, const PhaseNewtonRe
     return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
   });
   const CellGrid& grid = iterate.forces.grid();
-  motion.parts = std::make_shared<PhaseMotion::Parts>(
-      PhaseMotion::Parts{model, iterate, nodes, PanelForces(grid, nodes, solved.tangent),
-                         PanelForces(grid, nodes, solved.damping)});
+  motion.parts =
+      PhaseMotion::Parts::complete({model, iterate, nodes, PanelForces(grid, nodes, solved.tangent),
+                                    PanelForces(grid, nodes, solved.damping)});
 }
 
 }  // namespace detail

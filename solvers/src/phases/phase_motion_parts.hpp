@@ -1,15 +1,25 @@
 #pragma once
+#include <optional>
+
 #include "phases/phase_newton.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
 struct PhaseMotion::Parts {
+  /// With the cells of the period, which refer to the nodes.
+  static std::shared_ptr<const Parts> complete(Parts parts) {
+    auto result = std::make_shared<Parts>(std::move(parts));
+    result->period = result->model.response.cells(result->iterate.forces.grid(), result->nodes);
+    return result;
+  }
+
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
   detail::LegendreNodes nodes;
   detail::PanelForces tangent, damping;                  // slopes of the laws, N/m and N s/m
-  std::shared_ptr<const ContactDynamics> dynamics = {};  // of motions with friction
+  std::optional<Eigen::VectorXcd> multipliers = {};      // where they are known without these slopes
+  std::shared_ptr<const detail::PeriodCells> period = {};
 };
 
 namespace detail {

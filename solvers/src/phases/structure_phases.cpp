@@ -137,7 +137,7 @@ StructurePhases structure_phases(const CondensedProblem& problem, const PhaseMot
   if (motion.parts == nullptr) throw std::invalid_argument("structure_phases: there is no motion");
   const ContactSource source{[&](int count) { return motion.force_harmonics(count); },
                              [&](const Eigen::VectorXd& times) { return motion.displacement(times); },
-                             motion.parts->model.holding()};
+                             motion.parts->model.holding};
   return structure_motion_of(problem, source, points, options);
 }
 

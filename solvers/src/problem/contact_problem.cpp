@@ -6,7 +6,7 @@
 
 #include "phases/phase_loads.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
-#include "wavebalance/solvers/friction/friction_phases.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/slip_points.hpp"
@@ -121,7 +121,7 @@ std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& res
                                                      const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   hold(response);
-  return response_phases(condensed_, response, phases_problem_here(), options, phases_of_any_law);
+  return response_phases(condensed_, response, phases_problem_here(), options, exact_motion);
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
@@ -136,7 +136,7 @@ PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const Cont
   const auto samples = [&](const Eigen::MatrixXd& values) {
     return by_contact(resample(values, points, settled.start), contacts());
   };
-  return phases_of_any_law(phases_problem_here(), samples(settled.last.displacement), options,
+  return exact_motion(phases_problem_here(), samples(settled.last.displacement), options,
                            samples(settled.last.force));
 }
 
@@ -144,7 +144,7 @@ std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion
                                                   const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
   load_fully(frequency);
-  return phases_of_any_law(phases_problem_here(), start.displacement, options, start.force);
+  return exact_motion(phases_problem_here(), start.displacement, options, start.force);
 }
 
 StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,

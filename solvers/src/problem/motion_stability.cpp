@@ -92,7 +92,9 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
                                  const PhaseMotion* motion) {
   const auto start = std::chrono::steady_clock::now();
-  if (motion && motion->status == PhasesStatus::not_found) {
+  const bool sought = motion && (motion->status == PhasesStatus::not_found ||
+                                 motion->status == PhasesStatus::too_many_phases);
+  if (sought) {
     MotionStability unknown;
     unknown.status = to_string(motion->status);
     return unknown;

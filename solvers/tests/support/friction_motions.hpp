@@ -1,7 +1,7 @@
 #pragma once
 #include "support/friction_scenes.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/friction/friction_phases.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -18,7 +18,7 @@ struct FrictionMotion {
     problem.set_frequency(scene.frequency());
     response = forced_response(problem, scene.contact_laws(), {});
     if (response.converged())
-      phases = response_phases(problem, scene.contact_laws(), response, dynamics, options, friction_phases);
+      phases = response_phases(problem, scene.contact_laws(), response, dynamics, options, flow_motion);
   }
 
   FrictionScene scene;

@@ -10,9 +10,9 @@
 
 namespace wavebalance::solvers::testing {
 
-/// Motions with friction along one tangent in time, from event to event: between events the equations are
-/// linear, and a state of displacements, velocities, tangential forces, 1, cos and sin of the load goes on by
-/// a matrix exponential. It shares no code with the solvers.
+/// Motions with friction along one tangent, beside linear stops, in time, from event to event: between events
+/// the equations are linear, and a state of displacements, velocities, tangential forces, 1, cos and sin of
+/// the load goes on by a matrix exponential. It shares no code with the solvers.
 class FrictionOracle {
  public:
   enum class Does { open, stick, slip_up, slip_down };
@@ -20,6 +20,7 @@ class FrictionOracle {
   struct State {
     Eigen::VectorXd z;
     std::vector<Does> does;
+    std::vector<bool> closed;  ///< of the stops
     Eigen::MatrixXd by_start;  ///< the derivative by the state at the start, with the saltation of events
     int events = 0;
   };
@@ -45,14 +46,16 @@ class FrictionOracle {
       tangent_.push_back(row + law.normal_rows());
       row += law.rows();
     }
+    for (std::size_t i = 0; i < scene.stops.size(); ++i) stop_.push_back(row++);
   }
 
   Eigen::Index states() const { return 2 * n_ + contacts_; }
 
   State start(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
               const Eigen::VectorXd& tangential, std::vector<Does> does) const {
-    State state{Eigen::VectorXd::Zero(size_), std::move(does), Eigen::MatrixXd::Identity(size_, size_)};
+    State state{Eigen::VectorXd::Zero(size_), std::move(does), {}, Eigen::MatrixXd::Identity(size_, size_)};
     state.z << displacement, velocity, tangential, 1.0, 1.0, 0.0;
+    for (std::size_t i = 0; i < stop_.size(); ++i) state.closed.push_back(pressing(i).dot(state.z) > 0.0);
     // The force of a contact that does not stick is no state of its own.
     for (Eigen::Index c = 0; c < contacts_; ++c)
       if (state.does[std::size_t(c)] != Does::stick) state.by_start(2 * n_ + c, 2 * n_ + c) = 0.0;
@@ -61,12 +64,12 @@ class FrictionOracle {
 
   /// One period of the load.
   State period(State state) const {
-    constexpr int steps = 400;
+    constexpr int steps = 2000;  // what is shorter may be missed
     const double whole = 2.0 * std::numbers::pi / scene_.omega, step = whole / steps;
     Eigen::Index changed = -1;  // the contact that did just before: some of its rows begin at zero
     for (double time = 0.0; time < whole * (1.0 - 1e-14);) {
       const double length = std::min(step, whole - time);
-      const Eigen::MatrixXd generator = this->generator(state.does);
+      const Eigen::MatrixXd generator = this->generator(state);
       const std::optional<Event> event = first_event(state, generator, length, changed);
       const double taken = event ? event->after : length;
       const Eigen::MatrixXd moves = (taken * generator).exp();
@@ -80,11 +83,11 @@ class FrictionOracle {
   }
 
  private:
-  enum class Kind { closing, opening, slipping_up, slipping_down, sticking };
+  enum class Kind { closing, opening, slipping_up, slipping_down, sticking, stopping };
   struct Row {
     Eigen::RowVectorXd row;  // an event is where it rises through zero
     Kind kind;
-    Eigen::Index contact;
+    Eigen::Index contact;  // stops behind those with friction
   };
   struct Event {
     Row row;
@@ -108,6 +111,10 @@ class FrictionOracle {
     if (!has_normal(c)) return Eigen::RowVectorXd::Zero(size_);
     return law(c).normal_stiffness() * along(normal_[std::size_t(c)], true);
   }
+  // The displacement of a stop beyond its gap.
+  Eigen::RowVectorXd pressing(std::size_t i) const {
+    return along(stop_[i], false) - scene_.stops[i].gap() * unit(2 * n_ + contacts_);
+  }
   static double sign(Does does) { return does == Does::slip_up ? 1.0 : does == Does::slip_down ? -1.0 : 0.0; }
   Eigen::RowVectorXd tangential(Eigen::Index c, Does does) const {
     if (does == Does::open) return Eigen::RowVectorXd::Zero(size_);
@@ -115,13 +122,13 @@ class FrictionOracle {
     return sign(does) * law(c).friction() * normal_force(c);
   }
 
-  Eigen::MatrixXd generator(const std::vector<Does>& does) const {
+  Eigen::MatrixXd generator(const State& state) const {
     Eigen::MatrixXd force = Eigen::MatrixXd::Zero(n_, size_), all = Eigen::MatrixXd::Zero(size_, size_);
     force.leftCols(n_) = -Eigen::MatrixXd(scene_.structure.stiffness);
     force.middleCols(n_, n_) = -Eigen::MatrixXd(scene_.structure.damping);
     force.rightCols(3) = loads_;
     for (Eigen::Index c = 0; c < contacts_; ++c) {
-      const Does now = does[std::size_t(c)];
+      const Does now = state.does[std::size_t(c)];
       if (now != Does::open && has_normal(c))
         force -= rows_.row(normal_[std::size_t(c)]).transpose() * normal_force(c);
       force -= rows_.row(tangent_[std::size_t(c)]).transpose() * tangential(c, now);
@@ -130,6 +137,9 @@ class FrictionOracle {
       else
         all.row(2 * n_ + c) = sign(now) * law(c).friction() * normal_rate(c);
     }
+    for (std::size_t i = 0; i < stop_.size(); ++i)
+      if (state.closed[i])
+        force -= scene_.stops[i].stiffness() * rows_.row(stop_[i]).transpose() * pressing(i);
     all.block(0, n_, n_, n_).setIdentity();
     all.middleRows(n_, n_) = mass_.ldlt().solve(force);
     all(size_ - 2, size_ - 1) = -scene_.omega;
@@ -137,10 +147,13 @@ class FrictionOracle {
     return all;
   }
 
-  std::vector<Row> rows_of(const std::vector<Does>& does) const {
+  std::vector<Row> rows_of(const State& state) const {
     std::vector<Row> rows;
+    for (std::size_t i = 0; i < stop_.size(); ++i)
+      rows.push_back(
+          {state.closed[i] ? -pressing(i) : pressing(i), Kind::stopping, contacts_ + Eigen::Index(i)});
     for (Eigen::Index c = 0; c < contacts_; ++c) {
-      const Does now = does[std::size_t(c)];
+      const Does now = state.does[std::size_t(c)];
       const Eigen::RowVectorXd normal = normal_force(c), limit = law(c).friction() * normal;
       if (now == Does::open) {
         rows.push_back({normal, Kind::closing, c});
@@ -167,7 +180,7 @@ class FrictionOracle {
     const auto at = [&](double after, const Row& row) -> double {
       return row.row * ((after * generator).exp() * state.z);
     };
-    for (const Row& row : rows_of(state.does)) {
+    for (const Row& row : rows_of(state)) {
       double low = row.contact == changed ? of_step * length : 0.0, high = length;
       if (!(at(high, row) > 0.0) || (low > 0.0 && at(low, row) > 0.0)) continue;
       for (int i = 0; i < 60; ++i) {
@@ -182,6 +195,10 @@ class FrictionOracle {
   // Saltation: the state is reset by R, and z moves on by f+ in place of R f-.
   void pass(State& state, const Event& event, const Eigen::MatrixXd& before) const {
     const Eigen::Index c = event.row.contact, own = 2 * n_ + c;
+    if (event.row.kind == Kind::stopping) {  // continuous
+      state.closed[std::size_t(c - contacts_)].flip();
+      return;
+    }
     const Does was = state.does[std::size_t(c)];
     Eigen::MatrixXd reset = Eigen::MatrixXd::Identity(size_, size_);
     Does now = Does::stick;
@@ -203,6 +220,7 @@ class FrictionOracle {
       case Kind::slipping_down:
         now = Does::slip_down;
         break;
+      case Kind::stopping:
       case Kind::sticking:
         reset.row(own) = sign(was) * law(c).friction() * normal_force(c);
         break;
@@ -210,7 +228,7 @@ class FrictionOracle {
     const Eigen::VectorXd rate = before * state.z;
     state.does[std::size_t(c)] = now;
     state.z = reset * state.z;
-    const Eigen::VectorXd after = generator(state.does) * state.z;
+    const Eigen::VectorXd after = generator(state) * state.z;
     const double crossing = event.row.row * rate;
     const Eigen::MatrixXd saltation = reset + (after - reset * rate) * event.row.row / crossing;
     state.by_start = saltation * state.by_start;
@@ -219,7 +237,7 @@ class FrictionOracle {
   const FrictionScene& scene_;
   Eigen::Index n_, contacts_, size_;
   Eigen::MatrixXd mass_, rows_, loads_;
-  std::vector<Eigen::Index> normal_, tangent_;
+  std::vector<Eigen::Index> normal_, tangent_, stop_;
 };
 
 }  // namespace wavebalance::solvers::testing

@@ -15,10 +15,15 @@ namespace wavebalance::solvers::testing {
 struct FrictionScene {
   LinearStructure structure;
   std::vector<contact::CoulombLaw> laws;
-  double omega = 1.0;  // rad/s
+  double omega = 1.0;                          // rad/s
+  std::vector<contact::LinearLaw> stops = {};  // one each in the last rows, behind those of the laws
 
   double frequency() const { return omega / (2.0 * std::numbers::pi); }
-  ContactLaws contact_laws() const { return std::vector<AnyContactLaw>(laws.begin(), laws.end()); }
+  ContactLaws contact_laws() const {
+    std::vector<AnyContactLaw> all(laws.begin(), laws.end());
+    all.insert(all.end(), stops.begin(), stops.end());
+    return all;
+  }
 };
 
 inline FrictionScene friction_scene(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,

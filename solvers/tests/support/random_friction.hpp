@@ -44,4 +44,23 @@ inline FrictionScene random_friction_scene(std::mt19937& generator) {
   return scene;
 }
 
+// The same with elastic stops, at one mass in two along x.
+inline FrictionScene random_mixture(std::mt19937& generator) {
+  FrictionScene scene = random_friction_scene(generator);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  const Eigen::MatrixXd rows = scene.structure.contact_directions;
+  std::vector<Eigen::Index> at;
+  for (Eigen::Index dof = 0; dof < rows.cols(); dof += 2) {
+    const double stiffness = 2.0 + 30.0 * any(generator), gap = 0.02 + 0.15 * any(generator);
+    if (any(generator) < 0.5) continue;
+    scene.stops.emplace_back(stiffness, gap);
+    at.push_back(dof);
+  }
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows.rows() + Eigen::Index(at.size()), rows.cols());
+  all.topRows(rows.rows()) = rows;
+  for (std::size_t i = 0; i < at.size(); ++i) all(rows.rows() + Eigen::Index(i), at[i]) = 1.0;
+  scene.structure.contact_directions = all.sparseView();
+  return scene;
+}
+
 }  // namespace wavebalance::solvers::testing

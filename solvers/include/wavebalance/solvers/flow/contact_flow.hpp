@@ -45,6 +45,14 @@ struct FlowSample {
   Eigen::VectorXd displacement, velocity, force;  ///< m, m/s, N
 };
 
+/// A part of a period in which no contact changes its state.
+struct FlowPanel {
+  double begin = 0.0, end = 0.0;  ///< s, from the beginning of the period
+  /// R x 12, N, at the Gauss nodes of the panel, less the forces of the springs ContactDynamics::holding().
+  Eigen::MatrixXd force;
+  std::vector<int> states;  ///< of the machines
+};
+
 /// Motions in time of a linear structure whose contacts are machines of states: between events, at which a
 /// state ends, forces are polynomials on panels, so that the motion is exact to the tolerance; impulses act
 /// at events. Laws of all kinds may act side by side. A perturbation can be taken along: over panels by the
@@ -54,16 +62,23 @@ struct FlowSample {
 /// O(poles q^2) for each panel and, where forces are unknown, O((rows q)^3) with q = 12.
 class ContactFlow {
  public:
-  /// Keeps no reference to the problem. Throws std::invalid_argument as machines_of() does, for structural
-  /// damping, and where motions grow without contact.
+  /// Keeps no reference to the problem. Throws std::invalid_argument as machines_of() does and for
+  /// structural damping.
   explicit ContactFlow(const PhasesProblem& problem, const FlowOptions& options = {});
   ~ContactFlow();
   ContactFlow(ContactFlow&&) noexcept;
+  ContactFlow& operator=(ContactFlow&&) noexcept;
 
   /// Begins at time 0 with contacts at rest where they touch nothing, as far as masses let them.
   void start();
-  /// Begins at time 0 in a state, as of state(), with the discrete states of before.
-  void start(const Eigen::VectorXd& state);
+  /// Begins at time 0 in a state, as of state(), with contacts in discrete states.
+  void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
+  /// Begins at time 0 as a periodic motion near this one: under forces of the contacts with harmonics, R x (H
+  /// + 1), N, column n of which belongs to Re(a exp(2 pi i n t)), t in periods, and with displacements and
+  /// forces of the laws at time 0. Of a structure that is free to move the harmonics are less the forces of
+  /// the springs ContactDynamics::holding().
+  void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
+                  const Eigen::VectorXd& force);
 
   /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period.
   FlowStatus advance_period(int points = 0, const std::function<void(const FlowSample&)>& sample = {});
@@ -74,6 +89,10 @@ class ContactFlow {
   const std::vector<ContactMachine>& machines() const;
   /// Events of the last period.
   const std::vector<FlowEvent>& events() const;
+  /// The last period, panel by panel.
+  const std::vector<FlowPanel>& panels() const;
+  /// The largest displacement of a contact that a number of state() makes, m.
+  Eigen::VectorXd displacements_by_state() const;
   /// Impacts without rebound since they were below rest_velocity, in the last period.
   int rests() const;
   double period() const;  ///< s

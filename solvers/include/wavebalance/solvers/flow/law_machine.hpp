@@ -51,6 +51,7 @@ class LawMachine {
   virtual ~LawMachine() = default;
 
   virtual int rows() const { return 1; }
+  /// How many numbers it remembers, each a displacement, m.
   virtual int memories() const { return 0; }
   /// Whether its memories have a meaning in a state.
   virtual bool remembers(int /*state*/) const { return false; }
@@ -74,6 +75,9 @@ class LawMachine {
   virtual int after_impulse(int state, const LocalSignals& /*after*/) const { return state; }
   /// The state in which displacements at rest begin, and its memories.
   virtual int start(std::span<const double> displacement, std::span<double> memory) const = 0;
+  /// The state in which a motion has these displacements and forces at an instant, and its memories.
+  virtual int at(std::span<const double> displacement, std::span<const double> force,
+                 std::span<double> memory) const = 0;
 };
 
 /// The machine of a contact and its first row among the directions of the structure.

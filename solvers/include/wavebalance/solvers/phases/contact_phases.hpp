@@ -34,8 +34,7 @@ enum class PhasesStatus {
   resonant,              ///< the structure without contact has a motion of this period of its own
   structural_damping,    ///< it has no equation in time
   slip_in_a_plane,       ///< friction along two tangents
-  mixed_laws,            ///< friction beside laws of another kind
-  free_structure,        ///< friction at a structure that is free to move
+  law_over_period,       ///< a law that acts over a period and has no states
   cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 
@@ -141,7 +140,7 @@ class PhaseMotion {
 /// until both agree.
 ///
 /// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose phases
-/// friction_phases() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
+/// flow_motion() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.
 PhaseMotion contact_phases(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                            const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 

@@ -1,0 +1,46 @@
+#pragma once
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::solvers {
+
+/// The motion near a start that comes back after a period of the flow from event to event, ContactFlow: any
+/// laws that are machines of states, side by side, of structures that may be free to move. The start has
+/// displacements, R x N, m, and forces, N, of the contacts at the times l / N; without forces they are those
+/// of the laws over the period.
+///
+/// The states of the poles and the positions of stuck sliders between two events of the start are the
+/// unknowns of Newton's method on the map of the period; the states of the contacts follow from the laws
+/// alone, so that they need not be right in the start. A slider that does not move stays where the start has
+/// it. The tolerance of the flow is refined until two solutions differ by less than a third of that of the
+/// options, of which max_iterations and observer are used, too.
+///
+/// The result has `friction` where a contact has it. Its phases are those in which a row has a force: of a
+/// normal direction with friction with piece 1, of a tangent with piece 1 in stick, 2 and 3 in slip with a
+/// positive and a negative force. `unknowns` are the states; `estimated_error` is three times the distance of
+/// the last two solutions.
+///
+/// Statuses: slip_in_a_plane for two tangents, law_over_period for one without states, rigid_contact at a
+/// contact with mass, where a motion has impulses, structural_damping, resonant, not_found, tolerance_missed,
+/// cancelled. Throws std::invalid_argument for sizes that do not fit and options out of range. O(periods
+/// panels ((rows q)^3 + states^2 rows q)), q = 12.
+PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                        const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
+
+/// contact_phases(), which is faster, where all laws are those of one instant, and flow_motion() with
+/// friction, and where that finds no motion or has too many phases.
+PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                         const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
+
+/// What a contact with friction does in a period.
+struct FrictionCycle {
+  int row = 0;        ///< the first of its contact directions
+  double work = 0.0;  ///< J, that friction takes in a period
+  double slip = 0.0;  ///< m, the distance that the slider moves while it slips
+  double stick_share = 0.0, slip_share = 0.0, open_share = 0.0;  ///< of the period
+};
+
+/// Of each contact of a motion with friction, to the accuracy of its forces and velocities. Throws
+/// std::invalid_argument without a motion.
+std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion);
+
+}  // namespace wavebalance::solvers

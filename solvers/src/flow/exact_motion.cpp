@@ -1,0 +1,233 @@
+#include "wavebalance/solvers/flow/exact_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "flow/closed_period.hpp"
+#include "flow/flow_phases.hpp"
+#include "flow/law_machines.hpp"
+#include "linalg/index.hpp"
+#include "wavebalance/solvers/time/translate_spectrum.hpp"
+
+namespace wavebalance::solvers {
+namespace {
+
+using namespace detail;
+
+PhasesStatus refusal_of(const PhasesProblem& problem) {
+  const ContactDynamics& dynamics = problem.dynamics;
+  for (int row = 0; row < dynamics.contacts(); row += problem.laws[row].rows()) {
+    const AnyContactLaw& law = problem.laws[row];
+    const auto constants = law.friction();
+    if (constants && constants->tangents > 1) return PhasesStatus::slip_in_a_plane;
+    if (!constants && law.acts_over_period()) return PhasesStatus::law_over_period;
+    if (!constants && law.is_rigid() && inverse_mass_of(dynamics, row) > 0.0)
+      return PhasesStatus::rigid_contact;
+  }
+  if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
+  constexpr double least = 1e-9;
+  for (const ContactPole& pole : dynamics.poles())
+    if (!(std::abs(1.0 - std::exp(pole.exponent / problem.frequency)) > least)) return PhasesStatus::resonant;
+  return PhasesStatus::converged;
+}
+
+void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                   const Eigen::MatrixXd& start_force) {
+  const int rows = problem.dynamics.contacts();
+  problem.laws.require(rows);
+  if (problem.contact_free.rows() != rows || problem.contact_free.cols() < 1)
+    throw std::invalid_argument("flow_motion: contact_free has " +
+                                std::to_string(problem.contact_free.rows()) + " rows; the structure has " +
+                                std::to_string(rows) + " contact directions");
+  if (start.rows() != rows || start.cols() < 8 || !start.allFinite())
+    throw std::invalid_argument("flow_motion: start is " + std::to_string(start.rows()) + " x " +
+                                std::to_string(start.cols()) + "; it must have a finite row for each of " +
+                                std::to_string(rows) + " contact directions and at least 8 columns");
+  if (start_force.size() > 0 && (start_force.rows() != start.rows() || start_force.cols() != start.cols()))
+    throw std::invalid_argument("flow_motion: start_force is " + std::to_string(start_force.rows()) + " x " +
+                                std::to_string(start_force.cols()) +
+                                "; it must be as large as start, or empty");
+  if (!(problem.frequency > 0.0) || !std::isfinite(problem.frequency))
+    throw std::invalid_argument("flow_motion: frequency is " + std::to_string(problem.frequency) +
+                                " Hz; it must be positive and finite");
+}
+
+// The discrete states of all contacts at each time.
+std::vector<std::vector<int>> states_along(const std::vector<ContactMachine>& machines,
+                                           const Eigen::MatrixXd& displacement,
+                                           const Eigen::MatrixXd& force) {
+  std::vector<std::vector<int>> result;
+  for (Index k = 0; k < displacement.cols(); ++k) {
+    std::vector<int>& now = result.emplace_back();
+    for (const ContactMachine& machine : machines) {
+      const auto rows = std::size_t(machine.law->rows());
+      std::array<double, 2> memory{};
+      now.push_back(machine.law->at({displacement.col(k).data() + machine.row, rows},
+                                    {force.col(k).data() + machine.row, rows}, memory));
+    }
+  }
+  return result;
+}
+
+// The middle of the longest time in which no contact changes its state.
+Index calm_time(const std::vector<std::vector<int>>& states) {
+  const auto count = Index(states.size());
+  const auto at = [&](Index k) -> const std::vector<int>& { return states[std::size_t(k % count)]; };
+  Index first = 0;
+  while (first < count && at(first) == at(first + 1)) ++first;
+  if (first == count) return 0;
+  Index best = 0, middle = 0;
+  for (Index k = first + 1, begin = k; k <= first + count; ++k) {
+    if (at(k) == at(k + 1)) continue;
+    if (k + 1 - begin > best) {
+      best = k + 1 - begin;
+      middle = (begin + best / 2) % count;
+    }
+    begin = k + 1;
+  }
+  return middle;
+}
+
+Eigen::MatrixXd from_column(const Eigen::MatrixXd& values, Index first) {
+  Eigen::MatrixXd result(values.rows(), values.cols());
+  const Index rest = values.cols() - first;
+  result << values.rightCols(rest), values.leftCols(first);
+  return result;
+}
+
+// Column n belongs to Re(a exp(2 pi i n t)).
+Eigen::MatrixXcd harmonics_of(const Eigen::MatrixXd& samples) {
+  const Index count = samples.cols();
+  Eigen::MatrixXcd result(samples.rows(), count / 2 + 1);
+  for (Index c = 0; c < samples.rows(); ++c)
+    result.row(c) = translate_spectrum(samples.row(c).transpose()).transpose() * (2.0 / double(count));
+  result.col(0) *= 0.5;
+  if (count % 2 == 0) result.col(count / 2) *= 0.5;
+  return result;
+}
+
+class MotionSearch {
+ public:
+  MotionSearch(const PhasesProblem& problem, const Eigen::MatrixXd& start, const Eigen::MatrixXd& force,
+               const ContactPhasesOptions& options)
+      : original_(problem),
+        problem_(problem),
+        options_(options),
+        start_(start),
+        times_(Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()))) {
+    const auto machines =
+        machines_of(problem.laws, problem.dynamics, start.cwiseAbs().maxCoeff(), problem.frequency);
+    const Index first = calm_time(states_along(machines, start, force));
+    begin_ = double(first) / double(start.cols());
+    first_displacement_ = start.col(first);
+    first_force_ = force.col(first);
+    harmonics_ = harmonics_of(from_column(force - problem.dynamics.holding() * start, first));
+    for (Index n = 0; n < problem_.contact_free.cols(); ++n)
+      problem_.contact_free.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * begin_);
+  }
+
+  PhaseMotion run() {
+    for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
+      if (!refine(tolerance) || error_ <= options_.tolerance) break;
+    if (found_.found) set_multipliers(motion_, multipliers_of(*flow_, found_));
+    motion_.unknowns = int(found_.state.size());
+    motion_.residual = found_.distance;
+    motion_.iterations = iterations_;
+    motion_.estimated_error = error_;
+    if (found_.found) motion_.start_error = (start_ - displacement_).norm() / displacement_.norm();
+    motion_.status = cancelled_                     ? PhasesStatus::cancelled
+                     : !found_.found && exhausted_  ? PhasesStatus::too_many_phases
+                     : !found_.found                ? PhasesStatus::not_found
+                     : error_ <= options_.tolerance ? PhasesStatus::converged
+                                                    : PhasesStatus::tolerance_missed;
+    return std::move(motion_);
+  }
+
+ private:
+  // Of a panel: its forces, and what they do to perturbations of all states where these are carried along.
+  double operations_of_panel(const ContactFlow& flow) const {
+    const double forces = double(problem_.dynamics.contacts() * panel_nodes),
+                 columns = std::max(1.0, double(flow.perturbation().cols()));
+    return 2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
+  }
+
+  // Whether operations and observer allow what follows a period.
+  bool goes_on_after(const ContactFlow& flow, const Progress& progress) {
+    operations_left_ -= double(flow.panels().size()) * operations_of_panel(flow);
+    exhausted_ = operations_left_ < 0.0;
+    cancelled_ = !goes_on(options_.observer, progress);
+    return !exhausted_ && !cancelled_;
+  }
+
+  // The motion with a tolerance of the flow, and how far it lies from the one before.
+  bool refine(double tolerance) {
+    constexpr double safety = 3.0, rounding = 1e-13;
+    ContactFlow flow(problem_, {.tolerance = tolerance});
+    if (found_.found)
+      flow.start(found_.state, found_.contacts);
+    else
+      flow.start_near(harmonics_, first_displacement_, first_force_);
+    const Observer observer = [&](const Progress& progress) { return goes_on_after(flow, progress); };
+    ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map);
+    iterations_ += closed.iterations;
+    if (!closed.found) return false;
+    motion_ = motion_of(original_, flow, begin_);
+    const Eigen::MatrixXd now = motion_.displacement(times_);
+    if (found_.found) error_ = std::max(safety * (now - displacement_).norm() / now.norm(), rounding);
+    displacement_ = now;
+    found_ = std::move(closed);
+    flow_ = std::move(flow);
+    return true;
+  }
+
+  const PhasesProblem& original_;
+  PhasesProblem problem_;  // from the time at which the flow begins
+  const ContactPhasesOptions& options_;
+  Eigen::MatrixXd start_;
+  Eigen::VectorXd times_, first_displacement_, first_force_;
+  Eigen::MatrixXcd harmonics_;
+  double begin_ = 0.0;
+  // What was found.
+  std::optional<ContactFlow> flow_;
+  ClosedPeriod found_;
+  PhaseMotion motion_;
+  Eigen::MatrixXd displacement_;
+  double error_ = std::numeric_limits<double>::infinity(), operations_left_ = options_.max_operations;
+  int iterations_ = 0;
+  bool cancelled_ = false, exhausted_ = false;
+};
+
+}  // namespace
+
+PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                        const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
+  options.validate();
+  require_sizes(problem, start, start_force);
+  PhaseMotion refused;
+  refused.status = refusal_of(problem);
+  if (!refused.converged()) return refused;
+  const Eigen::MatrixXd force = start_force.size() > 0 ? start_force : problem.laws.force(start);
+  return MotionSearch(problem, start, force, options).run();
+}
+
+PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+                         const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
+  using enum PhasesStatus;
+  if (problem.laws.act_over_period()) return flow_motion(problem, start, options, start_force);
+  PhaseMotion motion = contact_phases(problem, start, options, start_force);
+  const bool failed =
+      motion.status == not_found || motion.status == too_many_phases || motion.status == tolerance_missed;
+  if (!failed) return motion;
+  PhaseMotion other = flow_motion(problem, start, options, start_force);
+  const bool better =
+      other.parts != nullptr && (motion.parts == nullptr || other.estimated_error < motion.estimated_error);
+  return better ? other : motion;
+}
+
+}  // namespace wavebalance::solvers

@@ -1,0 +1,203 @@
+#include "flow/flow_phases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "flow/panel.hpp"
+#include "phases/phase_motion_parts.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
+
+namespace wavebalance::solvers {
+namespace detail {
+namespace {
+
+// A time in which a contact stays in one state, in periods: 0 <= begin < 1.
+struct Stay {
+  int state;
+  double begin, end;
+};
+
+double within_period(double time) { return time - std::floor(time); }
+
+// Of one contact, in the order of time from the beginning of the flow.
+std::vector<Stay> stays_of(const ContactFlow& flow, std::size_t contact, double begin) {
+  std::vector<Stay> stays;
+  for (const FlowPanel& panel : flow.panels()) {
+    const int state = panel.states[contact];
+    const double from = begin + panel.begin / flow.period(), to = begin + panel.end / flow.period();
+    if (stays.empty() || stays.back().state != state)
+      stays.push_back({state, from, to});
+    else
+      stays.back().end = to;
+  }
+  if (stays.size() == 1) return {{stays.front().state, 0.0, 1.0}};
+  if (stays.front().state == stays.back().state) {
+    stays.front().begin = stays.back().begin - 1.0;
+    stays.pop_back();
+  }
+  for (Stay& stay : stays) {
+    const double whole = std::floor(stay.begin);
+    stay.begin -= whole;
+    stay.end -= whole;
+  }
+  return stays;
+}
+
+double sign_of_slip(ContactState kind, int state) {
+  if (kind != ContactState::slip) return 0.0;
+  return state == 2 ? 1.0 : -1.0;
+}
+
+// Of stick the sign is that of the slip before.
+FrictionAlong friction_along(const ContactMachine& machine, const FrictionConstants& constants,
+                             const std::vector<Stay>& stays) {
+  FrictionAlong along{machine.row, constants, {}};
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    const Stay &stay = stays[i], &before = stays[(i + stays.size() - 1) % stays.size()];
+    const ContactState kind = machine.law->kind(stay.state);
+    FrictionPart part{FrictionPart::State::stick, stay.begin, stay.end, 0.0, 0.0};
+    if (kind == ContactState::open) part.state = FrictionPart::State::open;
+    if (kind == ContactState::slip) part.state = FrictionPart::State::slip;
+    const Stay& signs = kind == ContactState::stick ? before : stay;
+    part.sign = sign_of_slip(machine.law->kind(signs.state), signs.state);
+    along.parts.push_back(part);
+  }
+  std::sort(along.parts.begin(), along.parts.end(),
+            [](const FrictionPart& a, const FrictionPart& b) { return a.begin < b.begin; });
+  return along;
+}
+
+// States of machines are numbered as the pieces of their laws are.
+void append_phases(const ContactMachine& machine, const std::vector<Stay>& stays,
+                   std::vector<ContactPhase>& phases) {
+  for (const Stay& stay : stays) {
+    if (machine.law->kind(stay.state) == ContactState::open) continue;
+    const int last = machine.row + machine.law->rows() - 1;
+    for (int row = machine.row; row < last; ++row) phases.push_back({row, 1, stay.begin, stay.end});
+    phases.push_back({last, stay.state, stay.begin, stay.end});
+  }
+}
+
+// The period as cells, each with a panel for every row that has a force.
+CellGrid grid_of(const ContactFlow& flow, double begin, Index rows, std::vector<Eigen::VectorXd>& values) {
+  std::vector<std::pair<double, const FlowPanel*>> cells;
+  for (const FlowPanel& panel : flow.panels())
+    cells.emplace_back(within_period(begin + panel.begin / flow.period()), &panel);
+  std::sort(cells.begin(), cells.end());
+  CellGrid grid;
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    const auto& [from, panel] = cells[j];
+    grid.boundaries.push_back(from);
+    const double to = j + 1 < cells.size() ? cells[j + 1].first : cells.front().first + 1.0;
+    for (Index row = 0; row < rows; ++row) {
+      if (panel->force.row(row).isZero(0.0)) continue;
+      grid.panels.push_back({int(row), int(row), int(j), from, to, 1});
+      values.push_back(panel->force.row(row).transpose());
+    }
+  }
+  return grid;
+}
+
+PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
+                      const std::vector<Eigen::VectorXd>& values) {
+  Eigen::VectorXd all(nodes.count() * Index(values.size()));
+  for (std::size_t p = 0; p < values.size(); ++p)
+    all.segment(nodes.count() * Index(p), nodes.count()) = values[p];
+  return {grid, nodes, all};
+}
+
+}  // namespace
+
+PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, double begin) {
+  PhaseMotion motion;
+  for (std::size_t c = 0; c < flow.machines().size(); ++c) {
+    const ContactMachine& machine = flow.machines()[c];
+    const std::vector<Stay> stays = stays_of(flow, c, begin);
+    const auto constants = problem.laws[machine.row].friction();
+    if (constants) motion.friction.push_back(friction_along(machine, *constants, stays));
+    append_phases(machine, stays, motion.phases);
+  }
+  std::sort(motion.phases.begin(), motion.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
+    return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
+  });
+  std::vector<Eigen::VectorXd> values;
+  const CellGrid grid = grid_of(flow, begin, problem.dynamics.contacts(), values);
+  const LegendreNodes nodes(panel_nodes);
+  const PanelForces forces = forces_of(grid, nodes, values);
+  motion.parts =
+      PhaseMotion::Parts::complete({PhaseModel(problem, 1.0), PhaseIterate{{}, forces}, nodes, {}, {}});
+  return motion;
+}
+
+void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers) {
+  PhaseMotion::Parts parts = *motion.parts;
+  parts.multipliers = std::move(multipliers);
+  motion.parts = PhaseMotion::Parts::complete(std::move(parts));
+}
+
+}  // namespace detail
+
+namespace {
+
+// m, by which the slider moves in a part in which it slips: displacements at its begin and end.
+double slip_of(const FrictionAlong& along, const FrictionPart& part, const Eigen::VectorXd& begin,
+               const Eigen::VectorXd& end) {
+  const Eigen::VectorXd moved = end - begin;
+  const double of_limit = along.constants.normal_rows > 0
+                              ? part.sign * along.constants.friction * along.constants.normal_stiffness /
+                                    along.constants.tangential_stiffness * moved[along.row]
+                              : 0.0;
+  return std::abs(moved[along.row + along.constants.normal_rows] - of_limit);
+}
+
+// J of each row, the integral of force times change of displacement: of the Legendre series f and u of a
+// panel twice the sum of f_k u_j over j > k with j - k odd.
+Eigen::VectorXd works_of(const PhaseMotion& motion) {
+  const detail::LegendreNodes nodes(32);
+  const detail::PanelForces& forces = motion.parts->iterate.forces;
+  const Index q = nodes.count(), cells = forces.grid().cells();
+  Eigen::VectorXd times(q * cells), works = Eigen::VectorXd::Zero(motion.parts->model.response.contacts());
+  for (Index j = 0; j < cells; ++j)
+    times.segment(j * q, q) = forces.grid().boundaries[std::size_t(j)] +
+                              0.5 * forces.grid().length(int(j)) * (nodes.points.array() + 1.0);
+  const Eigen::MatrixXd displacement = motion.displacement(times);
+  for (std::size_t p = 0; p < forces.panels().size(); ++p) {
+    const detail::Panel& panel = forces.panels()[p];
+    const Eigen::VectorXd u =
+        nodes.coefficients * displacement.row(panel.contact).segment(panel.cell * q, q).transpose();
+    for (Index k = 0; k < forces.coefficients().rows(); ++k)
+      for (Index j = k + 1; j < u.size(); j += 2)
+        works[panel.contact] += 2.0 * forces.coefficients()(k, Index(p)) * u[j];
+  }
+  return works;
+}
+
+}  // namespace
+
+std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion) {
+  if (motion.parts == nullptr) throw std::invalid_argument("friction_cycles: there is no motion");
+  const Eigen::VectorXd works = works_of(motion);
+  std::vector<FrictionCycle> cycles;
+  for (const FrictionAlong& along : motion.friction) {
+    FrictionCycle cycle{.row = along.row, .work = works[along.row + along.constants.normal_rows]};
+    Eigen::VectorXd times(2 * Index(along.parts.size()));
+    for (std::size_t i = 0; i < along.parts.size(); ++i)
+      times.segment<2>(2 * Index(i)) << along.parts[i].begin, along.parts[i].end;
+    const Eigen::MatrixXd u = motion.displacement(times);
+    for (std::size_t i = 0; i < along.parts.size(); ++i) {
+      const FrictionPart& part = along.parts[i];
+      const double length = part.end - part.begin;
+      (part.state == FrictionPart::State::open    ? cycle.open_share
+       : part.state == FrictionPart::State::stick ? cycle.stick_share
+                                                  : cycle.slip_share) += length;
+      if (part.state == FrictionPart::State::slip)
+        cycle.slip += slip_of(along, part, u.col(2 * Index(i)), u.col(2 * Index(i) + 1));
+    }
+    cycles.push_back(cycle);
+  }
+  return cycles;
+}
+
+}  // namespace wavebalance::solvers
