@@ -262,4 +262,4 @@ def test_pictures_of_make_reproduce_are_legible(look):
     if not pictures or min(one.stat().st_mtime for one in pictures) < built:
         pytest.skip("the results are not those of this build: make reproduce")
     for picture in pictures:
-        look.legible(picture)
+        look.legible(picture, 0 if picture.name == "kernels.svg" else 2)  # names of kernels in place of numbers
