@@ -41,13 +41,14 @@ Eigen::MatrixXd displacement_at(const Eigen::MatrixXd& samples, const Eigen::Vec
   return result;
 }
 
-void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found, int points,
-                    Response& result) {
+void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found,
+                    int points, Response& result) {
   const double frequency = problem.frequency();
-  const solvers::ContactSource source{
-      [&](int count) { return force_harmonics(found, frequency, count); },
-      [&](const Eigen::VectorXd& times) { return displacement_at(found.stepping.contacts.displacement, times); },
-      holding};
+  const solvers::ContactSource source{[&](int count) { return force_harmonics(found, frequency, count); },
+                                      [&](const Eigen::VectorXd& times) {
+                                        return displacement_at(found.stepping.contacts.displacement, times);
+                                      },
+                                      holding};
   solvers::StructurePhases whole = solvers::structure_motion_of(
       problem, source, points, {.tolerance = 1e-3, .max_harmonics = int(result.contacts.points()) / 2});
   result.structure = std::move(whole.motion);
@@ -65,7 +66,8 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   if (model.contact_dynamics() == nullptr) return result;
   const solvers::ContactDynamics& dynamics = *model.contact_dynamics();
   Scene paired = scene;
-  paired.time = balance_of(scene, least_start_functions(scene)).time;  // loads need a pair, which takes no part
+  paired.time =
+      balance_of(scene, least_start_functions(scene)).time;  // loads need a pair, which takes no part
   const solvers::CondensedProblem problem = make_problem(paired, model);
   solvers::TimeSteppingOptions stepping_options;
   stepping_options.output_points = scene.analysis.output_points;

@@ -93,8 +93,8 @@ bool is_on_any(solvers::ContactProblem& problem, const Sweep& sweep, double freq
                      [&](const Sweep& isola) { return is_on(problem, isola, frequency, motion); });
 }
 
-/// A curve of balances, followed by phases. Nothing where no motion of the structure was found near those at the
-/// frequency where it was found, or one of a curve that is known.
+/// A curve of balances, followed by phases. Nothing where no motion of the structure was found near those at
+/// the frequency where it was found, or one of a curve that is known.
 void add_exact_isola(const Scene& scene, solvers::ContactProblem& problem,
                      const solvers::IsolatedCurve& found, const Observer& observer, Sweep& sweep) {
   const double at = found.found_at;

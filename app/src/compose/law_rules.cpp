@@ -91,7 +91,8 @@ void check_one_tangent(const Document& document, const Scene& scene, const std::
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
-                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting || integrates_in_time(type);
+                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting ||
+                     integrates_in_time(type);
   if (type == AnalysisType::nonlinear_mode) return;
   if (!taken)
     fail_rule(document, {"analysis.type", "contact.law"},
@@ -202,11 +203,12 @@ void check_mixture(const Document& document, const Scene& scene) {
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const std::string& law = scene.contact.pairs[i].law;
     if (is_rigid(law)) continue;
-    fail_rule(document, {pair_section(i) + ".law", "contact.law"},
-              std::string(has_friction(law) ? "friction" : "another law") +
-                  " beside a rigid contact is solved in time alone; expected analysis.type = \"time_stepping\", or a "
-                  "stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of contact.law = "
-                  "\"rigid\"");
+    fail_rule(
+        document, {pair_section(i) + ".law", "contact.law"},
+        std::string(has_friction(law) ? "friction" : "another law") +
+            " beside a rigid contact is solved in time alone; expected analysis.type = \"time_stepping\", or a "
+            "stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of contact.law = "
+            "\"rigid\"");
   }
 }
 

@@ -111,7 +111,8 @@ std::string gap_text(const std::vector<SceneContact>& contacts) {
 }
 
 std::string law_text(const std::vector<SceneContact>& contacts) {
-  if (std::all_of(contacts.begin(), contacts.end(), [](const SceneContact& one) { return is_rigid(one.law); }))
+  if (std::all_of(contacts.begin(), contacts.end(),
+                  [](const SceneContact& one) { return is_rigid(one.law); }))
     return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle"
                                                            : "rigid obstacle";
   std::vector<std::string> names;

@@ -123,9 +123,9 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   record.summary.emplace_back(quantities::friction, table_of(contacts));
   if (!known) return;
   if (frequency > 0.0)
-    append_energy_error(record, response.flow ? missing
-                                              : energy_error(contacts, response.contacts,
-                                                             response.periods / frequency));
+    append_energy_error(
+        record,
+        response.flow ? missing : energy_error(contacts, response.contacts, response.periods / frequency));
   warn_of_history(record, contacts);
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});

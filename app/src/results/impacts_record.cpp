@@ -64,8 +64,8 @@ void append_events(Record& record, const Response& response, double frequency) {
   double impulse = 0.0, velocity = 0.0;
   for (const solvers::FlowEvent& one : flow.events) {
     const auto kind = flow.machines[std::size_t(one.contact)].law->kind(one.to);
-    table.append_row({one.time * frequency, std::int64_t{one.contact + 1}, std::string(names[std::size_t(kind)]), one.impulse,
-                      one.speed});
+    table.append_row({one.time * frequency, std::int64_t{one.contact + 1},
+                      std::string(names[std::size_t(kind)]), one.impulse, one.speed});
     impacts += one.impulse > 0.0;
     impulse = std::max(impulse, one.impulse);
     velocity = std::max(velocity, one.speed);

@@ -338,7 +338,8 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
       if (is_damped_mode(scene)) return damped_mode_record(scene, model, how.observer);
       return mode_record(scene, model, how.observer);
     case AnalysisType::time_stepping:
-      if (integrates_by_events(scene)) return response_record(scene, model, flow_response(scene, model, options));
+      if (integrates_by_events(scene))
+        return response_record(scene, model, flow_response(scene, model, options));
       return response_record(scene, model,
                              has_impacts(scene.contact) ? impacts_response(scene, model, options)
                                                         : time_stepping_response(scene, model, options));

@@ -154,9 +154,9 @@ void append_attractor(Record& record, int periods, const Response& response) {
           ? fmt::format("{} the motion did not repeat after up to 16 periods of the load within the periods "
                         "integrated: it is aperiodic, or has not settled yet.",
                         start)
-          : fmt::format("{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
-                        response.flow ? ""
-                                      : fmt::format(", which analysis.subharmonic = {} computes", attractor)));
+          : fmt::format(
+                "{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
+                response.flow ? "" : fmt::format(", which analysis.subharmonic = {} computes", attractor)));
 }
 
 void append_settled(Record& record, const Scene& scene, const Response& response) {

@@ -29,7 +29,8 @@ double largest(const Record& record, const char* name) { return value_of<double>
 // The largest displacement of all contacts along their normals.
 double towards_casing(const Record& record) {
   const bool directed = record.contacts.has_column("direction");
-  const auto normal = (directed ? record.contacts.where("direction", "normal") : record.contacts).numbers("displacement_m");
+  const auto normal =
+      (directed ? record.contacts.where("direction", "normal") : record.contacts).numbers("displacement_m");
   return *std::max_element(normal.begin(), normal.end());
 }
 

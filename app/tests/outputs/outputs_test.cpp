@@ -81,8 +81,8 @@ TEST_F(ChainOutputs, OfContactsAreTheirOwnExtremesMeansAndForces) {
                             first = column("contact_1_max_m"), second = column("contact_2_max_rad");
   for (std::size_t i = 0; i < largest.size(); ++i) {
     EXPECT_EQ(std::max(first[i], second[i]), largest[i]);
-    EXPECT_NEAR(column("contact_2_half_peak_to_peak_rad")[i], 0.5 * (second[i] - column("contact_2_min_rad")[i]),
-                1e-18);
+    EXPECT_NEAR(column("contact_2_half_peak_to_peak_rad")[i],
+                0.5 * (second[i] - column("contact_2_min_rad")[i]), 1e-18);
   }
   EXPECT_GT(force.back() + *std::max_element(force.begin(), force.end()), 0.0);
   const Table peaks = value_of<Table>(record.summary, "outputs");

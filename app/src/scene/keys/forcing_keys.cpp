@@ -13,9 +13,10 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
           required_with(
               analysis_is({"forced_response", "amplitude_sweep", "time_stepping", "shooting", "motions"})));
-  forcing(&Forcing::load, "load", "",
-          "forces of all degrees of freedom for amplitude 1: Matrix Market file of one column, or Harwell-Boeing file with a right-hand side", path,
-          optional, only_with(structure_is({"matrices"})));
+  forcing(
+      &Forcing::load, "load", "",
+      "forces of all degrees of freedom for amplitude 1: Matrix Market file of one column, or Harwell-Boeing file with a right-hand side",
+      path, optional, only_with(structure_is({"matrices"})));
   forcing(&Forcing::load_dofs, "load_dofs", "",
           "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "
           "negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; in place of load",

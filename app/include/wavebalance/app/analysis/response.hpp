@@ -168,9 +168,10 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 Response impacts_response(const Scene& scene, const StructureModel& model,
                           const ResponseOptions& options = {});
 
-/// The scene's response in time from event to event, solvers::integrate_by_events(): of friction, of rebounds beside
-/// other laws, and of both. Once two periods agree to analysis.tolerance the period is closed, so that the motion is
-/// exact and has all its multipliers. The status is a solvers::TimeSteppingStatus, "endless_events" or "no_modes".
+/// The scene's response in time from event to event, solvers::integrate_by_events(): of friction, of rebounds
+/// beside other laws, and of both. Once two periods agree to analysis.tolerance the period is closed, so that
+/// the motion is exact and has all its multipliers. The status is a solvers::TimeSteppingStatus,
+/// "endless_events" or "no_modes".
 Response flow_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app
