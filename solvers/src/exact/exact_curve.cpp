@@ -21,7 +21,7 @@ using detail::Held, detail::PathModel, detail::PathPoint, detail::Prediction, de
 // Follows one curve: `points_` are the last ones with the same phases.
 class Tracer {
  public:
-  Tracer(const PathModel& model, ExactCurve& curve, PathPoint first)
+  Tracer(PathModel& model, ExactCurve& curve, PathPoint first)
       : model_(model),
         options_(model.options()),
         curve_(curve),
@@ -34,11 +34,9 @@ class Tracer {
       if (static_cast<int>(curve_.points.size()) >= options_.max_points ||
           operations_ > options_.max_operations)
         curve_.status = SweepStatus::point_limit;
-      else if (!goes_on(options_.observer,
-                        {"exact curve", static_cast<int>(curve_.points.size()), points_.back().value}))
-        curve_.status = SweepStatus::cancelled;
-      else
+      else if (model_.goes_on(static_cast<int>(curve_.points.size()), points_.back().value))
         advance();
+      if (model_.cancelled()) curve_.status = SweepStatus::cancelled;
     }
     if (!turns_as_it_ends()) curve_.status = SweepStatus::lost;
   }
@@ -170,6 +168,7 @@ class Tracer {
   void note_events(const PathPoint& next) {
     detail::EventsBetween between = detail::events_between(
         model_, points_.back(), next, curve_.points.back().multipliers, multipliers_of(next));
+    if (model_.cancelled()) return;  // some may be missing
     if (!between.explained) curve_.unexplained.push_back(curve_.points.size());
     for (ExactEvent& event : between.events) {
       event.next_point = curve_.points.size();
@@ -184,7 +183,7 @@ class Tracer {
       curve_.status = SweepStatus::closed;
     }
     note_events(next);
-    accept(std::move(next));
+    if (!model_.cancelled()) accept(std::move(next));
   }
 
   // The first point, where the curve comes back to it between its last point and the next one, which has the
@@ -230,6 +229,7 @@ class Tracer {
       for (PathPoint& point : over.between) go_to(std::move(point));
       over.between.clear();
     }
+    if (model_.cancelled()) return;
     if (over.reverses && !over.appears) note(SpecialPointType::fold, over.grazing);
     note(SpecialPointType::grazing, over.grazing);
     if (over.reverses && over.appears) note(SpecialPointType::fold, over.grazing);
@@ -252,7 +252,7 @@ class Tracer {
   // Of the angles between the directions of two points and the way from one to the other.
   static constexpr double least_cosine = 0.3;
 
-  const PathModel& model_;
+  PathModel& model_;
   const ExactCurveOptions& options_;
   ExactCurve& curve_;
   double step_, growth_ = 1.5, arc_ = 0.0, operations_ = 0.0;
@@ -292,9 +292,10 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
     throw std::invalid_argument("exact_curve: first has the status " + std::string(to_string(first.status)) +
                                 "; it must be a motion");
   ExactCurve curve;
-  const PathModel model(family, first, options);
+  PathModel model(family, first, options);
   std::optional<PathPoint> start =
       model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
+  if (model.cancelled()) curve.status = SweepStatus::cancelled;
   if (start && start->agrees) Tracer(model, curve, std::move(*start)).run();
   return curve;
 }

@@ -64,12 +64,22 @@ double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::
 }  // namespace
 
 PathModel::PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options)
-    : family_(family), options_(options), times_(uniform(samples)) {
+    : family_(family), options_(options), times_(uniform(samples)), observer_([this](const Progress& newton) {
+        cancelled_ = cancelled_ || !solvers::goes_on(options_.observer, progress_) ||
+                     !solvers::goes_on(options_.phases.observer, newton);
+        return !cancelled_;
+      }) {
   const Eigen::MatrixXd displacement = first.displacement(times_);
   length_ = displacement.cwiseAbs().maxCoeff();
   vibration_ = vibration_of(displacement);
   parameter_scale_ =
       options.parameter_scale > 0.0 ? options.parameter_scale : std::abs(options.to - options.from) / 20.0;
+}
+
+bool PathModel::goes_on(int points, double value) {
+  progress_.step = points;
+  progress_.value = value;
+  return observer_(progress_);
 }
 
 double PathModel::arc_length(const PathPoint& from, const PathPoint& to) const {
@@ -181,7 +191,7 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
                                                              : Index(options_.phases.nodes));
   for (int i = 0;; ++i) {
     HeldSolution found = solve_held(family_, length_, value, start, nodes, held,
-                                    {options_.phases.max_iterations, rounding, options_.phases.observer});
+                                    {options_.phases.max_iterations, rounding, observer_});
     if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
     const EstimatedError error = error_of(found.newton, vibration_);
     start = found.newton.iterate;

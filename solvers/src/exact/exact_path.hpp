@@ -44,6 +44,8 @@ struct Prediction {
 class PathModel {
  public:
   PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+  PathModel(const PathModel&) = delete;
+  PathModel& operator=(const PathModel&) = delete;
 
   const PhaseFamily& family() const { return family_; }
   const ExactCurveOptions& options() const { return options_; }
@@ -69,8 +71,14 @@ class PathModel {
 
   /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs.
   /// `forwards`: the sign of the change of the unknown held along the curve. Nothing where Newton's method
-  /// does not converge.
+  /// does not converge, and at once after the observer has returned false.
   std::optional<PathPoint> solve(double value, PhaseIterate start, const Held& held, double forwards) const;
+
+  /// Calls the observer with the number of points that a curve has and with the value of the last one, which
+  /// are its progress in what follows, too. False where it returns false, or has.
+  bool goes_on(int points, double value);
+  /// Whether the observer has returned false. What was not found since then says nothing.
+  bool cancelled() const { return cancelled_; }
 
  private:
   PathPoint point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const;
@@ -81,6 +89,9 @@ class PathModel {
   const ExactCurveOptions& options_;
   double length_, vibration_, parameter_scale_;
   Eigen::VectorXd times_;
+  Progress progress_{"exact curve"};
+  mutable bool cancelled_ = false;
+  Observer observer_;  // called within each step of Newton's method until it has returned false
 };
 
 /// A layout with the forces that `force` gives at times of its panels, by these nodes.

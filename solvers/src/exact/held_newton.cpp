@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
@@ -25,13 +26,11 @@ struct HeldMatrix {
   Eigen::VectorXd column;  // of the unknown held
 };
 
-HeldMatrix matrix_of(const PhaseIterate& at, const Evaluation& now, const LegendreNodes& nodes,
-                     const Influence& influence, Index held, const Eigen::VectorXd& by_parameter) {
-  Eigen::MatrixXd matrix = jacobian(now, impulses_of(at.layout, now, nodes), nodes, influence);
-  if (held == now.residual.size()) return {Lu<double>(matrix), by_parameter};
-  const Eigen::VectorXd column = matrix.col(held);
-  matrix.col(held) = by_parameter;
-  return {Lu<double>(matrix), column};
+HeldMatrix matrix_of(Eigen::MatrixXd slopes, Index held, const Eigen::VectorXd& by_parameter) {
+  if (held == slopes.cols()) return {Lu<double>(slopes), by_parameter};
+  const Eigen::VectorXd column = slopes.col(held);
+  slopes.col(held) = by_parameter;
+  return {Lu<double>(slopes), column};
 }
 
 // The unknowns with the parameter last: `solved` has it in the place of the one held, which is `own`.
@@ -70,7 +69,11 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
   Influence influence;
   std::optional<HeldMatrix> matrix;
   bool own = false;  // whether the last step was by a matrix of its own iterate
-  for (;; ++result.newton.iterations) {
+  const auto goes_on = [&] {
+    return solvers::goes_on(limits.observer,
+                            {"exact curve", result.newton.iterations, result.newton.residual});
+  };
+  for (; goes_on(); ++result.newton.iterations) {
     const PhaseModel model(family.at(result.value), length);
     const Evaluation now = evaluate(model, at, nodes);
     const Index n = now.force.size(), m = now.passing.size(), number = held.number(n, m);
@@ -83,11 +86,15 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
         residual < limits.tolerance || (fits && own && now.is_rounding(before, influence));
     own = result.newton.converged || !fits || residual > enough * before;
     if (own) {
+      if (!goes_on()) return HeldSolution{};
       const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
       influence = model.response.influence(*now.period, model.velocity);
-      matrix = matrix_of(at, now, nodes, influence, number,
-                         by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes)
-                                      : Eigen::VectorXd());
+      if (!goes_on()) return HeldSolution{};  // each of the three may take seconds
+      const Eigen::VectorXd slope =
+          by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes) : Eigen::VectorXd();
+      Eigen::MatrixXd slopes = jacobian(now, impulses_of(at.layout, now, nodes), nodes, influence);
+      if (!goes_on()) return HeldSolution{};
+      matrix = matrix_of(std::move(slopes), number, slope);
     }
     if (result.newton.converged) {
       result.direction = ordered(matrix->factor.solve(Eigen::VectorXd(-matrix->column)), number, 1.0);
@@ -100,7 +107,6 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     }
     before = residual;
     if (result.newton.iterations == limits.max_iterations) return result;
-    if (!goes_on(limits.observer, {"exact curve", result.newton.iterations, residual})) return result;
     const Eigen::VectorXd step = ordered(matrix->factor.solve(Eigen::VectorXd(-now.residual)), number, 0.0);
     if (!step.allFinite()) return result;
     const double part = part_of_step(at, step, n, result.value);
@@ -109,6 +115,7 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
     result.newton.collapsed = has_collapsed(at.layout);
     if (result.newton.collapsed || !(result.value > 0.0)) return result;
   }
+  return result;
 }
 
 }  // namespace wavebalance::solvers::detail

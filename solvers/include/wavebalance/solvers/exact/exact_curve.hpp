@@ -26,7 +26,7 @@ struct ExactCurveOptions {
   double max_operations = std::numeric_limits<double>::infinity();
   bool stability = true;             ///< multipliers at each point, and the points where they pass the circle
   ContactPhasesOptions phases = {};  ///< tolerance, nodes and panels of each motion
-  Observer observer = {};            ///< called after each point with its value
+  Observer observer = {};            ///< called with the last point in each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
