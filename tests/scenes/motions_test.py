@@ -75,6 +75,48 @@ random_starts = 4
     assert side["largest_velocity_m_per_s"] == pytest.approx(2.5 * side["largest_displacement_m"])
 
 
+def test_a_detached_curve_that_the_law_moves_away_is_found(run, matrix):
+    """An absorber, of which the spring to the ground alone makes a shape that no mode has [T. Detroux, G. Habib,
+    L. Masset, G. Kerschen, MSSP, 2015]."""
+    matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
+    matrix("k.mtx", [[1.0453, -0.0453], [-0.0453, 0.0453]])
+    matrix("c.mtx", [[0.015, -0.013], [-0.013, 0.013]])
+    record = run("""
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+damping = "c.mtx"
+[contact]
+law = "cubic"
+[[contact.pairs]]
+dofs = [1]
+cubic_stiffness = 1.0
+[[contact.pairs]]
+dofs = [1, 2]
+cubic_stiffness = 0.0042
+[forcing]
+load_dofs = [1]
+amplitude = 0.18
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 31
+quadrature_points = 128
+[analysis]
+type = "frequency_sweep"
+frequency_from = 0.27
+frequency_to = 0.31
+isolas = true
+isola_spacing = 0.04
+isola_starts = 40
+""")
+    assert record.code == 0, record.errors
+    point, = record.summary["special_points_of_isolas"]
+    assert point["type"] == "neimark_sacker"
+    assert point["frequency_Hz"] == pytest.approx(0.27943606, rel=1e-6)  # that of the curve followed from above
+
+
 STOPS = """contact_dofs = [1]
 [contact]
 law = "rigid"

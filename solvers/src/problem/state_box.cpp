@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "linalg/dense.hpp"
 #include "period/modal_flow.hpp"
@@ -43,8 +45,8 @@ double factor_to_gap(const ContactProblem& problem, const Eigen::VectorXd& stand
   return std::isfinite(factor) ? std::max(1.0, factor) : 1.0;
 }
 
-// What the contacts add to the square of a mode's frequency while it vibrates about where the structure
-// stands: their force in its first harmonic, over the amplitude.
+// What the contacts add to the square of the frequency of a mode, or to the stiffness of a shape, while it
+// vibrates about where the structure stands: their force in its first harmonic, over the amplitude.
 double added_stiffness(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
                        const Eigen::VectorXd& shape, double amplitude) {
   constexpr int points = 64;
@@ -54,8 +56,8 @@ double added_stiffness(const ContactProblem& problem, const Eigen::VectorXd& con
   return 2.0 / (points * amplitude) * shape.dot(problem.laws().force(motion) * cosine.transpose());
 }
 
-// The largest amplitude between two at which a mode of the square `square` of its frequency vibrates with a
-// frequency; 0 without one.
+// The largest amplitude between two at which a shape of the stiffness `square` has that which its mass times
+// the square of a frequency makes, `wanted`; 0 without one.
 double resonant_amplitude(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
                           const Eigen::VectorXd& shape, double square, double wanted, double least,
                           double most) {
@@ -72,40 +74,78 @@ double resonant_amplitude(const ContactProblem& problem, const Eigen::VectorXd& 
 }
 
 // The amplitudes of the modes in a harmonic of a motion uniform over the period.
-Eigen::VectorXd amplitudes_of(const Eigen::MatrixXd& modes, int harmonic) {
+Eigen::VectorXcd amplitudes_of(const Eigen::MatrixXd& modes, int harmonic) {
   const double points = double(modes.cols());
   Eigen::VectorXcd wave(modes.cols());
   for (Eigen::Index l = 0; l < modes.cols(); ++l)
     wave[l] = std::polar(2.0 / points, -2.0 * std::numbers::pi * harmonic * double(l) / points);
-  return (modes * wave).cwiseAbs();
+  return modes * wave;
 }
 
-// The load of a mode follows from its vibration without contact, and with it the largest vibration at the
+// The structure by its modes, and the vibration without contact in a harmonic of the load.
+struct ModalVibration {
+  Eigen::MatrixXd contacts;     // C x m, displacements of the contacts in each mode
+  Eigen::MatrixXd damping;      // m x m
+  Eigen::VectorXd squares;      // m, of the frequencies in radians
+  double omega = 0.0;           // rad/s, of the harmonic
+  Eigen::VectorXcd amplitudes;  // m
+
+  // The most that a shape can vibrate with the work of the load, which follows from the vibration.
+  double most(const Eigen::VectorXd& shape) const {
+    const Eigen::VectorXcd load = (squares.array() - omega * omega).matrix().cwiseProduct(amplitudes) +
+                                  std::complex<double>(0.0, omega) * (damping * amplitudes);
+    return std::abs(shape.cast<std::complex<double>>().dot(load)) / (omega * shape.dot(damping * shape));
+  }
+};
+
+// The modes that vibrate, and how the structure would with each contact as the spring that makes the
+// frequency of the harmonic one of its own: stiff contacts make shapes that no mode has.
+std::vector<Eigen::VectorXd> resonant_shapes(const ModalVibration& vibration) {
+  constexpr double least_part = 1e-3;
+  const Eigen::Index modes = vibration.squares.size();
+  const double largest = vibration.amplitudes.cwiseAbs().maxCoeff();
+  std::vector<Eigen::VectorXd> shapes;
+  for (Eigen::Index j = 0; j < modes; ++j)
+    if (std::abs(vibration.amplitudes[j]) > least_part * largest && !vibration.contacts.col(j).isZero(0.0))
+      shapes.emplace_back(Eigen::VectorXd::Unit(modes, j));
+  const Eigen::ArrayXd apart = vibration.squares.array() - vibration.omega * vibration.omega;
+  for (Eigen::Index c = 0; c < vibration.contacts.rows() && modes > 1; ++c) {
+    const Eigen::VectorXd shape = vibration.contacts.row(c).transpose().array() / apart;
+    const double size = shape.norm();
+    if (std::isfinite(size) && size > 0.0) shapes.emplace_back(shape / size);
+  }
+  return shapes;
+}
+
+// The load follows from the vibration without contact, and with it the largest vibration of a shape at the
 // same frequency: that of which the damping takes the work of the load.
 void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& stands, const Motion& free,
                         double factor, StateBox& box) {
   constexpr int harmonics = 3;
-  constexpr double least_part = 1e-3, most_times = 1e6;
+  constexpr double most_times = 1e6;
   if (!problem.laws().have_finite_force()) return;
   const LinearStructure& structure = problem.structure();
-  const Eigen::SparseMatrix<double>& directions = structure.contact_directions;
-  const Eigen::MatrixXd contacts = directions * box.shapes(),
-                        modes = product(box.projection(), free.displacement);
-  const Eigen::VectorXd contacts_stand = directions * stands;
+  const Eigen::MatrixXd &shapes = box.shapes(), modes = product(box.projection(), free.displacement);
+  const Eigen::VectorXd contacts_stand = structure.contact_directions * stands;
+  ModalVibration vibration{structure.contact_directions * shapes,
+                           shapes.transpose() * (structure.damping * shapes),
+                           shapes.cwiseProduct(structure.stiffness * shapes).colwise().sum().transpose(),
+                           0.0,
+                           {}};
   for (int h = 1; h <= harmonics; ++h) {
-    const double omega = 2.0 * std::numbers::pi * h * problem.condensed().frequency();
-    const Eigen::VectorXd amplitudes = amplitudes_of(modes, h);
-    for (Eigen::Index j = 0; j < amplitudes.size(); ++j) {
-      const double amplitude = amplitudes[j];
-      if (!(amplitude > least_part * amplitudes.maxCoeff()) || contacts.col(j).isZero(0.0)) continue;
-      const Eigen::VectorXd shape = box.shapes().col(j);
-      const double square = shape.dot(structure.stiffness * shape),
-                   damped = omega * shape.dot(structure.damping * shape),
-                   load = amplitude * std::hypot(square - omega * omega, damped),
-                   most = std::min(most_times * amplitude, load / damped),
-                   found = resonant_amplitude(problem, contacts_stand, contacts.col(j), square, omega * omega,
-                                              amplitude, most);
-      box.include_mode(j, factor * found, factor * found * omega);
+    vibration.omega = 2.0 * std::numbers::pi * h * problem.condensed().frequency();
+    vibration.amplitudes = amplitudes_of(modes, h);
+    for (const Eigen::VectorXd& shape : resonant_shapes(vibration)) {
+      const Eigen::VectorXd contacts = vibration.contacts * shape;
+      const double moved = (vibration.contacts * vibration.amplitudes).cwiseAbs().maxCoeff(),
+                   least = moved / contacts.cwiseAbs().maxCoeff(),
+                   most = std::min(most_times * least, vibration.most(shape));
+      if (!(least > 0.0)) continue;
+      const double found = factor * resonant_amplitude(problem, contacts_stand, contacts,
+                                                       shape.cwiseAbs2().dot(vibration.squares),
+                                                       vibration.omega * vibration.omega, least, most);
+      for (Eigen::Index j = 0; j < shape.size(); ++j)
+        box.include_mode(j, found * std::abs(shape[j]), found * vibration.omega * std::abs(shape[j]));
     }
   }
 }

@@ -43,10 +43,11 @@ class StateBox {
 
 /// A box around what the static loads deflect, with the contacts that they close. It holds twice the
 /// vibration without contact at a frequency of the load (Hz), which is enlarged until it reaches a gap, and
-/// twice the resonant vibrations that the laws move there. Such is one of a single mode whose frequency, with
-/// the stiffness that the contacts have in the first harmonic, is that of a harmonic of the load, and of
-/// which the damping takes no more than the work of the load. Nothing where the structure has no
-/// modes to compute. O(modes contacts) evaluations of the laws.
+/// twice the resonant vibrations that the laws move there. Such is one of a single mode, or of the shape that
+/// the structure has with one contact as the spring that tunes it, whose frequency, with the stiffness that
+/// the contacts have in the first harmonic, is that of a harmonic of the load, and of which the damping takes
+/// no more than the work of the load. Nothing where the structure has no modes to compute. O((modes +
+/// contacts) contacts) evaluations of the laws.
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency);
 
 }  // namespace wavebalance::solvers::detail
