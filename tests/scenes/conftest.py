@@ -72,3 +72,32 @@ def matrix(tmp_path):
         return name
 
     return write
+
+
+CHAIN = """
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+{damping}
+contact_dofs = [2]
+[contact]
+{contact}
+{forcing}
+{time}
+[analysis]
+{analysis}
+"""
+
+
+@pytest.fixture
+def chain(matrix):
+    """The text of a scene of two masses between springs, of which the second is in contact and the first loaded."""
+
+    def text(contact, analysis, time="", damped=True, forcing="[forcing]\nload_dofs = [1]\namplitude = 5.0\nfrequency = 4.0"):
+        matrix("m.mtx", [[1.0, 0.0], [0.0, 0.5]])
+        matrix("k.mtx", [[2e3, -1e3], [-1e3, 1e3]])
+        damping = "modal_damping = 0.02" if damped else ""
+        return CHAIN.format(contact=contact, analysis=analysis, time=time, damping=damping, forcing=forcing)
+
+    return text

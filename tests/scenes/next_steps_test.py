@@ -80,3 +80,61 @@ def test_time_stepping_is_not_advised_bases_in_time(advice):
     steps = advice("linear", 'type = "time_stepping"\nmax_periods = 3\n', "frequency = 3.0")
     assert any("analysis.max_periods" in step for step in steps)
     assert not any("time." in step for step in steps)
+
+
+PAIRS = "[[contact.pairs]]\ndofs = [2]\n[[contact.pairs]]\ndofs = [1]\n"
+IN_TIME = {
+    "friction": LAWS["coulomb"],
+    "rigid friction": 'law = "coulomb"\nfriction = 0.3\nnormal_load = 3.0',
+    "impacts": LAWS["restitution"],
+    "impacts and friction": LAWS["restitution"] + "\n" + PAIRS + LAWS["coulomb"],
+    "impacts and springs": LAWS["restitution"] + "\n" + PAIRS + LAWS["linear"],
+}
+
+
+def as_arguments(step):
+    """The arguments that make a step of words, or nothing where a value is left to the reader."""
+    analysis = re.match(r'analysis.type = "(\w+)"', step)
+    if analysis is None:
+        return ["--set", step.replace(" = ", "=")] if re.fullmatch(r"[a-z_.\[\]0-9]+ = \S+", step) else None
+    words = ["--analysis", analysis.group(1)]
+    if "time.trial" in step:
+        words += ["--set", 'time.trial="fourier"', "--set", 'time.weight="fourier"', "--set", "time.functions=127"]
+    return words + (["--set", "analysis.subharmonic=2"] if "subharmonic" in step else [])
+
+
+@pytest.mark.parametrize("free", [False, True])
+@pytest.mark.parametrize("law", IN_TIME)
+@pytest.mark.parametrize("periods", [2, 400])
+def test_steps_of_motions_in_time_are_accepted(chain, run, command, law, free, periods):
+    scene = chain(IN_TIME[law], f'type = "time_stepping"\nmax_periods = {periods}\n')
+    if "pairs" in scene:
+        scene = scene.replace("contact_dofs = [2]\n", "")
+    record = run(scene.replace("[contact]", "free = true\n[contact]" if free else "[contact]"))
+    if record.code == 0:
+        return
+    found = re.search("what may help: (.*)", record.errors)
+    steps = found.group(1).split("; ") if found else []
+    assert steps or record.summary["status"] == "subharmonic"  # a motion is found, and no analysis may have it
+    for step in steps:
+        words = as_arguments(step)
+        if words is not None:
+            checked = command("check", "scene.toml", *words)
+            assert checked.code == 0, (step, checked.errors)
+
+
+def test_impacts_that_do_not_settle_in_time_have_a_step(chain, run):
+    record = run(chain(LAWS["restitution"], 'type = "time_stepping"\nmax_periods = 2\n'))
+    assert record.summary["status"] == "not_settled"
+    assert "more analysis.max_periods" in record.errors
+
+
+def test_no_response_is_advised_where_it_is_refused(chain, command, matrix, tmp_path):
+    size = 30
+    scene = chain(LAWS["restitution"] + "\n" + PAIRS + LAWS["linear"], 'type = "time_stepping"\n')
+    matrix("m.mtx", [[float(i == j) for j in range(size)] for i in range(size)])
+    matrix("k.mtx", [[2e3 if i == j else -1e3 * (abs(i - j) == 1) for j in range(size)] for i in range(size)])
+    (tmp_path / "scene.toml").write_text(scene.replace("contact_dofs = [2]\n", ""))
+    checked = command("check", "scene.toml")
+    assert "structure.kept_modes = 8" in checked.text
+    assert "forced_response" not in checked.text

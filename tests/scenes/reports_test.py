@@ -278,3 +278,59 @@ def test_contacts_of_many_rows_have_short_names(command, matrix, tmp_path, two_c
     (tmp_path / "many.toml").write_text(many.replace("dofs = [2, 4, 1, 3]", "dofs = [1, 2, 3, 4]"))
     text = command("check", "many.toml").text
     assert "row 1, row 2, row 3, row 4" in text, text
+
+
+def test_friction_that_opens_is_not_said_to_act_everywhere(command, tmp_path, two_contacts):
+    (tmp_path / "scene.toml").write_text(two_contacts)
+    text = command("check", "scene.toml").text
+    assert "coulomb law at 2 contacts, open where the normal force is 0" in text, text
+
+
+def test_contacts_are_shown_by_the_names_that_a_scene_gives_them(command, run, tmp_path, two_contacts):
+    named = two_contacts.replace("dofs = [4]\n", 'name = "baffle"\ndofs = [4]\n')
+    (tmp_path / "named.toml").write_text(named)
+    text = command("check", "named.toml").text
+    assert "at baffle" in text and "row 4" not in text, text
+    record = run(named)
+    assert record.code == 0, record.errors
+    assert 'name = "baffle"' in (record.folder / "scene.toml").read_text()
+    assert record.summary["leading_contact"] == 1 or "baffle" in record.page
+
+
+TURNING = """
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+dof_map = "turning.dof"
+modal_damping = 0.05
+contact_dofs = [1]
+[contact]
+law = "linear"
+stiffness = 1e3
+gap = 1e-3
+[forcing]
+load_dofs = [1]
+amplitude = 5.0
+frequency = 5.0
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 31
+[analysis]
+{analysis}
+"""
+
+
+@pytest.mark.parametrize("analysis", ['type = "forced_response"',
+                                      'type = "frequency_sweep"\nfrequency_from = 4.0\nfrequency_to = 9.0'])
+def test_rotations_are_told_and_drawn_in_radians(run, matrix, tmp_path, analysis):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1e3]])
+    (tmp_path / "turning.dof").write_text("4.5\n")
+    record = run(TURNING.format(analysis=analysis))
+    assert record.code == 0, record.errors
+    assert record.summary["displacement_unit"] == "rad"
+    drawing = "".join(one.read_text() for one in record.folder.glob("*.svg"))
+    assert "mrad)" in drawing and "mm)" not in drawing
+    assert "gap of 1 mrad" in sentences(record.page)

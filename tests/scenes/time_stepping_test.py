@@ -21,11 +21,6 @@ side = "both"
 load_dofs = [1]
 amplitude = 0.06
 frequency = 0.15915494309189535
-[time]
-trial = "fourier"
-weight = "fourier"
-functions = 127
-quadrature_points = 2048
 [analysis]
 type = "time_stepping"
 """

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -168,10 +169,11 @@ std::string slow_stepping_advice(const Scene& scene) {
   const bool reducible = scene.structure.type != StructureType::bar && scene.structure.kept_modes < 0;
   if (scene.analysis.type != AnalysisType::time_stepping || !reducible || reduced_size(scene) <= few)
     return "";
+  const bool balances = accepts(scene, as_response(scene));
   return fmt::format(
       "time stepping follows all {} modes, the fastest of which may take hours; structure.kept_modes = 8 takes "
-      "the lowest, and analysis.type = \"forced_response\" needs no steps",
-      reduced_size(scene));
+      "the lowest{}",
+      reduced_size(scene), balances ? ", and analysis.type = \"forced_response\" needs no steps" : "");
 }
 
 double available_memory() {

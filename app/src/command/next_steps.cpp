@@ -75,7 +75,12 @@ const Remedies& of_time_stepping() {
       {"iteration_limit", {more_periods, larger_step_tolerance, more_damping, fewer_modes}},
       {"subharmonic", {response_of_periods, all_motions}},
       {"tolerance_missed", {larger_step_tolerance}},
-      {"step_failure", {softer_contact}}};
+      {"step_failure", {softer_contact}},
+      {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}},
+      {"not_settled", {more_periods, all_motions, more_damping}},
+      {"chattering", {all_motions, no_rebound, stiff_law, more_rebound}},
+      {"lasting_contact", {stiff_law}},
+      {"too_many_impacts", {stiff_law, more_damping, less_rebound}}};
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "command/other_motions.hpp"
+#include "command/peak_words.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 
@@ -23,33 +24,18 @@ std::string with_unit(const Summary& summary, const Quantity& one) {
   return quantity(number_in(summary, one), std::string(one.unit));
 }
 
+/// That of the displacements of contacts.
+std::string length_unit(const Summary& summary) {
+  const std::string unit = text_in(summary, quantities::displacement_unit);
+  return unit.empty() ? "m" : unit;
+}
+
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
 /// Errors below this are rounding.
 std::string shown_error(double error) {
   constexpr double least = 1e-10;
   return error < least ? "below " + percent(least) : percent(error);
-}
-
-/// So many digits of a number as the points of a curve determine: at least two, at most `most`.
-int digits_of(double value, double resolution, int most) {
-  if (!(resolution > 0.0)) return most;
-  return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
-}
-
-double rounded(double value, int digits) {
-  return std::isfinite(value) ? std::stod(fmt::format("{:.{}e}", value, digits - 1)) : value;
-}
-
-/// "791 µm (half peak to peak), at 10.09 Hz", with the digits that the points of the curve determine.
-std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
-                      double place_resolution, const SweepAxis& axis) {
-  constexpr int most = 4, most_of_place = 5;
-  const double at = rounded(place, digits_of(place, place_resolution, most_of_place));
-  return fmt::format("{} (half peak to peak), at {}",
-                     quantity(rounded(vibration, digits_of(1.0, resolution, most)), unit),
-                     axis.quantity == "frequency" ? fmt::format("{:.10g} {}", at, axis.unit)
-                                                  : "an amplitude of " + quantity(at, axis.unit));
 }
 
 /// Why a response by phases was not found, and what to take instead; empty for other statuses.
@@ -115,13 +101,13 @@ std::string solution_sentence(const Summary& summary) {
 }
 
 /// How far a displacement passes the gap; empty where there is none.
-std::string beside_gap(double displacement, double gap) {
+std::string beside_gap(double displacement, double gap, const std::string& unit) {
   if (!(gap > 0.0) || !std::isfinite(displacement)) return "";
   constexpr double not_shown = 1e-5;  // with four digits
   const double past = displacement / gap - 1.0;
-  if (std::abs(past) <= not_shown) return fmt::format(", the gap of {}", quantity(gap, "m"));
+  if (std::abs(past) <= not_shown) return fmt::format(", the gap of {}", quantity(gap, unit));
   return fmt::format(", {} {} the gap of {}", percent(std::abs(past)), past < 0.0 ? "short of" : "past",
-                     quantity(gap, "m"));
+                     quantity(gap, unit));
 }
 
 /// What impacts do in a motion, or at most along a curve.
@@ -205,14 +191,15 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
   const double highest = number_in(summary, quantities::max_displacement),
                lowest = number_in(summary, quantities::min_displacement);
   if (!std::isfinite(highest)) return;
+  const std::string unit = length_unit(summary);
   const double contact = number_in(summary, quantities::leading_contact);
   const std::string direction = text_in(summary, quantities::leading_direction);
   const std::string name = direction.empty() || !std::isfinite(contact)
                                ? ""
                                : fmt::format(" of contact {}, {},", contact, direction);
   sentences.push_back(fmt::format("At {} the displacement{} lies between {} and {}{}.",
-                                  with_unit(summary, quantities::frequency), name, quantity(lowest, "m"),
-                                  quantity(highest, "m"), beside_gap(highest, gap)));
+                                  with_unit(summary, quantities::frequency), name, quantity(lowest, unit),
+                                  quantity(highest, unit), beside_gap(highest, gap, unit)));
 }
 
 /// The errors of the vibration of outputs and contacts, "row 19 0.35 %", the output that leads first.
@@ -300,22 +287,24 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
                   const SweepAxis& axis) {
   const double highest = number_in(summary, quantities::max_displacement),
                vibration = number_in(summary, quantities::vibration);
+  const double value_resolution = number_in(summary, quantities::peak_value_resolution),
+               place_resolution = number_in(summary, quantities::peak_place_resolution);
+  const std::string unit = length_unit(summary);
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   append_leading_output(sentences, summary, axis);
   if (std::isfinite(vibration))
-    sentences.push_back(
-        fmt::format("The largest vibration of a contact is {}.",
-                    peak_text(vibration, "m", number_in(summary, quantities::peak_value_resolution),
-                              number_in(summary, quantities::vibration_place(axis.unit)),
-                              number_in(summary, quantities::peak_place_resolution), axis)));
+    sentences.push_back(fmt::format(
+        "The largest vibration of a contact is {}.",
+        peak_text(vibration, unit, value_resolution,
+                  number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis)));
   // Without a gap the vibration says it all, and a rigid obstacle holds the displacement at its gap.
   constexpr double rounding = 1e-9;
   if (!std::isfinite(highest) || !std::isfinite(gap) || std::abs(highest - gap) <= rounding * std::abs(gap))
     return;
-  sentences.push_back(fmt::format("The largest displacement is {}, at {}{}{}.", quantity(highest, "m"),
-                                  axis.quantity == "frequency" ? "" : "an amplitude of ",
-                                  with_unit(summary, quantities::peak_place(axis.unit)),
-                                  beside_gap(highest, gap)));
+  sentences.push_back(
+      fmt::format("The largest displacement is {}, {}{}.", rounded_quantity(highest, unit, value_resolution),
+                  place_text(number_in(summary, quantities::peak_place(axis.unit)), place_resolution, axis),
+                  beside_gap(highest, gap, unit)));
 }
 
 void append_damped_mode(std::vector<std::string>& sentences, const Summary& summary) {

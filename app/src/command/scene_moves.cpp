@@ -32,17 +32,6 @@ bool has_wavelets(const Time& time) {
   return wavelets(time.trial) || wavelets(time.weight);
 }
 
-bool is_sweep(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::frequency_sweep ||
-         scene.analysis.type == AnalysisType::amplitude_sweep;
-}
-
-/// Bases and sizes of a scene that has none; impacts take none.
-std::vector<std::string> usual_bases(const Scene& scene) {
-  if (has_impacts(scene.contact) || !scene.time.trial.empty()) return {};
-  return {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"};
-}
-
 /// More basis functions, and points for them.
 Step functions_step(const Scene& scene, int functions) {
   const Time& time = scene.time;
@@ -135,15 +124,14 @@ Step integrate(const Scene&) {
 }
 
 Step response(const Scene& scene) {
-  const std::vector<std::string> bases = usual_bases(scene);
-  return NextStep{std::string("analysis.type = \"forced_response\"") +
-                      (bases.empty() ? "" : " with time.trial, time.weight and time.functions"),
-                  {.analysis = "forced_response", .set = bases, .unset = {"time.tolerance"}}};
+  SceneChange change = as_response(scene);
+  const char* bases = change.set.empty() ? "" : " with time.trial, time.weight and time.functions";
+  return NextStep{std::string("analysis.type = \"forced_response\"") + bases, std::move(change)};
 }
 
 Step response_of_periods(const Scene& scene) {
   Step step = response(scene);
-  step->text += usual_bases(scene).empty() ? " with analysis.subharmonic" : ", and analysis.subharmonic";
+  step->text += step->change.set.empty() ? " with analysis.subharmonic" : ", and analysis.subharmonic";
   step->change.set.emplace_back("analysis.subharmonic=2");
   return step;
 }
@@ -192,6 +180,24 @@ Step damping_depth(const Scene& scene) {
   const std::string key = (own ? pair_section(*damper->pair) : "contact") + "." + std::string(depth_name);
   if (damper->gap > 0.0) return set_to(key, std::stod(fmt::format("{:.2g}", of_gap * damper->gap)));
   return changed("a positive", key, 1e-6);
+}
+
+// As stiff as lets the limit of a millionth of a metre hold, which is little beside most motions.
+Step elastic_friction(const Scene& scene) {
+  constexpr double displacement = 1e-6;  // m
+  for (const SceneContact& one : contacts_of(scene)) {
+    if (!has_friction(one.law) || one.values.contains("tangential_stiffness")) continue;
+    const bool own = one.pair && one.law != scene.contact.law;
+    const auto number = [&](const char* name) {
+      const auto found = one.values.find(name);
+      return found == one.values.end() ? 0.0 : std::get<double>(found->second);
+    };
+    const double limit = number("friction") * number("normal_load"),
+                 stiffness = limit > 0.0 ? limit / displacement : 1e6;
+    return set_to((own ? pair_section(*one.pair) : "contact") + ".tangential_stiffness",
+                  std::stod(fmt::format("{:.1g}", stiffness)));
+  }
+  return std::nullopt;
 }
 
 Step no_rebound(const Scene& scene) {

@@ -31,6 +31,7 @@ std::optional<NextStep> fewer_modes(const Scene& scene);
 std::optional<NextStep> other_frequency(const Scene& scene);
 std::optional<NextStep> static_load(const Scene& scene);
 std::optional<NextStep> other_gap(const Scene& scene);
+std::optional<NextStep> elastic_friction(const Scene& scene);
 std::optional<NextStep> moved_contact(const Scene& scene);
 std::optional<NextStep> softer_contact(const Scene& scene);
 std::optional<NextStep> damping_depth(const Scene& scene);

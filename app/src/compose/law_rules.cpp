@@ -106,9 +106,21 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
               "not with friction, whose phases are not followed along curves; expected false");
 }
 
+/// Rigid friction that is integrated in time begins at rest where the structure is.
+void check_sliders(const Document& document, const std::vector<SceneContact>& contacts) {
+  for (const SceneContact& contact : contacts)
+    if (has_friction(contact.law) && contact.values.contains("slider") &&
+        !contact.values.contains("tangential_stiffness"))
+      fail_law(
+          document, contact, "slider",
+          "not with friction without contact.tangential_stiffness, which is rigid: in time it begins where "
+          "the structure is; expected none, or contact.tangential_stiffness");
+}
+
 /// Rigid friction is solved in the form of the force, at contacts without mass.
 void check_rigid_friction(const Document& document, const Scene& scene) {
-  if (!names_rigid_friction(scene.contact) || integrates_in_time(scene.analysis.type)) return;
+  if (!names_rigid_friction(scene.contact)) return;
+  if (integrates_in_time(scene.analysis.type)) return check_sliders(document, contacts_of(scene));
   const std::string rigid = "not with friction without contact.tangential_stiffness, which is rigid: ";
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     fail_rule(document, {"analysis.type", "contact.law"},
@@ -139,6 +151,10 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
         document, {section + ".normal_stiffness", "contact.normal_stiffness"},
         "the contact has no tangent beside the direction dofs, which is then the tangent itself; expected 0, or "
         "[[contact.pairs]] with tangent");
+  if (!has_normal && contact::number_of(values, "normal_gap") != 0.0)
+    fail_law(document, contact, "normal_gap",
+             "the contact has no normal direction, whose spring it would shift; expected 0, or "
+             "[[contact.pairs]] with tangent");
   if (!has_normal && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
         document, {section + ".normal_load", "contact.normal_load"},

@@ -2,6 +2,7 @@
 #include "compose/scene_rules.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
+#include "scene/scene_reader.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -26,6 +27,10 @@ void check_mode_pair(const Document& document, const Scene& scene, bool damped) 
     fail_rule(document, {"time.trial", "time.weight"}, "expected both time.trial and time.weight, or none");
   const Analysis& analysis = scene.analysis;
   if (scene.time.trial.empty()) {
+    if (scene.time.functions != 0 || scene.time.quadrature_points != 0)
+      fail_rule(document, {"time.functions", "time.quadrature_points"},
+                "not without time.trial and time.weight; expected both of these, or analysis.harmonics and "
+                "analysis.samples");
     if (analysis.samples <= 2 * analysis.harmonics)
       fail_rule(document, {"analysis.samples", "analysis.harmonics"},
                 "expected samples > 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
@@ -83,6 +88,20 @@ void check_damped_mode(const Document& document, const Scene& scene) {
   check_mode_pair(document, scene, true);
 }
 
+/// The motions of a mode of rigid contacts with mass are Fourier series with analysis.harmonics.
+void check_no_bases(const Document& document, const Scene& scene) {
+  const Scene usual;
+  for (const SceneKey& key : scene_keys()) {
+    if (key.section != "time" || key.get(scene) == key.get(usual)) continue;
+    const DocumentEntry* entry = document.find("time", key.name);
+    if (entry == nullptr || is_of_former_analysis(document, *entry)) continue;
+    fail_at(
+        document, *entry,
+        "does not belong to a nonlinear mode of rigid contacts with mass, which is a Fourier series; expected "
+        "none, or analysis.harmonics");
+  }
+}
+
 }  // namespace
 
 void check_mode(const Document& document, const Scene& scene) {
@@ -111,6 +130,7 @@ void check_mode(const Document& document, const Scene& scene) {
               "expected samples >= 2 x harmonics = " + std::to_string(2 * analysis.harmonics));
   if (damped) check_damped_mode(document, scene);
   if (is_elastic_mode(scene)) check_mode_pair(document, scene, false);
+  if (!damped && !is_elastic_mode(scene)) check_no_bases(document, scene);
 }
 
 }  // namespace wavebalance::app

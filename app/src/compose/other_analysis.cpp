@@ -71,23 +71,33 @@ std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file,
   Document document = given;
   apply_overrides(document, overrides);
   Scene scene;
-  for (const char* name : {"structure.type", "contact.law", "time.method"}) set_text(scene, document, name);
+  for (const char* name : {"structure.type", "contact.law", "contact.mass", "time.method"})
+    set_text(scene, document, name);
   const SceneKey& analysis = *find_scene_key("analysis.type");
   if (std::find(analysis.choices.begin(), analysis.choices.end(), type) == analysis.choices.end())
     throw SceneError({"", 0, "--analysis " + type, "", "", "expected " + analysis.expected()});
   analysis.set(scene, type);
   const bool free_motion = type == "nonlinear_mode" && !has_friction_law(document);
+  const bool without_bases = free_motion && is_rigid(scene.contact.law) && !redistributes_mass(scene);
   std::vector<std::string> names;
   for (const DocumentEntry& entry : given.entries) {
     const SceneKey* key = find_scene_key(entry.full_name());
-    const bool stray = key != nullptr && entry.section != structure_section &&
-                       key->belongs.broken_by(scene) == "analysis.type";
+    const bool stray =
+        key != nullptr && entry.section != structure_section &&
+        (key->belongs.broken_by(scene) == "analysis.type" || (without_bases && entry.section == "time"));
     if (stray || (free_motion && acts_on_free_motion(entry))) names.push_back(entry.full_name());
   }
   const bool terms = std::any_of(given.sections.begin(), given.sections.end(),
                                  [](const DocumentSection& one) { return is_term_section(one.name); });
   if (free_motion && terms) names.emplace_back("forcing.terms");
   return names;
+}
+
+SceneChange as_response(const Scene& scene) {
+  SceneChange change{.analysis = "forced_response", .unset = {"time.tolerance"}};
+  if (!has_impacts(scene.contact) && scene.time.trial.empty())
+    change.set = {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"};
+  return change;
 }
 
 bool accepts(const Scene& scene, const SceneChange& change) {

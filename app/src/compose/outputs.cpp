@@ -49,14 +49,6 @@ int closing_direction(const SceneContact& contact, int row) {
   return never_opens ? -1 : row - contact.place;
 }
 
-/// "rad" of a contact between rotations alone.
-std::string unit_of(const Scene& scene, const SceneContact& contact) {
-  if (scene.structure.type != StructureType::matrices) return "m";
-  const auto files = structure_files(scene);
-  return std::ranges::all_of(contact.dofs, [&](int dof) { return is_rotation(*files, dof - 1); }) ? "rad"
-                                                                                                  : "m";
-}
-
 /// The displacement of a row of the files from those of the unknowns.
 Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
   const auto place = [row](const std::vector<int>& rows) -> Eigen::Index {
@@ -69,6 +61,19 @@ Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
 }
 
 }  // namespace
+
+std::string displacement_unit(const Scene& scene, const SceneContact& contact) {
+  if (scene.structure.type != StructureType::matrices) return "m";
+  const auto files = structure_files(scene);
+  const auto rotates = [&](int dof) { return is_rotation(*files, dof - 1); };
+  return std::ranges::all_of(contact.dofs, rotates) ? "rad" : "m";
+}
+
+std::string displacement_unit(const Scene& scene) {
+  const std::vector<SceneContact> contacts = contact_places(scene);
+  const auto rotates = [&](const SceneContact& one) { return displacement_unit(scene, one) == "rad"; };
+  return !contacts.empty() && std::ranges::all_of(contacts, rotates) ? "rad" : "m";
+}
 
 std::vector<Output> outputs_of(const Scene& scene) {
   std::vector<Output> outputs;
@@ -83,7 +88,7 @@ std::vector<Output> outputs_of(const Scene& scene) {
     outputs.push_back({.name = name,
                        .title = title,
                        .column = column_of(name),
-                       .unit = unit_of(scene, contacts[i]),
+                       .unit = displacement_unit(scene, contacts[i]),
                        .contact = static_cast<int>(i),
                        .closed_by = closing_direction(contacts[i], static_cast<int>(i))});
   }

@@ -71,6 +71,10 @@ std::vector<std::string> contact_names(const Scene& scene) {
   const auto files = structure_files(scene);
   std::vector<std::string> names;
   for (const SceneContact& contact : contact_places(scene)) {
+    if (!contact.name.empty()) {
+      names.push_back(contact.name);
+      continue;
+    }
     std::vector<std::string> rows;
     for (const int dof : contact.dofs) rows.push_back(files->row_name(dof - 1));
     const bool negative = contact.coefficients.front() < 0.0 && (!contact.pair || contact.dofs.size() == 1);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "plot/unit_prefix.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -40,16 +41,17 @@ Figure motions_figure(const Scene& scene, const Motions& all) {
   }
   const Scale length = axis_scale(reach), speed = axis_scale(fastest);
   const std::vector<SceneContact> contacts = contact_places(scene);
-  const std::string name = contacts.size() > 1 ? " of " + name_of(contacts[std::size_t(row)]) : "";
+  const std::string name = contacts.size() > 1 ? " of " + title_of(contacts[std::size_t(row)]) : "";
+  const std::string unit = displacement_unit(scene, contacts[std::size_t(row)]);
   figure.title = all.motions.size() > count ? "The first " + std::to_string(count) + " motions" : "";
   figure.panel_width = 600;
   figure.panel_height = 320;
   Panel over_time, portrait;
   over_time.title = "Displacement" + name;
   over_time.x.label = "Time (periods of the load)";
-  over_time.y.label = portrait.x.label = "Displacement (" + length.prefix + "m)";
+  over_time.y.label = portrait.x.label = "Displacement (" + length.prefix + unit + ")";
   portrait.title = "Velocity over displacement";
-  portrait.y.label = "Velocity (" + speed.prefix + "m/s)";
+  portrait.y.label = "Velocity (" + speed.prefix + unit + "/s)";
   for (std::size_t i = 0; i < count; ++i) {
     const FoundMotion& motion = all.motions[i];
     const Eigen::VectorXd u = once_around(motion.contacts.displacement, row, length.factor),

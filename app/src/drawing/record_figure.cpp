@@ -17,6 +17,7 @@
 #include "plot/thin_curve.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -220,23 +221,24 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
   const PeriodWindow window(response);
   const MotionPicture picture{response, window, contact_spans(scene, response, window),
-                              contacts.size() > 1 ? ", " + name_of(contact) : ""};
-  add_motion(figure, picture, "Displacement", "m", response.displacement());
+                              contacts.size() > 1 ? ", " + title_of(contact) : ""};
+  const std::string unit = displacement_unit(scene, contact), force_unit = unit == "rad" ? "N m" : "N";
+  add_motion(figure, picture, "Displacement", unit, response.displacement());
   if (response.impacts) {
     add_velocity_with_jumps(figure, window, "Velocity" + picture.name, *response.impacts, response.contact,
                             response.velocity());
     add_impulses(figure, window, "Impulses of impacts" + picture.name, *response.impacts, response.contact);
     if (!response.impacts->motion.lasting.empty())
-      add_motion(figure, picture, "Contact force", "N", response.force());
+      add_motion(figure, picture, "Contact force", force_unit, response.force());
   } else {
-    add_motion(figure, picture, "Velocity", "m/s", response.velocity());
+    add_motion(figure, picture, "Velocity", unit + "/s", response.velocity());
     add_motion(figure, picture,
-               has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force", "N",
-               response.force());
+               has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force",
+               force_unit, response.force());
   }
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
-    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, "m"));
+    figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));
   }
   add_friction(figure, scene, response, window);
   return figure;
@@ -332,7 +334,8 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   const StabilityAlong stability = sweep.stability_of(0);
   Panel& panel = figure.add_panel("Displacement of the contacts");
   panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = "Displacement (" + scale.prefix + "m)";
+  const std::string unit = displacement_unit(scene);
+  panel.y.label = "Displacement (" + scale.prefix + unit + ")";
   for (const auto& [label, value, colour] :
        {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
         {"rms with its mean", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
@@ -348,7 +351,7 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   mark_all_special_points(panel, sweep, scale.factor);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   if (const double gap = common_gap(scene); !std::isnan(gap))
-    panel.mark_level(scale.factor * gap, "gap", quantity(gap, "m"));
+    panel.mark_level(scale.factor * gap, "gap", quantity(gap, unit));
 }
 
 }  // namespace

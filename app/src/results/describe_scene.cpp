@@ -9,6 +9,7 @@
 #include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
 #include "files/number_text.hpp"
+#include "results/contact_line.hpp"
 #include "results/rest_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -17,14 +18,9 @@
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-std::string count_text(std::int64_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// Digits that a reader takes in; scene.toml has all of them.
 std::string seven_digits(double value) { return number_text(std::stod(fmt::format("{:.7g}", value))); }
@@ -66,66 +62,6 @@ std::string structure_line(const Scene& scene) {
       break;
   }
   return bar_line(scene.structure);
-}
-
-/// How many directions have an obstacle on either side; empty without any.
-std::string sides_text(const Scene& scene) {
-  const auto& pairs = scene.contact.pairs;
-  const auto both = std::count_if(pairs.begin(), pairs.end(),
-                                  [](const auto& one) { return one.side == ObstacleSide::both; });
-  if (both == 0) return "";
-  return "; two each of the " + count_text(both, "direction") + " with obstacles on both sides";
-}
-
-std::string contact_place(const Scene& scene) {
-  const StructureType type = scene.structure.type;
-  if (type == StructureType::bar) return "at the tip";
-  if (!scene.contact.pairs.empty()) return "at " + count_text(whole_contact_count(scene), "contact");
-  if (type == StructureType::blade && has_friction(scene))
-    return "at " + count_text(tip_corners(scene.structure.blade), "node") +
-           " along the tip, radially and along " + name_of(scene.contact.tangent);
-  const std::string count = count_text(contact_count(scene), "degree") + " of freedom";
-  return "at " + count + (type == StructureType::blade ? " along the tip, radially" : "");
-}
-
-/// "gap 0.1 m on either side", or both gaps where they differ; empty for a contact with one gap.
-std::string two_gaps_text(const SceneContact& contact) {
-  const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
-  if (!values.contains("gap_below")) return "";
-  const double below = contact::number_of(values, "gap_below");
-  if (below == contact.gap) return "gap " + number_text(below) + " m on either side";
-  return "gaps " + number_text(contact.gap) + " m above and " + number_text(below) + " m below";
-}
-
-std::string gap_text(const std::vector<SceneContact>& contacts) {
-  std::vector<double> gaps;
-  for (const SceneContact& one : contacts)
-    if (has_gap(one.law)) gaps.push_back(one.gap);
-  if (gaps.empty()) return "which acts everywhere";
-  const auto same = [&](const SceneContact& one) { return one.same_law(contacts.front()); };
-  if (std::all_of(contacts.begin(), contacts.end(), same))
-    if (const std::string both = two_gaps_text(contacts.front()); !both.empty()) return both;
-  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-  if (*least == *most) return "gap " + number_text(*least) + " m";
-  return "gaps " + number_text(*least) + " to " + number_text(*most) + " m";
-}
-
-std::string law_text(const std::vector<SceneContact>& contacts) {
-  if (std::all_of(contacts.begin(), contacts.end(),
-                  [](const SceneContact& one) { return is_rigid(one.law); }))
-    return contacts.front().values.contains("restitution") ? "impacts against a rigid obstacle"
-                                                           : "rigid obstacle";
-  std::vector<std::string> names;
-  for (const SceneContact& one : contacts)
-    if (std::find(names.begin(), names.end(), one.law) == names.end()) names.push_back(one.law);
-  return fmt::format("{} law{}", fmt::join(names, " and "), names.size() == 1 ? "" : "s");
-}
-
-std::string contact_line(const Scene& scene) {
-  if (scene.contact.law == no_law) return "contact    none: the problem is linear\n";
-  const std::vector<SceneContact> contacts = contacts_of(scene);
-  return "contact    " + law_text(contacts) + " " + contact_place(scene) + ", " + gap_text(contacts) +
-         sides_text(scene) + "\n";
 }
 
 std::string force_place(const Scene& scene) {

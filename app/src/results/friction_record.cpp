@@ -47,17 +47,22 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
   return table;
 }
 
-// The rows of the sentence "contacts 2, 5 and 7".
-void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts) {
+// In time rigid friction begins where the structure is, whatever slider says.
+void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts, bool in_time) {
   std::vector<int> stuck;
+  bool elastic = true;
   for (const FrictionMeasures& one : contacts)
-    if (one.period.history_dependent) stuck.push_back(one.number);
+    if (one.period.history_dependent) {
+      stuck.push_back(one.number);
+      elastic = elastic && !one.law.rigid();
+    }
   if (stuck.empty()) return;
-  record.warnings.push_back(fmt::format(
-      "Contact{} {} neither slip{} nor open{}: the force there depends on the past, and slider says from which position "
-      "on.",
-      stuck.size() == 1 ? "" : "s", fmt::join(stuck, ", "), stuck.size() == 1 ? "s" : "",
-      stuck.size() == 1 ? "s" : ""));
+  const char* ending = stuck.size() == 1 ? "s" : "";
+  const bool settable = elastic || !in_time;
+  record.warnings.push_back(
+      fmt::format("Contact{} {} neither slip{} nor open{}: the force there depends on the past{}.",
+                  stuck.size() == 1 ? "" : "s", fmt::join(stuck, ", "), ending, ending,
+                  settable ? ", and slider says from which position on" : ""));
 }
 
 /// The friction work beside the work that the contact forces take from the motion in a period, which is that
@@ -126,7 +131,7 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
     append_energy_error(
         record,
         response.flow ? missing : energy_error(contacts, response.contacts, response.periods / frequency));
-  warn_of_history(record, contacts);
+  warn_of_history(record, contacts, response.flow.has_value());
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});
 }

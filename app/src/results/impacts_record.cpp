@@ -93,7 +93,23 @@ void append_events(Record& record, const Response& response, double frequency) {
                             "the events of a period: instants, the states that begin there, impulses"});
 }
 
+/// Where the contacts change their states without end.
+void append_endless(Record& record, const Response& response, double frequency) {
+  if (!response.flow || response.flow->ended != solvers::FlowStatus::endless_events) return;
+  const solvers::FlowMotion& flow = *response.flow;
+  if (flow.events.empty()) return;
+  const solvers::FlowEvent& last = flow.events.back();
+  const double instant = flow.stepping.periods / frequency + last.time;
+  record.summary.emplace_back(quantities::endless_contact, std::int64_t{last.contact + 1});
+  record.summary.emplace_back(quantities::endless_time, instant);
+  record.warnings.push_back(fmt::format(
+      "Contact {} changes its state again and again in a vanishing time, {:.6g} s after the start of "
+      "the integration, which ends there.",
+      last.contact + 1, instant));
+}
+
 void append_impacts(Record& record, const Scene& scene, const Response& response) {
+  append_endless(record, response, scene.forcing.frequency);
   append_events(record, response, scene.forcing.frequency);
   if (!response.impacts) return;
   const solvers::ImpactMotion& motion = response.impacts->motion;

@@ -21,8 +21,8 @@ inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"},
     inner_products{"inner_products", setting}, functions{"functions", setting},
     quadrature_points{"quadrature_points", setting}, sample_offset{"sample_offset", setting},
     nyquist{"nyquist", setting}, harmonics{"harmonics", setting}, samples{"samples", setting},
-    contacts{"contacts", setting}, contact_directions{"contact_directions", setting},
-    degrees_of_freedom{"degrees_of_freedom", setting},
+    contacts{"contacts", setting}, displacement_unit{"displacement_unit", setting},
+    contact_directions{"contact_directions", setting}, degrees_of_freedom{"degrees_of_freedom", setting},
     reduced_degrees_of_freedom{"reduced_degrees_of_freedom", setting};
 
 inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"},
@@ -50,7 +50,7 @@ inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknow
     isolas{"isolas"}, special_points_of_isolas{"special_points_of_isolas"},
     isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
     isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"}, rest_status{"rest_status"},
-    outputs{"outputs"};
+    outputs{"outputs"}, endless_contact{"endless_contact"}, endless_time{"endless_time_s", diagnostic, "s"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

@@ -1,4 +1,5 @@
 #include "wavebalance/app/results/record.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 
 #include <fmt/format.h>
 
@@ -136,12 +137,12 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
       response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
   if (response.moves && scene.contact.law != no_law && !touches)
     warn_of_open_contacts(record, model.gaps[response.contact] - response.leading().displacement.maxCoeff(),
-                          model.gaps[response.contact]);
+                          model.gaps[response.contact], displacement_unit(scene));
   if (!response.impacts) append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1 && !response.impacts)
     record.summary.emplace_back(quantities::change_after_one_period,
                                 response.moves ? response.change_after_one : missing);
-  append_attractor(record, response.periods, response);
+  append_attractor(record, scene, response);
   if (!response.form.empty()) record.summary.emplace_back(quantities::form, response.form);
   append_rigid(record.summary, response);
   if (response.phases)
@@ -250,7 +251,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.summary.emplace_back(quantities::points, std::int64_t{points});
   warn_of_scene(record, scene);
   if (points > 0 && scene.contact.law != no_law && !touches(sweep))
-    warn_of_open_contacts(record, common_gap(scene) - highest, common_gap(scene));
+    warn_of_open_contacts(record, common_gap(scene) - highest, common_gap(scene), displacement_unit(scene));
   if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
   append_impacts(record, sweep);
   append_stability(record, scene, sweep);

@@ -9,6 +9,7 @@
 #include "files/missing.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -20,16 +21,16 @@ std::vector<std::string> names_of(const Scene& scene) {
 }
 
 /// "contact 2 (-node 18 z): 5.28 mm, 0.28 mm past its gap of 5 mm, 281 N".
-std::string contact_text(const SceneContact& contact, const std::string& name, double displacement,
-                         double force) {
+std::string contact_text(const SceneContact& contact, const std::string& name, const std::string& unit,
+                         double displacement, double force) {
   std::string text = fmt::format("{}{}: {}", name_of(contact), name.empty() ? "" : " (" + name + ")",
-                                 quantity(displacement, "m"));
+                                 quantity(displacement, unit));
   if (has_gap(contact.law)) {
     const double past = displacement - contact.gap;
-    text += fmt::format(", {} {} its gap of {}", quantity(std::abs(past), "m"),
-                        past < 0.0 ? "short of" : "past", quantity(contact.gap, "m"));
+    text += fmt::format(", {} {} its gap of {}", quantity(std::abs(past), unit),
+                        past < 0.0 ? "short of" : "past", quantity(contact.gap, unit));
   }
-  return text + ", " + quantity(force, "N");
+  return text + ", " + quantity(force, unit == "rad" ? "N m" : "N");
 }
 
 // A contact is closed where its first direction, its normal one where it has tangents, has a force. One with
@@ -83,8 +84,8 @@ std::string rest_lines(const Scene& scene) {
                                  whole_contact_count(scene), closed == 1 ? "is closed" : "are closed");
   for (std::size_t i = 0; i < std::min(shown, contacts.size()); ++i)
     text += "           " +
-            contact_text(contacts[i], names[i], rest->displacement[Eigen::Index(i)],
-                         rest->force[Eigen::Index(i)]) +
+            contact_text(contacts[i], names[i], displacement_unit(scene, contacts[i]),
+                         rest->displacement[Eigen::Index(i)], rest->force[Eigen::Index(i)]) +
             "\n";
   if (contacts.size() > shown)
     text += fmt::format("           and {} more; the record lists all\n", contacts.size() - shown);

@@ -108,9 +108,11 @@ void append_structure_points(Record& record, const Sweep& sweep) {
   if (none > 0) errors.push_back(fmt::format("{} have none of their type near", none));
   if (!errors.empty())
     record.warnings.push_back(fmt::format(
-        "Of {} special points of the curve {} are an error of the functions and points: {}. structure_special_points lists "
-        "the {} of the structure.",
-        points.of_balance.size(), repeated + none, fmt::join(errors, " and "), points.events.size()));
+        "Of {} special points of the curve {} are an error of the functions and points: {}. {}",
+        points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
+        points.events.empty()
+            ? std::string("No special point of the structure was found.")
+            : fmt::format("structure_special_points lists the {} of the structure.", points.events.size())));
   if (left == 0) return;
   record.warnings.push_back(
       fmt::format("For {} of {} special points of the curve it is not known whether the structure has them: "

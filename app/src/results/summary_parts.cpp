@@ -12,6 +12,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -49,6 +50,8 @@ void append_discretisation(Summary& summary, const Time& time) {
 void append_structure(Summary& summary, const Scene& scene, const StructureModel& model) {
   const int contacts = whole_contact_count(scene);
   summary.emplace_back(quantities::contacts, std::int64_t{contacts});
+  if (const std::string unit = displacement_unit(scene); unit != "m")
+    summary.emplace_back(quantities::displacement_unit, unit);
   if (contacts != model.contacts())
     summary.emplace_back(quantities::contact_directions, std::int64_t{model.contacts()});
   summary.emplace_back(quantities::degrees_of_freedom, std::int64_t{model.unknowns});
@@ -93,12 +96,12 @@ void warn_of_scene(Record& record, const Scene& scene) {
     const ContactPair& pair = scene.contact.pairs[i];
     if (pair.side == ObstacleSide::both && has_gap(pair.law) && pair.gap < 0.0)
       record.warnings.push_back(fmt::format(
-          "{}.gap is {:.4g} m with side = \"both\": both obstacles press on the structure at rest.",
-          pair_section(i), pair.gap));
+          "{}.gap is {:.4g} {} with side = \"both\": both obstacles press on the structure at rest.",
+          pair_section(i), pair.gap, displacement_unit(scene)));
   }
 }
 
-void warn_of_open_contacts(Record& record, double distance, double gap) {
+void warn_of_open_contacts(Record& record, double distance, double gap, const std::string& unit) {
   if (std::isnan(distance)) {
     record.warnings.emplace_back("No contact closes.");
     return;
@@ -106,8 +109,8 @@ void warn_of_open_contacts(Record& record, double distance, double gap) {
   record.warnings.push_back(
       distance > 0.0
           ? fmt::format("No contact closes: the nearest stays {} short of its gap of {}.",
-                        quantity(distance, "m"), quantity(gap, "m"))
-          : fmt::format("No contact exerts a force, though one reaches its gap of {}.", quantity(gap, "m")));
+                        quantity(distance, unit), quantity(gap, unit))
+          : fmt::format("No contact exerts a force, though one reaches its gap of {}.", quantity(gap, unit)));
 }
 
 void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int row) {
@@ -137,12 +140,23 @@ void append_period(Record& record, int periods, int motion_periods) {
       periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods));
 }
 
-void append_attractor(Record& record, int periods, const Response& response) {
+/// ", which analysis.subharmonic = 2 computes", where the scene takes it.
+std::string computed_by(const Scene& scene, int periods) {
+  SceneChange change = as_response(scene);
+  change.set.push_back(fmt::format("analysis.subharmonic={}", periods));
+  if (!accepts(scene, change)) return "";
+  return fmt::format(
+      ", which {}analysis.subharmonic = {} computes",
+      scene.analysis.type == AnalysisType::forced_response ? "" : "analysis.type = \"forced_response\" with ",
+      periods);
+}
+
+void append_attractor(Record& record, const Scene& scene, const Response& response) {
   if (response.attractor_periods < 0) return;
   record.summary.emplace_back(quantities::attractor_periods, std::int64_t{response.attractor_periods});
   const int attractor = response.attractor_periods;
   const char* start = response.flow ? "From contacts at rest" : "From rest";
-  if (attractor > 0 && periods % attractor == 0) {
+  if (attractor > 0 && response.periods % attractor == 0) {
     if (!response.moves)
       record.warnings.push_back(
           "From rest the structure settles to a motion of this period, which the equations of these functions "
@@ -154,9 +168,8 @@ void append_attractor(Record& record, int periods, const Response& response) {
           ? fmt::format("{} the motion did not repeat after up to 16 periods of the load within the periods "
                         "integrated: it is aperiodic, or has not settled yet.",
                         start)
-          : fmt::format(
-                "{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
-                response.flow ? "" : fmt::format(", which analysis.subharmonic = {} computes", attractor)));
+          : fmt::format("{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
+                        computed_by(scene, attractor)));
 }
 
 void append_settled(Record& record, const Scene& scene, const Response& response) {

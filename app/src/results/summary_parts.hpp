@@ -30,7 +30,7 @@ void add_contacts(Record& record, const Scene& scene, const solvers::Motion& con
 void append_period(Record& record, int periods, int motion_periods);
 
 /// What the structure does from rest, where it was integrated.
-void append_attractor(Record& record, int periods, const Response& response);
+void append_attractor(Record& record, const Scene& scene, const Response& response);
 
 /// What the structure settles to beside an unstable response, and what was not sought.
 void append_settled(Record& record, const Scene& scene, const Response& response);
@@ -46,7 +46,7 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
 void warn_of_scene(Record& record, const Scene& scene);
 /// The same about contacts of which none closes, by how far (m) the one that comes nearest to its gap (m)
 /// stays from it; NaN where contacts differ.
-void warn_of_open_contacts(Record& record, double distance, double gap);
+void warn_of_open_contacts(Record& record, double distance, double gap, const std::string& unit);
 
 /// Where the solution started, and what to do if that led nowhere.
 void append_start(Record& record, const StartMotion& start, bool found, double distance);

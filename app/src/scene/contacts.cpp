@@ -11,11 +11,13 @@ namespace wavebalance::app {
 
 namespace {
 
-void add_tangents(const ContactPair& pair, std::size_t index, std::vector<SceneContact>& contacts) {
+void add_tangents(const ContactPair& pair, std::size_t index, const std::string& name,
+                  std::vector<SceneContact>& contacts) {
   int place = 0;
   const auto add = [&](const std::vector<int>& dofs, const std::vector<double>& coefficients) {
     if (!dofs.empty())
-      contacts.push_back({.dofs = dofs, .coefficients = coefficients, .pair = index, .place = ++place});
+      contacts.push_back(
+          {.dofs = dofs, .coefficients = coefficients, .pair = index, .place = ++place, .name = name});
   };
   add(pair.tangent, pair.tangent_coefficients);
   add(pair.second_tangent, pair.second_tangent_coefficients);
@@ -50,13 +52,14 @@ std::vector<SceneContact> unnumbered_places(const Scene& scene) {
     contacts.push_back({.dofs = {std::abs(dof)}, .coefficients = {dof > 0 ? 1.0 : -1.0}});
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
-    SceneContact one{.dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i};
+    SceneContact one{.dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i, .name = pair.name};
     if (pair.side != ObstacleSide::negative) contacts.push_back(one);
-    if (pair.side != ObstacleSide::negative) add_tangents(pair, i, contacts);
+    if (pair.side != ObstacleSide::negative) add_tangents(pair, i, one.name, contacts);
     for (double& coefficient : one.coefficients) coefficient = -coefficient;
     if (pair.side == ObstacleSide::positive) continue;
-    contacts.push_back(std::move(one));
-    add_tangents(pair, i, contacts);
+    if (pair.side == ObstacleSide::both && !pair.name.empty()) one.name = "-" + pair.name;
+    contacts.push_back(one);
+    add_tangents(pair, i, one.name, contacts);
   }
   return contacts;
 }
@@ -98,6 +101,10 @@ bool has_directions(const std::vector<SceneContact>& contacts) {
 std::string name_of(const SceneContact& contact) {
   const std::string direction = direction_name(contact);
   return "contact " + std::to_string(contact.number) + (direction.empty() ? "" : " " + direction);
+}
+
+std::string title_of(const SceneContact& contact) {
+  return name_of(contact) + (contact.name.empty() ? "" : ", " + contact.name);
 }
 
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap) {

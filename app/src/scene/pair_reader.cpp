@@ -55,6 +55,7 @@ class PairReader {
     read_direction({"second_tangent", "second_tangent_coefficients", pair_.second_tangent,
                     pair_.second_tangent_coefficients});
     take("side");
+    take("name");
   }
 
   struct PairDirection {

@@ -264,7 +264,8 @@ std::string stray_text(const SceneKey& key, std::string_view broken, const Scene
 void read_key(const Document& document, const SceneKey& key, Scene& scene) {
   const DocumentEntry* entry = document.find(key.section, key.name);
   if (const std::string_view broken = key.belongs.broken_by(scene); !broken.empty()) {
-    if (entry != nullptr) fail_at(document, *entry, stray_text(key, broken, scene));
+    if (entry != nullptr && (broken != "analysis.type" || !is_of_former_analysis(document, *entry)))
+      fail_at(document, *entry, stray_text(key, broken, scene));
     return;
   }
   if (entry != nullptr)
@@ -280,6 +281,11 @@ void read_key(const Document& document, const SceneKey& key, Scene& scene) {
 void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed) {
   throw SceneError(
       {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
+}
+
+bool is_of_former_analysis(const Document& document, const DocumentEntry& entry) {
+  const DocumentEntry* type = document.find("analysis", "type");
+  return entry.section == "time" && entry.override.empty() && type != nullptr && !type->override.empty();
 }
 
 std::string path_in(const Document& document, const std::string& name) {

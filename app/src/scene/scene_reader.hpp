@@ -20,4 +20,8 @@ SceneValue checked_value(const Document& document, const DocumentEntry& entry, c
 /// filled in. The rules between keys are not checked here. Throws SceneError.
 Scene read_scene(const Document& document);
 
+/// Whether a basis or size of the file is left over from the analysis that an override has replaced. Such a
+/// key is left out where it does not belong.
+bool is_of_former_analysis(const Document& document, const DocumentEntry& entry);
+
 }  // namespace wavebalance::app

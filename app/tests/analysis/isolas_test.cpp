@@ -200,8 +200,10 @@ TEST(Isolas, RefuseWhatDoesNotSettle) {
   expect_parts({"analysis.isolas=true", "analysis.isola_spacing=1e-7"},
                {"analysis.isola_spacing = 1e-7", "at most 100000"});
   for (const std::string type : {"forced_response", "time_stepping"}) {
-    const std::string text = message_of(stop_scene.substr(0, stop_scene.find("[analysis]")) +
-                                        "[analysis]\nisolas = true\ntype = \"" + type + "\"\n");
+    const bool stepping = type == "time_stepping";
+    const std::string text =
+        message_of(stop_scene.substr(0, stop_scene.find(stepping ? "[time]" : "[analysis]")) +
+                   "[analysis]\nisolas = true\ntype = \"" + type + "\"\n");
     EXPECT_NE(text.find("analysis.isolas = true"), std::string::npos) << text;
     EXPECT_NE(text.find("frequency_sweep"), std::string::npos) << text;
   }

@@ -107,8 +107,8 @@ TEST(CommandKeys, OfAChoiceLeaveOutWhatSuchASceneMayNotHold) {
 
 TEST(CommandKeys, OfALawAreItsOwnParametersAsItHasThem) {
   const std::string text = selected_keys_text({"contact", "contact.law=linear"});
-  const std::vector<std::string> expected{"dofs", "coefficients", "side", "law",  "stiffness", "gap",
-                                          "law",  "stiffness",    "gap",  "form", "mass"};
+  const std::vector<std::string> expected{"dofs", "coefficients", "side",      "law", "name", "stiffness",
+                                          "gap",  "law",          "stiffness", "gap", "form", "mass"};
   EXPECT_EQ(names_in(text), expected);
   EXPECT_NE(text.find("slope of the linear law.\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("clearance law"), std::string::npos) << text;

@@ -230,14 +230,14 @@ TEST_F(ChainScene, KeysOfAnotherTypeAreErrorsThatNameIt) {
 }
 
 TEST_F(ChainScene, NonlinearModesAreWithoutDampingAndWithPositiveGaps) {
-  const std::string mode = with(with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# "),
-                                "forced_response", "nonlinear_mode");
-  EXPECT_EQ(error_of(mode).key, "structure.modal_damping");
-  const std::string undamped = with(mode, "modal_damping = 0.01", "");
-  EXPECT_EQ(load(undamped).analysis.samples, 20);
-  EXPECT_EQ(error_of(with(undamped, "gap = 1e-4", "gap = [1e-4, 0]")).key, "contact.gap");
-  EXPECT_EQ(error_of(undamped, {"analysis.mode=4"}).key, "analysis.mode");
-  EXPECT_EQ(error_of(undamped, {"structure.damping=k.mtx"}).key, "structure.damping");
+  const std::string mode = "analysis.type=nonlinear_mode",
+                    rigid = with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# ");
+  EXPECT_EQ(error_of(rigid, {mode}).key, "structure.modal_damping");
+  const std::string undamped = with(rigid, "modal_damping = 0.01", "");
+  EXPECT_EQ(load(undamped, {mode}).analysis.samples, 20);
+  EXPECT_EQ(error_of(with(undamped, "gap = 1e-4", "gap = [1e-4, 0]"), {mode}).key, "contact.gap");
+  EXPECT_EQ(error_of(undamped, {mode, "analysis.mode=4"}).key, "analysis.mode");
+  EXPECT_EQ(error_of(undamped, {mode, "structure.damping=k.mtx"}).key, "structure.damping");
 }
 
 TEST_F(ChainScene, CheckSaysHowLargeItIs) {

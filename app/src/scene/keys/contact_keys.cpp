@@ -130,6 +130,9 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
   pair(&ContactPair::law, "law", "", "contact law of this pair",
        one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law && !law.rigid; })),
        derived("that of [contact]", [](const Scene& scene) { return scene.contact.law; }));
+  pair(&ContactPair::name, "name", "",
+       "of the contact, by which texts and pictures show it beside its number",
+       derived("none", [](const Scene&) { return std::string(); }));
   add_law_keys_of_pair(keys, index);
   return keys;
 }

@@ -23,6 +23,9 @@ struct SceneChange {
   std::string added = {};               ///< TOML, as "[[forcing.terms]]\nharmonic = 0"
 };
 
+/// The scene as a forced response, with usual bases and sizes where it has none; impacts take none.
+SceneChange as_response(const Scene& scene);
+
 /// Whether the scene with this change passes the rules of a file. Keys that the change does not name and that
 /// do not belong to the changed scene are left out, but not keys of the structure that are set. Matrices are
 /// not read again, unless kept_modes is what changes.

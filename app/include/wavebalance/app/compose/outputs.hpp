@@ -25,6 +25,11 @@ struct Output {
   bool is_contact() const { return contact >= 0; }
 };
 
+/// The unit of the displacement of a contact: "rad" between rotations alone, otherwise "m".
+std::string displacement_unit(const Scene& scene, const SceneContact& contact);
+/// "rad" where all contacts are between rotations, otherwise "m".
+std::string displacement_unit(const Scene& scene);
+
 /// analysis.outputs of a scene and, with analysis.contact_outputs, its contacts after them.
 std::vector<Output> outputs_of(const Scene& scene);
 

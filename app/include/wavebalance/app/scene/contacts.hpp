@@ -17,6 +17,8 @@ struct SceneContact {
   int place = 0;                          ///< among the directions of its contact, from 0
   int number = 1;      ///< of its contact, from 1: the one number that files, pages and messages have
   int directions = 1;  ///< of its contact
+  /// That of its pair, with a minus sign for the negative one of two obstacles; empty where it has none.
+  std::string name = {};
   std::string law{no_law};
   contact::LawValues values = {};  ///< of this law alone, its gap included
   double gap = 0.0;                ///< m; without meaning where the law has no gap
@@ -43,6 +45,8 @@ std::string direction_name(const SceneContact& contact);
 bool has_directions(const std::vector<SceneContact>& contacts);
 /// "contact 2", "contact 2 tangent".
 std::string name_of(const SceneContact& contact);
+/// The same with the name that the scene gives it, "contact 2 tangent, baffle 1".
+std::string title_of(const SceneContact& contact);
 
 /// The gap of all contacts; NaN where they differ or one has none.
 double common_gap(const Scene& scene);

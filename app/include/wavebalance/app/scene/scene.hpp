@@ -137,6 +137,7 @@ struct ContactPair {
   std::string law{no_law};         ///< as in Contact
   contact::LawValues values = {};  ///< as in Contact
   double gap = 0.0;                ///< m, on every side that has an obstacle
+  std::string name = {};           ///< by which texts and pictures show it, too; empty: by its number alone
 
   /// A value by its name. Throws std::out_of_range where none is set.
   double number(std::string_view parameter) const { return contact::number_of(values, parameter); }
