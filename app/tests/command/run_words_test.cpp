@@ -31,6 +31,22 @@ Summary motion(bool converged) {
           {"frequency_Hz", 150.0}};
 }
 
+TEST(RunWords, PeaksHaveTheDigitsThatThePointsOfTheirCurveDetermine) {
+  Summary curve = motion(true);
+  for (auto& entry : curve)
+    if (entry.name == "analysis") entry.value = std::string("frequency_sweep");
+  curve.insert(curve.end(), {{"points", std::int64_t{20}},
+                             {"vibration_m", 1.21234e-3},
+                             {"frequency_at_largest_vibration_Hz", 1013.9},
+                             {"frequency_at_max_displacement_Hz", 1013.9},
+                             {"peak_value_resolution", 2e-3},
+                             {"peak_place_resolution", 3.0},
+                             {"displacement_unit", std::string("rad")}});
+  const std::string text = joined(outcome_sentences(curve, 1e-3, {"frequency", "Hz"}));
+  EXPECT_NE(text.find("is 1.21 mrad (half peak to peak), at 1010 Hz."), std::string::npos) << text;
+  EXPECT_NE(text.find("The largest displacement is 1.02 mrad, at 1010 Hz, "), std::string::npos) << text;
+}
+
 TEST(RunWords, QuantitiesHaveAPrefixThatMakesThemReadable) {
   EXPECT_EQ(quantity(1.02e-3, "m"), "1.02 mm");
   EXPECT_EQ(quantity(-1.4e-3, "m"), "-1.4 mm");
