@@ -9,22 +9,11 @@
 #include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
-#include "linalg/root.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using detail::force_kind;
-
-// Closer at the beginning, where a state may end soon after an event.
-Eigen::VectorXd dense_points() {
-  constexpr int even = 33, close = 7;
-  std::vector<double> points;
-  for (int k = 0; k < even; ++k) points.push_back(-std::cos(std::numbers::pi * k / (even - 1)));
-  for (int k = 0; k < close; ++k) points.push_back(-1.0 + std::ldexp(1.0, -6 - 2 * k));
-  std::sort(points.begin(), points.end());
-  return Eigen::Map<const Eigen::VectorXd>(points.data(), Index(points.size()));
-}
 
 // The level of panels on which the fastest pole of weight turns by a limited angle.
 int coarsest_level(const detail::ContactPoles& poles, int panels) {
@@ -62,7 +51,6 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       machines_(machines_of(problem.laws, problem.dynamics, length_of(problem), problem.frequency)),
       contacts_(machines_),
       nodes_(detail::panel_nodes),
-      dense_(dense_points()),
       rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
       length_(length_of(problem)),
       coarsest_(coarsest_level(poles_, options.panels)),
@@ -76,7 +64,7 @@ const detail::PanelShape& ContactFlow::Engine::shape(int level) {
   auto& kept = shapes_[level];
   if (!kept) {
     const double half = std::ldexp(0.5 * poles_.period() / options_.panels, -level);
-    kept = std::make_unique<detail::PanelShape>(poles_, nodes_, half, dense_);
+    kept = std::make_unique<detail::PanelShape>(poles_, nodes_, half, dense_.at);
   }
   return *kept;
 }
@@ -181,125 +169,6 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
   return std::nullopt;
 }
 
-double ContactFlow::Engine::guard_at(const Solved& panel, Index c, int exit, double at) const {
-  const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), Eigen::VectorXd::Constant(1, at));
-  const detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
-  const detail::LocalValues local(contacts_, c, signals, 0, now_.memory);
-  return contacts_.law(c).guard(now_.state[std::size_t(c)], exit, local.signals()).value;
-}
-
-// A guard that a contact at rest keeps at zero is not as small as its values are.
-double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
-  const double rate = 2.0 * std::numbers::pi / poles_.period();
-  const std::array<double, 4> scales{length_, length_ * rate, length_ * rate * rate, force_size_};
-  double sum = 0.0;
-  for (std::size_t k = 0; k < scales.size(); ++k)
-    for (int i = 0; i < rows; ++i)
-      sum += std::abs(guard.slope[k * std::size_t(rows) + std::size_t(i)]) * scales[k];
-  return sum;
-}
-
-ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel,
-                                                                    const detail::Signals& dense, Index c,
-                                                                    int exit) {
-  const int state = now_.state[std::size_t(c)];
-  const LawMachine& law = contacts_.law(c);
-  const Index first = panel.shape->nodes() + 1;
-  GuardSamples samples;
-  double& size = size_[{c, 64 * state + exit}];
-  for (Index k = 0; k < dense_.size(); ++k) {
-    const detail::LocalValues local(contacts_, c, dense, first + k, now_.memory);
-    const Dual guard = law.guard(state, exit, local.signals());
-    samples.value.push_back(guard.value);
-    samples.rate.push_back(panel.shape->half() *
-                           detail::SlopeOfSignals{contacts_, c, guard, 0.0}.rate(dense, first + k));
-    size = std::max({size, std::abs(guard.value), k == 0 ? scale_of(guard, law.rows()) : 0.0});
-  }
-  constexpr double clear = 1e-11;
-  samples.clear = clear * size;
-  return samples;
-}
-
-// Where a guard first goes below zero between two points at which it is positive, if it does: a touch that
-// the points miss. Its cubic tells whether it comes near.
-std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const GuardSamples& samples,
-                                                 std::size_t k, Index c, int exit) const {
-  const double low = dense_[Index(k)], width = dense_[Index(k) + 1] - low, a = samples.value[k],
-               b = samples.value[k + 1], u = width * samples.rate[k], v = width * samples.rate[k + 1];
-  if (!(u < 0.0 && v > 0.0)) return std::nullopt;
-  const double c2 = 3.0 * (b - a) - 2.0 * u - v, c3 = u + v - 2.0 * (b - a),
-               lowest = -u / (c2 + std::sqrt(c2 * c2 - 3.0 * c3 * u)),
-               least = a + lowest * (u + lowest * (c2 + lowest * c3));
-  constexpr double near = 0.2;
-  if (least > near * std::min(a, b)) return std::nullopt;
-  const auto at = [&](double t) { return guard_at(panel, c, exit, low + t * width); };
-  constexpr double golden = 0.381966011250105;
-  double from = 0.0, to = 1.0, left = golden, right = 1.0 - golden, at_left = at(left), at_right = at(right);
-  for (int n = 0; n < 40 && std::min(at_left, at_right) >= -samples.clear; ++n) {
-    if (at_left < at_right) {
-      to = std::exchange(right, left);
-      at_right = at_left;
-      at_left = at(left = from + golden * (to - from));
-    } else {
-      from = std::exchange(left, right);
-      at_left = at_right;
-      at_right = at(right = to - golden * (to - from));
-    }
-  }
-  const double deepest = at_left < at_right ? left : right, value = std::min(at_left, at_right);
-  if (value >= -samples.clear) return std::nullopt;
-  const auto share = detail::root(at, {0.0, a}, {deepest, value}, 1e-15);
-  return share ? std::optional(low + *share * width) : std::nullopt;
-}
-
-// Guards that vanish at the beginning, behind an event, count by their first clear value.
-std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense, Index c,
-                                                  int exit) {
-  const GuardSamples samples = sample_guard(panel, dense, c, exit);
-  const std::vector<double>& g = samples.value;
-  const auto at = [&](double x) { return guard_at(panel, c, exit, x); };
-  const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
-  std::size_t k = 0;
-  while (k < g.size() && !is_clear(k)) ++k;
-  // What an event before has left slightly below zero, and grows, is as zero.
-  constexpr double left_over = 1e4;  // of `clear`
-  if (k == 0 && g[0] < 0.0 && g[0] > -left_over * samples.clear && samples.rate[0] > 0.0)
-    while (k < g.size() && g[k] < samples.clear) ++k;
-  if (k == g.size()) return std::nullopt;
-  if (g[k] < 0.0) {
-    double largest_rate = 0.0;
-    for (const double rate : samples.rate) largest_rate = std::max(largest_rate, std::abs(rate));
-    if (k == 0 || samples.rate[0] <= 1e-9 * largest_rate) return -1.0;
-    double low = dense_[Index(k)];
-    while (at(low) <= 0.0) {
-      low = -1.0 + 0.5 * (low + 1.0);
-      if (low + 1.0 < 1e-13) return -1.0;
-    }
-    return detail::root(at, {low, at(low)}, {dense_[Index(k)], g[k]}, 1e-15);
-  }
-  for (std::size_t last = k++; k < g.size(); ++k) {
-    if (!is_clear(k)) continue;
-    if (g[k] < 0.0) return detail::root(at, {dense_[Index(last)], g[last]}, {dense_[Index(k)], g[k]}, 1e-15);
-    if (last + 1 == k)
-      if (const auto touched = touch(panel, samples, last, c, exit)) return touched;
-    last = k;
-  }
-  return std::nullopt;
-}
-
-std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel) {
-  const detail::Signals dense = motion(*panel.shape).at(panel.shape->waves(), panel.force);
-  std::optional<Hit> best;
-  for (Index c = 0; c < contacts_.count(); ++c) {
-    const int exits = int(contacts_.law(c).exits(now_.state[std::size_t(c)]).size());
-    for (int exit = 0; exit < exits; ++exit) {
-      const auto at = hit_of(panel, dense, c, exit);
-      if (at && (!best || *at < best->at)) best = Hit{*at, c, exit};
-    }
-  }
-  return best;
-}
-
 void ContactFlow::Engine::keep(const Solved& panel, double end) {
   constexpr double nothing = 1e-13;  // periods
   const double half = panel.shape->half(), until = std::min(time_ + half * (end + 1.0), poles_.period());
@@ -327,10 +196,10 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
 
 void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
                                  const Eigen::VectorXcd& before) {
-  const Index c = hit.contact;
+  const Index c = hit.guard.contact;
   const LawMachine& law = contacts_.law(c);
   const int state = now_.state[std::size_t(c)];
-  const StateExit exit = law.exits(state)[std::size_t(hit.exit)];
+  const StateExit exit = law.exits(state)[std::size_t(hit.guard.exit)];
   const detail::LocalValues local(contacts_, c, signals, 0, now_.memory);
   FlowEvent event{.time = time_, .contact = int(c), .from = state};
   std::optional<Dual> impulse;
@@ -355,15 +224,15 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   int to = exit.targets.front();
   if (exit.targets.size() > 1) {
     const detail::LocalValues behind(contacts_, c, after, 0, now_.memory);
-    to = law.choose(state, hit.exit, local.signals(), behind.signals());
+    to = law.choose(state, hit.guard.exit, local.signals(), behind.signals());
   }
   std::vector<Dual> memory;
   if (law.remembers(to)) {
     memory.resize(std::size_t(law.memories()));
-    law.remember(state, hit.exit, local.signals(), memory);
+    law.remember(state, hit.guard.exit, local.signals(), memory);
   }
   if (!variation_.empty()) {
-    const Dual guard = law.guard(state, hit.exit, local.signals());
+    const Dual guard = law.guard(state, hit.guard.exit, local.signals());
     variation_.through(contacts_, poles_, {c, guard, memory, impulse, row}, signals, before);
   }
   for (Index m = 0; m < law.memories(); ++m)
@@ -394,7 +263,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const auto panel = solve_next();
   if (!panel) return FlowStatus::step_failure;
   const double half = panel->shape->half(), until = (poles_.period() - time_) / half - 1.0;
-  const auto hit = first_hit(*panel);
+  const auto hit = first_hit(*panel, until);
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);

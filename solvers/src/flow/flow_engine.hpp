@@ -5,6 +5,7 @@
 
 #include "flow/panel_equations.hpp"
 #include "flow/variation.hpp"
+#include "linalg/root.hpp"
 #include "wavebalance/solvers/flow/contact_flow.hpp"
 
 namespace wavebalance::solvers {
@@ -32,11 +33,26 @@ class ContactFlow::Engine {
   double period() const { return poles_.period(); }
 
  private:
+  /// An exit of a contact's state.
+  struct Guard {
+    Index contact;
+    int exit;
+  };
   /// Where a guard vanishes on a panel.
   struct Hit {
     double at;  ///< -1..1
-    Index contact;
-    int exit;
+    Guard guard;
+  };
+  /// A guard and its rate by x.
+  struct GuardValue {
+    double value, rate;
+  };
+  /// Points of a panel at which guards are looked at: Chebyshev's with their barycentric weights, and some
+  /// with none.
+  struct DensePoints {
+    DensePoints();
+    double interpolated(const std::vector<double>& values, double x) const;
+    Eigen::VectorXd at, weight;
   };
   /// A panel whose forces are known.
   struct Solved {
@@ -56,13 +72,16 @@ class ContactFlow::Engine {
   const detail::PanelShape& shape(int level);
   std::optional<Solved> solve_next();
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
-  std::optional<Hit> first_hit(const Solved& panel);
-  GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, Index c, int exit);
-  std::optional<double> touch(const Solved& panel, const GuardSamples& samples, std::size_t k, Index c,
-                              int exit) const;
-  std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, Index c, int exit);
+  std::optional<Hit> first_hit(const Solved& panel, double until);
+  GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, const Guard& guard);
+  std::optional<double> root_of(const Solved& panel, const Guard& guard, const GuardSamples& samples,
+                                detail::Sample a, detail::Sample b) const;
+  std::optional<double> touch(const Solved& panel, const Guard& guard, const GuardSamples& samples,
+                              std::size_t k) const;
+  std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, const Guard& guard,
+                               double until);
   double scale_of(const Dual& guard, int rows) const;
-  double guard_at(const Solved& panel, Index c, int exit, double at) const;
+  GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
@@ -75,7 +94,8 @@ class ContactFlow::Engine {
   std::vector<ContactMachine> machines_;
   detail::Contacts contacts_;
   detail::LegendreNodes nodes_;
-  Eigen::VectorXd dense_, rest_position_;
+  DensePoints dense_;
+  Eigen::VectorXd rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
   double length_ = 0.0, time_ = 0.0, force_size_ = 0.0;
