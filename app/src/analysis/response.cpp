@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 // Seconds of one processor for a few contacts, which take a thousandth of that or less where a motion is
 // near, and less than a minute for 100, whose phases take as long.
 double most_operations_of_phases(int contacts) {
-  constexpr double of_few = 3e10, few_contacts = 16.0, most = 7.0;
+  constexpr double of_few = 4e10, few_contacts = 16.0, most = 7.0;
   return of_few * std::clamp(contacts / few_contacts, 1.0, most);
 }
 

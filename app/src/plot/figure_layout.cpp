@@ -55,18 +55,19 @@ std::size_t letters_in(const std::string& label) {
 /// What the looks of a name differ in; widths and the number of symbols on a curve do not matter.
 using Look = std::tuple<std::string, Colour, Dash, SeriesStyle>;
 
-bool is_drawn(const Series& series) {
+bool is_drawn(const Series& series, bool logarithmic) {
   if (series.area) return true;
   for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
-    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i])) return true;
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i]) && !(logarithmic && series.y[i] <= 0.0))
+      return true;
   return false;
 }
 
 void add_series(const std::vector<Series>& series, std::map<Look, bool>& named,
-                std::vector<LegendEntry>& entries, bool all = false) {
+                std::vector<LegendEntry>& entries, bool logarithmic, bool all = false) {
   for (std::size_t i = 0; i < series.size(); ++i) {
     const Series& one = series[i];
-    if (one.label.empty() || !(all || is_drawn(one))) continue;
+    if (one.label.empty() || !(all || is_drawn(one, logarithmic))) continue;
     if (!named.try_emplace({one.label, colour_of(one, i), one.dash, one.style}, true).second) continue;
     Series every = one;
     every.marker_every.reset();
@@ -102,8 +103,8 @@ std::vector<LegendEntry> legend_entries(const Figure& figure) {
   std::vector<LegendEntry> entries;
   for (const Panel& panel : figure.panels) {
     if (!panel.legend) continue;
-    if (panel.drawing) add_series(panel.drawing->legend, named, entries, true);
-    add_series(panel.series, named, entries);
+    if (panel.drawing) add_series(panel.drawing->legend, named, entries, false, true);
+    add_series(panel.series, named, entries, panel.y.logarithmic);
   }
   return entries;
 }

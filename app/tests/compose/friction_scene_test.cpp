@@ -159,7 +159,7 @@ TEST(FrictionScene, ByPhasesHasTheWorkAndTheSharesOfTheExactMotion) {
   }
 }
 
-TEST(FrictionScene, ByPhasesRefusesTwoTangentsAndOtherLawsByName) {
+TEST(FrictionScene, ByPhasesRefusesTwoTangentsByNameAndTakesOtherLawsBeside) {
   const auto refused = [](const std::string& name, const std::string& contact) {
     try {
       parse_scene(without_balance(name, contact), (scenes / "by_phases.toml").string(),
@@ -176,8 +176,7 @@ TEST(FrictionScene, ByPhasesRefusesTwoTangentsAndOtherLawsByName) {
   EXPECT_NE(plane.find("two tangents"), std::string::npos) << plane;
   const std::string mixed = refused(
       "lift_off.toml", "[[contact.pairs]]\ndofs = [1]\nlaw = \"linear\"\nstiffness = 5.0\ngap = 1.0\n");
-  EXPECT_NE(mixed.find("time.method"), std::string::npos) << mixed;
-  EXPECT_NE(mixed.find("linear"), std::string::npos) << mixed;
+  EXPECT_EQ(mixed, "not refused");
 }
 
 // Steps that are measured by the slip at the start of the sweep take a thousand points.

@@ -125,7 +125,10 @@ Scene any_scene() {
   if (*rc::gen::inRange(0, 4) == 0) return any_mode_scene();
   Scene scene{any_structure(), any_contact(), {positive(), positive()}, any_time(), any_analysis()};
   scene.forcing.terms = any_terms((scene.time.functions - 1) / 2);
-  if (integrates_in_time(scene.analysis.type)) return scene;
+  if (integrates_in_time(scene.analysis.type)) {
+    scene.time = {};
+    return scene;
+  }
   const bool by_phases = scene.analysis.type == AnalysisType::forced_response && *rc::gen::inRange(0, 4) == 0;
   if (by_phases || scene.analysis.type == AnalysisType::shooting) {
     scene.time = {};

@@ -135,26 +135,36 @@ class MotionSearch {
   PhaseMotion run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
       if (!refine(tolerance) || error_ <= options_.tolerance) break;
-    if (found_.found) set_multipliers(motion_, multipliers_of(*flow_, found_));
+    const bool found = std::isfinite(error_);  // by two solutions at least
+    if (found)
+      set_multipliers(motion_, multipliers_of(*flow_, found_));
+    else
+      motion_ = {};
     motion_.unknowns = int(found_.state.size());
     motion_.residual = found_.distance;
     motion_.iterations = iterations_;
     motion_.estimated_error = error_;
-    if (found_.found) motion_.start_error = (start_ - displacement_).norm() / displacement_.norm();
+    if (found) motion_.start_error = (start_ - displacement_).norm() / displacement_.norm();
     motion_.status = cancelled_                     ? PhasesStatus::cancelled
-                     : !found_.found && exhausted_  ? PhasesStatus::too_many_phases
-                     : !found_.found                ? PhasesStatus::not_found
+                     : !found && exhausted_         ? PhasesStatus::too_many_phases
+                     : !found                       ? PhasesStatus::not_found
                      : error_ <= options_.tolerance ? PhasesStatus::converged
                                                     : PhasesStatus::tolerance_missed;
     return std::move(motion_);
   }
 
  private:
-  // Of a panel: its forces, and what they do to perturbations of all states where these are carried along.
+  // Of a panel, in those of small matrices: what has no size, what forces make of the poles at its points,
+  // the forces, and what they do to perturbations of all states where these are carried along, by products of
+  // large matrices.
   double operations_of_panel(const ContactFlow& flow) const {
+    constexpr double least = 2e5, of_waves = 2e3, of_products = 0.2;
     const double forces = double(problem_.dynamics.contacts() * panel_nodes),
-                 columns = std::max(1.0, double(flow.perturbation().cols()));
-    return 2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
+                 states = double(flow.state().size()),
+                 columns = std::max(1.0, double(flow.perturbation().cols())),
+                 products =
+                     2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
+    return least + of_waves * states * double(panel_nodes) + of_products * products;
   }
 
   // Whether operations and observer allow what follows a period.

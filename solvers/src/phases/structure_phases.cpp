@@ -110,17 +110,21 @@ Eigen::MatrixXcd PhaseMotion::force_harmonics(int count) const {
   const Eigen::MatrixXd& coefficients = forces.coefficients();
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(parts->model.response.contacts(), count);
   detail::ExponentialIntegrals<std::complex<double>> integrals(Eigen::VectorXd::Ones(1), coefficients.rows());
-  for (std::size_t p = 0; p < forces.panels().size(); ++p) {
-    const detail::Panel& panel = forces.panels()[p];
-    const Eigen::VectorXd force = coefficients.col(Eigen::Index(p));
+  const auto& panels = forces.panels();
+  for (std::size_t p = 0, next = 0; p < panels.size(); p = next) {
+    const detail::Panel& panel = panels[p];  // and those of other contacts over the same time
+    while (next < panels.size() && panels[next].begin == panel.begin && panels[next].end == panel.end) ++next;
+    const Eigen::MatrixXd force = coefficients.middleCols(Eigen::Index(p), Eigen::Index(next - p));
     for (int n = 0; n < count; ++n) {
       const double turns = 2.0 * std::numbers::pi * double(n);
       integrals.compute(std::complex<double>(0.0, 0.5 * turns * panel.length()));
-      const std::complex<double> at_end = integrals.values().row(0) * force;
+      const Eigen::RowVectorXcd at_end = integrals.values().row(0) * force;
       // Integrals of exp(z (1 - s)) P_k(s): the phase counts from the end of the panel back.
       const double weight = n == 0 ? 0.5 : 1.0;
-      result(panel.contact, n) +=
-          weight * panel.length() * std::exp(-imaginary_unit * turns * panel.end) * at_end;
+      const std::complex<double> factor =
+          weight * panel.length() * std::exp(-imaginary_unit * turns * panel.end);
+      for (std::size_t k = p; k < next; ++k)
+        result(panels[k].contact, n) += factor * at_end[Eigen::Index(k - p)];
     }
   }
   return result;
