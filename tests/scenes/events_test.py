@@ -125,3 +125,14 @@ def test_rigid_friction_that_never_slips_holds_its_contact(run, matrix):
     assert found.code == 0, found.errors
     assert abs(found.summary["max_displacement_m"]) < 1e-9
     assert found.summary["stability"] != "unstable"
+
+
+@pytest.mark.parametrize("stiffness", [1e7, 1e9])
+def test_a_slider_far_stiffer_than_the_structure_moves_as_in_closed_form(run, matrix, stiffness):
+    # A mass with rigid dry friction after Den Hartog; the displacements that hold a stuck contact are rounding of others.
+    for name in ("m", "k"):
+        matrix(f"{name}.mtx", [[1.0]])
+    slider = f'[contact]\nlaw = "coulomb"\nfriction = 0.3\nnormal_load = 1.0\ntangential_stiffness = {stiffness}\n[[contact.pairs]]\ndofs = [1]'
+    found = run(scene("", slider, "load_dofs = [1]\namplitude = 1.0", 0.75 / (2.0 * math.pi), "output_points = 4096"))
+    assert found.code == 0, found.errors
+    assert found.summary["max_displacement_m"] == pytest.approx(2.1781440, rel=1e-4)

@@ -106,24 +106,25 @@ TEST(PhasesOfAResponse, AreNotSoughtWithoutContact) {
   EXPECT_EQ(find_entry(record.summary, "phases_status"), nullptr);
 }
 
-TEST(PhasesOfAResponse, GiveNoVerdictWhereNoMotionOfTheStructureIsNear) {
+// A contact a million times as stiff as the bar strikes some 1700 times in a period.
+TEST(PhasesOfAResponse, TellTheErrorUpToTheirOwn) {
   const Scene scene = load_scene(WAVEBALANCE_SCENES "/extremes/found_stiff.toml", {});
   const Record record = analyse(scene, Observer());
   ASSERT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "not_found");
-  EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "not_found");
-  EXPECT_EQ(find_entry(record.summary, "stability_by"), nullptr);
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "tolerance_missed");
+  EXPECT_LT(value_of<double>(record.summary, "phases_estimated_error"), 1e-5);
+  EXPECT_NEAR(value_of<double>(record.summary, "error_of_displacement"), 0.0190883, 1e-5);
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "balance");
 }
 
-// Their panels are not cut by each other, since they would have too many unknowns.
-TEST(PhasesOfAResponse, OfManyContactsTellTheErrorUpToTheirOwn) {
+// What the panels of the phases do not resolve, the flow does.
+TEST(PhasesOfAResponse, OfManyContactsAreFound) {
   const Scene scene = load_scene(WAVEBALANCE_SCENES "/matrices/cantilevers.toml", {});
   const Record record = analyse(scene, Observer());
   ASSERT_TRUE(record.converged) << record.status;
-  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "tolerance_missed");
-  EXPECT_LT(value_of<double>(record.summary, "phases_estimated_error"), 0.1);
+  EXPECT_EQ(value_of<std::string>(record.summary, "phases_status"), "converged");
   EXPECT_LT(value_of<double>(record.summary, "error_of_displacement"), 0.1);
-  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "balance");
+  EXPECT_EQ(value_of<std::string>(record.summary, "stability_by"), "phases");
 }
 
 TEST(PhasesOfAResponse, AreRefusedForModes) {

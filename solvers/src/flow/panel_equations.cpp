@@ -181,8 +181,11 @@ namespace {
 // By the contact's own mass and the stiffness and damping of its law.
 void add_slopes(const Contacts& contacts, const FreeForces& free,
                 const std::vector<std::vector<Dual>>& equations, const PanelMotion& motion,
-                const Signals& signals, SolvedForces& result) {
+                SolvedForces& result) {
   constexpr double eps = 2.2e-16, units = 16.0;
+  // A displacement that a stiff law holds is a small sum of these.
+  const double summands = motion.poles.displacement_scale() +
+                          (motion.poles.outputs(0).cwiseAbs() * motion.state.cwiseAbs()).maxCoeff();
   for (std::size_t e = 0; e < equations.size(); ++e)
     for (std::size_t n = 0; n < equations[e].size(); ++n) {
       const auto [c, row] = free.rows[e];
@@ -193,8 +196,7 @@ void add_slopes(const Contacts& contacts, const FreeForces& free,
                    damping = std::abs(slope.by(1, row) / force),
                    mobility = std::max(motion.poles.inverse_mass()(row, row), 0.0);
       result.rate = std::max(result.rate, std::sqrt(stiffness * mobility) + damping * mobility);
-      result.rounding =
-          std::max(result.rounding, units * eps * stiffness * std::abs(signals[0](row, Index(n))));
+      result.rounding = std::max(result.rounding, units * eps * stiffness * summands);
     }
 }
 
@@ -226,7 +228,7 @@ SolvedForces solve_panel(const Contacts& contacts, const ContactStates& now, con
                  change = step.cwiseAbs().maxCoeff();
     result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
     last = change;
-    if (result.converged) add_slopes(contacts, free, equations, motion, signals, result);
+    if (result.converged) add_slopes(contacts, free, equations, motion, result);
   }
   return result;
 }

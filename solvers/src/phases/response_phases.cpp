@@ -64,8 +64,8 @@ PeriodicStiffness contact_stiffness(const PhaseMotion& motion) {
     result.status = StabilityStatus::no_response;
     return result;
   }
-  if (!motion.friction.empty()) {
-    result.friction = motion.friction;
+  if (motion.parts->multipliers) {  // by the flow, which keeps no slopes
+    result.status = StabilityStatus::unsupported_law;
     return result;
   }
   for (const ContactPhase& phase : motion.phases)

@@ -248,6 +248,7 @@ TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
     const Eigen::VectorXd times = testing::uniform_times(256);
     EXPECT_LE(testing::distance(motion.displacement(times), phases.displacement(times)), 1e-9) << trial;
     testing::expect_same(motion.multipliers(), phases.multipliers(), 1e-7);
+    EXPECT_EQ(contact_stiffness(motion).status, StabilityStatus::unsupported_law);
     ASSERT_EQ(motion.phases.size(), phases.phases.size()) << trial;
     for (std::size_t i = 0; i < phases.phases.size(); ++i) {
       EXPECT_EQ(motion.phases[i].contact, phases.phases[i].contact);

@@ -37,7 +37,7 @@ ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicRe
 
 /// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
 /// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not
-/// converged.
+/// converged, and unsupported_law for one of flow_motion(), which has its multipliers alone.
 PeriodicStiffness contact_stiffness(const PhaseMotion& motion);
 
 }  // namespace wavebalance::solvers
