@@ -55,3 +55,11 @@ def test_too_few_periods_say_nothing_of_the_load(run, files):
     record = run(DAMPER, set=["analysis.max_periods=3"])
     assert record.summary["status"] == "iteration_limit"
     assert not [warning for warning in record.summary["warnings"] if "static load" in warning]
+
+
+def test_impacts_that_come_to_one_period_by_turns_repeat_after_one(run, scenes):
+    """A multiplier near -0.6: the last state is nearer to the last but one than to that before it."""
+    record = run(scenes / "impacts" / "oscillator.toml", "--analysis", "time_stepping")
+    assert record.code == 0, record.errors
+    assert record.summary.get("period_of_motion", 1) == 1
+    assert record.summary["impacts"] == 1

@@ -65,12 +65,15 @@ std::vector<ImpactGuess> ImpactSearch::last_impacts(int periods) const {
 
 // Whether a stable motion is found near the last periods.
 bool ImpactSearch::look_back() {
+  constexpr double apart = 100.0;
   const int most = std::min<int>(options_.longest, static_cast<int>(states_.size()) - 1);
   for (int n = 1; n <= most; ++n) {
     const double distance = distance_after(n);
     auto& best = best_[static_cast<std::size_t>(n - 1)];
     if (distance < best.distance) best = {n, distance, last_impacts(n)};
     if (distance > options_.near) continue;
+    // What comes to one period by turns of its sign is nearer to the last but one.
+    if (!options_.solve && n > 1 && distance_after(1) <= apart * options_.near) break;
     if (is_motion({n, distance, last_impacts(n)})) return true;
     break;  // longer ones would be the same motion
   }
