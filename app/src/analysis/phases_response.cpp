@@ -133,7 +133,6 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   if (settling && searched && (found.may_go_on() || found.depends_on_history()))
     try_settling(found, problem, scene, options.observer);
   result.status = found.status;
-  result.solved_by = name_of(TimeMethod::phases);
   result.strategy = found.strategy;
   result.start_functions = found.start_functions;
   result.residual = solvers::missing;
@@ -156,6 +155,7 @@ Response timed_response(const Scene& scene, const StructureModel& model, const R
                         bool settling) {
   const auto start = std::chrono::steady_clock::now();
   Response result;
+  result.solved_by = name_of(TimeMethod::phases);
   try {
     solve_by_phases(scene, model, options, settling, result);
   } catch (const solvers::SingularSystem& error) {

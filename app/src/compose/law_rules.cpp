@@ -99,7 +99,8 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
               "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
               "\"shooting\", \"time_stepping\" or \"nonlinear_mode\"");
   if (integrates_in_time(type)) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
-  if (type == AnalysisType::shooting) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
+  if (type == AnalysisType::shooting)
+    check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
   if (solves_by_phases(scene)) check_one_tangent(document, scene, "time.method", "\"balance\"");
   if (scene.analysis.exact)
     fail_rule(document, {"analysis.exact", "contact.law"},
@@ -125,6 +126,12 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     fail_rule(document, {"analysis.type", "contact.law"},
               rigid + "a mode begins with contacts that stick; expected contact.tangential_stiffness");
+  if (!make_laws(scene).have_force_form())
+    fail_rule(
+        document, {"contact.tangential_stiffness", "contact.law"},
+        rigid +
+            "it is solved in the form of the force, which a law beside it that depends on the velocity, or falls "
+            "somewhere and acts below its gap, does not have; expected contact.tangential_stiffness");
   if (scene.contact.form == ContactForm::displacement)
     fail_rule(document, {"contact.form"},
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");

@@ -8,6 +8,7 @@
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
+#include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -100,6 +101,7 @@ void take_phases(std::vector<FrictionMeasures>& contacts, const Response& respon
     for (FrictionMeasures& one : contacts) {
       if (one.row != cycle.row) continue;
       if (one.period.work > 0.0) one.wear *= cycle.work / one.period.work;
+      one.period.history_dependent = cycle.stick_share == 1.0;
       one.period.work = cycle.work;
       one.slip = cycle.slip;
       one.stick_fraction = cycle.stick_share;
@@ -114,7 +116,8 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   if (!has_friction(scene)) return;
   std::vector<FrictionMeasures> contacts =
       friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
-  if (response.solved_by == name_of(TimeMethod::phases)) take_phases(contacts, response);
+  const bool exact = is_by_phases(response);  // beside which samples say nothing
+  if (exact) take_phases(contacts, response);
   double work = 0.0, wear = 0.0;
   bool wears = false;
   for (const FrictionMeasures& one : contacts) {
@@ -128,9 +131,9 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   record.summary.emplace_back(quantities::friction, table_of(contacts));
   if (!known) return;
   if (frequency > 0.0)
-    append_energy_error(
-        record,
-        response.flow ? missing : energy_error(contacts, response.contacts, response.periods / frequency));
+    append_energy_error(record, exact || response.flow ? missing
+                                                       : energy_error(contacts, response.contacts,
+                                                                      response.periods / frequency));
   warn_of_history(record, contacts, response.flow.has_value());
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});

@@ -209,9 +209,10 @@ void append_other_motions(Record& record, const Scene& scene, const Response& re
 void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
   if (!has_damped_contact(scene)) return;
   const solvers::Motion& motion = response.contacts;
-  const double power = !response.moves || motion.empty()
-                           ? missing
-                           : motion.force.cwiseProduct(motion.velocity).sum() / motion.points();
+  const solvers::ContactLaws laws = make_laws(scene);
+  double power = !response.moves || motion.empty() ? missing : 0.0;
+  for (int row = 0; row < motion.rows(); row += laws[row].rows())
+    if (!laws[row].friction()) power += motion.force.row(row).dot(motion.velocity.row(row)) / motion.points();
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
