@@ -41,6 +41,7 @@ std::string_view to_string(FlowStatus status) {
 void FlowOptions::validate() const {
   constexpr const char* who = "FlowOptions";
   detail::require_at_least(who, "panels", panels, 1);
+  detail::require_at_least(who, "max_panels", max_panels, panels);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_positive(who, "rest_velocity", rest_velocity);
 }
@@ -152,10 +153,12 @@ Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
 // Forces of the laws on the next panel, short enough to resolve them.
 std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
   constexpr int finest = 24;
+  constexpr double most_rounding = 1e-3;
   for (; level_ <= finest; ++level_) {
     const detail::PanelShape& panel = shape(level_);
     detail::SolvedForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
     if (!found.converged || !found.force.allFinite()) continue;
+    if (found.rounding > most_rounding * std::max(force_size_, found.force.cwiseAbs().maxCoeff())) break;
     const double rough = panel.unresolved(found.force, force_size_),
                  size = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
     if (rough * size > std::max(options_.tolerance * size, found.rounding)) continue;
@@ -260,7 +263,7 @@ void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& be
 
 FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const FlowSample&)>& sample) {
   constexpr int most_idle = 16;
-  const auto panel = solve_next();
+  const auto panel = steps_++ < options_.max_panels ? solve_next() : std::nullopt;
   if (!panel) return FlowStatus::step_failure;
   const double half = panel->shape->half(), until = (poles_.period() - time_) / half - 1.0;
   const auto hit = first_hit(*panel, until);
@@ -285,7 +288,7 @@ FlowStatus ContactFlow::Engine::advance_period(int points,
                                                const std::function<void(const FlowSample&)>& sample) {
   events_.clear();
   panels_.clear();
-  rests_ = sampled_ = 0;
+  rests_ = sampled_ = steps_ = 0;
   while (time_ < poles_.period())
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
   time_ = 0.0;

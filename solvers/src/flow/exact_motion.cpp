@@ -154,17 +154,18 @@ class MotionSearch {
   }
 
  private:
+  static constexpr double least_operations = 2e5;  // of a panel
   // Of a panel, in those of small matrices: what has no size, what forces make of the poles at its points,
   // the forces, and what they do to perturbations of all states where these are carried along, by products of
   // large matrices.
   double operations_of_panel(const ContactFlow& flow) const {
-    constexpr double least = 2e5, of_waves = 2e3, of_products = 0.2;
+    constexpr double of_waves = 2e3, of_products = 0.2;
     const double forces = double(problem_.dynamics.contacts() * panel_nodes),
                  states = double(flow.state().size()),
                  columns = std::max(1.0, double(flow.perturbation().cols())),
                  products =
                      2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
-    return least + of_waves * states * double(panel_nodes) + of_products * products;
+    return least_operations + of_waves * states * double(panel_nodes) + of_products * products;
   }
 
   // Whether operations and observer allow what follows a period.
@@ -178,7 +179,13 @@ class MotionSearch {
   // The motion with a tolerance of the flow, and how far it lies from the one before.
   bool refine(double tolerance) {
     constexpr double safety = 3.0, rounding = 1e-13;
-    ContactFlow flow(problem_, {.tolerance = tolerance});
+    const FlowOptions flow_options;
+    exhausted_ = operations_left_ < flow_options.panels * least_operations;
+    if (exhausted_) return false;
+    ContactFlow flow(problem_, {.tolerance = tolerance,
+                                .max_panels = int(std::clamp(operations_left_ / least_operations,
+                                                             double(flow_options.panels),
+                                                             double(flow_options.max_panels)))});
     if (found_.found)
       flow.start(found_.state, found_.contacts);
     else

@@ -99,7 +99,7 @@ class ContactFlow::Engine {
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
   double length_ = 0.0, time_ = 0.0, force_size_ = 0.0;
-  int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0;
+  int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;
   detail::Variation variation_;

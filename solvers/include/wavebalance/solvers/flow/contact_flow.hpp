@@ -12,8 +12,10 @@ namespace wavebalance::solvers {
 
 /// How a motion in time ended.
 enum class FlowStatus {
-  converged,      ///< it reached its end
-  step_failure,   ///< no forces of the laws were found on a panel, or the shortest does not resolve them
+  converged,  ///< it reached its end
+  /// no forces of the laws were found on a panel, the shortest does not resolve them, rounding leaves them no
+  /// digits, or a period takes more than max_panels
+  step_failure,
   endless_events  ///< more and more events in a vanishing time
 };
 
@@ -22,6 +24,7 @@ std::string_view to_string(FlowStatus status);
 struct FlowOptions {
   int panels = 16;          ///< of a period, at least, where forces are resolved
   double tolerance = 1e-9;  ///< of forces on a panel, relative to the largest
+  int max_panels = 20000;   ///< of a period
   /// Below this share of the fastest impact of a contact one has no rebound, so that contact with restitution
   /// comes to rest after finitely many.
   double rest_velocity = 1e-6;
