@@ -182,7 +182,7 @@ namespace {
 void add_slopes(const Contacts& contacts, const FreeForces& free,
                 const std::vector<std::vector<Dual>>& equations, const PanelMotion& motion,
                 SolvedForces& result) {
-  constexpr double eps = 2.2e-16, units = 16.0;
+  constexpr double eps = 2.2e-16, units = 4.0;
   // A displacement that a stiff law holds is a small sum of these.
   const double summands = motion.poles.displacement_scale() +
                           (motion.poles.outputs(0).cwiseAbs() * motion.state.cwiseAbs()).maxCoeff();

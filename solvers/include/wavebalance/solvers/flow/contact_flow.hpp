@@ -24,7 +24,7 @@ std::string_view to_string(FlowStatus status);
 struct FlowOptions {
   int panels = 16;          ///< of a period, at least, where forces are resolved
   double tolerance = 1e-9;  ///< of forces on a panel, relative to the largest
-  int max_panels = 20000;   ///< of a period
+  int max_panels = 100000;  ///< of a period
   /// Below this share of the fastest impact of a contact one has no rebound, so that contact with restitution
   /// comes to rest after finitely many.
   double rest_velocity = 1e-6;
