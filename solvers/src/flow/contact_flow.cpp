@@ -141,12 +141,14 @@ Eigen::VectorXd ContactFlow::Engine::state() const {
 }
 
 void ContactFlow::Engine::perturb(const Eigen::MatrixXd& columns) {
+  variation_ = {};
+  if (columns.cols() == 0) return;
   variation_ = detail::Variation(columns.topRows(poles_.states()), columns.bottomRows(contacts_.memories()));
 }
 
 Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
   Eigen::MatrixXd result(poles_.states() + contacts_.memories(), variation_.poles().cols());
-  result << variation_.poles(), variation_.memory();
+  if (!variation_.empty()) result << variation_.poles(), variation_.memory();
   return result;
 }
 

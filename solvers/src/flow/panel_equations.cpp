@@ -65,7 +65,7 @@ FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states,
   }
   combine.setZero(total, Index(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) combine(rows[k].second, Index(k)) = 1.0;
-  if (all) return;
+  if (all || rows.empty()) return;
   for (Index c = 0; c < contacts.count(); ++c) {
     const auto forces = contacts.law(c).forces(states[std::size_t(c)]);
     for (std::size_t i = 0; i < forces.size(); ++i)

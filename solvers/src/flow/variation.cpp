@@ -69,7 +69,7 @@ void Variation::over(const Contacts& contacts, const ContactStates& now, const P
   const FreeForces free(contacts, now.state, poles.holding() > 0.0);
   const Eigen::MatrixXd changes = of_forces(contacts, now, free, motion, force);
   poles.multiply(waves.decay.col(k), poles_);
-  poles_ += product(states_by_forces(poles, free, waves, k, q), changes);
+  if (!free.rows.empty()) poles_ += product(states_by_forces(poles, free, waves, k, q), changes);
   std::array<Eigen::MatrixXd, 3> forces;
   for (std::size_t d = 0; d < 3; ++d) {
     Eigen::MatrixXd at_end(Index(free.rows.size()), poles_.cols());
