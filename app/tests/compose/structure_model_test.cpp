@@ -258,8 +258,8 @@ std::vector<std::string> damped(std::initializer_list<std::string> more) {
 
 TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
   const TemporaryFolder folder;
-  const Response found = weighted_residual_response(chain(
-      folder, damped({"contact.stiffness=1e6", "time.functions=127", "time.quadrature_points=2048"})));
+  const Response found = weighted_residual_response(
+      chain(folder, damped({"contact.stiffness=1e6", "time.functions=127", "time.quadrature_points=2048"})));
   const Response reference = time_stepping_response(chain(
       folder, damped({"contact.stiffness=1e6", "analysis.type=time_stepping", "analysis.tolerance=1e-7"})));
   ASSERT_TRUE(found.converged && reference.converged);

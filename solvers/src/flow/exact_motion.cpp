@@ -242,6 +242,7 @@ PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& st
       motion.status == not_found || motion.status == too_many_phases || motion.status == tolerance_missed;
   if (!failed) return motion;
   PhaseMotion other = flow_motion(problem, start, options, start_force);
+  if (other.status == cancelled) motion.status = cancelled;  // nothing is known of what was not tried
   const bool better =
       other.parts != nullptr && (motion.parts == nullptr || other.estimated_error < motion.estimated_error);
   return better ? other : motion;

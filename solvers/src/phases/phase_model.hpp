@@ -32,7 +32,8 @@ struct PhaseModel {
   ContactMotion motion(const PanelForces& forces, const LegendreNodes& nodes,
                        const Eigen::VectorXd& times) const;
   /// The same with the cells of the forces.
-  ContactMotion motion(const PanelForces& forces, const PeriodCells& period, const Eigen::VectorXd& times) const;
+  ContactMotion motion(const PanelForces& forces, const PeriodCells& period,
+                       const Eigen::VectorXd& times) const;
 };
 
 /// The instants of q nodes of each panel, by panel.

@@ -17,8 +17,8 @@ struct PhaseMotion::Parts {
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
   detail::LegendreNodes nodes;
-  detail::PanelForces tangent, damping;                  // slopes of the laws, N/m and N s/m
-  std::optional<Eigen::VectorXcd> multipliers = {};      // where they are known without these slopes
+  detail::PanelForces tangent, damping;              // slopes of the laws, N/m and N s/m
+  std::optional<Eigen::VectorXcd> multipliers = {};  // where they are known without these slopes
   std::shared_ptr<const detail::PeriodCells> period = {};
 };
 

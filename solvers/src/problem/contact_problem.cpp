@@ -137,7 +137,7 @@ PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const Cont
     return by_contact(resample(values, points, settled.start), contacts());
   };
   return exact_motion(phases_problem_here(), samples(settled.last.displacement), options,
-                           samples(settled.last.force));
+                      samples(settled.last.force));
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,

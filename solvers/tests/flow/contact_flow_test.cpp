@@ -44,9 +44,11 @@ std::complex<double> first_harmonic(const Eigen::MatrixXd& displacement, Index r
   return sum;
 }
 
-// A slider, an elastic stop and a rigid one with a restitution of 0.7, each on one of three masses between springs.
+// A slider, an elastic stop and a rigid one with a restitution of 0.7, each on one of three masses between
+// springs.
 Vibrating mixture(double omega) {
-  const Eigen::Matrix3d stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 2.0}}, unit = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 2.0}},
+      unit = Eigen::Matrix3d::Identity();
   LinearStructure structure;
   structure.mass = unit.sparseView();
   structure.damping = Eigen::Matrix3d(0.02 * stiffness + 0.02 * unit).sparseView();
@@ -54,8 +56,8 @@ Vibrating mixture(double omega) {
   structure.load = Eigen::Vector3d(0.0, 1.0, 0.3);
   structure.contact_directions = unit.sparseView();
   return {structure,
-          ContactLaws(std::vector<AnyContactLaw>{contact::CoulombLaw({1.0, 3.0, 0.4}), contact::LinearLaw(4.0, 0.3),
-                                                 contact::RigidLaw(0.3, 0.7)}),
+          ContactLaws(std::vector<AnyContactLaw>{contact::CoulombLaw({1.0, 3.0, 0.4}),
+                                                 contact::LinearLaw(4.0, 0.3), contact::RigidLaw(0.3, 0.7)}),
           omega / (2.0 * std::numbers::pi)};
 }
 
@@ -78,11 +80,12 @@ TEST(ContactFlow, SettlesToTheExactMotionsOfFrictionAndTheirMultipliers) {
 TEST(ContactFlow, HasTheInstantsAndImpulsesOfExactMotionsWithImpacts) {
   for (const testing::KnownImpacts& known : testing::known_impacts()) {
     const bool stable = std::abs(known.multipliers.front()) < 1.0;
-    if (!stable || known.periods > 1 || known.scene.contacts.rows() > 1 || known.instants.size() > 1) continue;
-    const FlowMotion motion = Vibrating(known.scene.structure(),
-                                        contact::RigidLaw(known.scene.gaps[0], known.scene.restitution),
-                                        known.scene.frequency())
-                                  .motion(64);
+    if (!stable || known.periods > 1 || known.scene.contacts.rows() > 1 || known.instants.size() > 1)
+      continue;
+    const FlowMotion motion =
+        Vibrating(known.scene.structure(), contact::RigidLaw(known.scene.gaps[0], known.scene.restitution),
+                  known.scene.frequency())
+            .motion(64);
     ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
     ASSERT_EQ(motion.events.size(), 1u);
     const double period = 1.0 / known.scene.frequency();
@@ -139,7 +142,8 @@ TEST(ContactFlow, FindsATouchBetweenTwoOfItsPoints) {
     const testing::ImpactScene scene = testing::impact_oscillator(0.2, 0.0, 1.0, 1.2 + 0.02 * k);
     const double amplitude = std::abs(scene.free_amplitudes()[0]), depth = 1e-6 * amplitude;
     const FlowMotion motion =
-        Vibrating(scene.structure(), contact::LinearLaw(1.0, amplitude - depth), scene.frequency()).motion(64);
+        Vibrating(scene.structure(), contact::LinearLaw(1.0, amplitude - depth), scene.frequency())
+            .motion(64);
     ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
     ASSERT_EQ(motion.events.size(), 2u) << k;
     const double contact = std::abs(motion.events[1].time - motion.events[0].time) * scene.omega;
@@ -154,7 +158,8 @@ TEST(ContactFlow, ComesToRestAfterFinitelyManyImpacts) {
       Vibrating(scene.structure(), contact::RigidLaw(0.2, 0.5), scene.frequency()).motion(256);
   ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
   EXPECT_EQ(motion.rests, 1);
-  const auto rest = std::find_if(motion.events.begin(), motion.events.end(), [](auto& e) { return e.to == 1; });
+  const auto rest =
+      std::find_if(motion.events.begin(), motion.events.end(), [](auto& e) { return e.to == 1; });
   ASSERT_NE(rest, motion.events.end());
   EXPECT_GT(rest - motion.events.begin(), 10);
   EXPECT_LE(motion.stepping.contacts.displacement.maxCoeff(), 0.2 + 1e-12);

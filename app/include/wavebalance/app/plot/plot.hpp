@@ -143,7 +143,8 @@ struct Panel {
 };
 
 /// Panels in rows, filled from the left; several are lettered (a), (b), ... One legend stands below them all:
-/// it names each label and look once, of series that have a point. The picture is higher than its panels by the title and the legend.
+/// it names each label and look once, of series that have a point. The picture is higher than its panels by
+/// the title and the legend.
 struct Figure {
   std::string title;
   std::vector<Panel> panels;

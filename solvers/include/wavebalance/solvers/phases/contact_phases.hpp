@@ -104,8 +104,8 @@ class PhaseMotion {
   Eigen::MatrixXcd force_harmonics(int count) const;
 
   /// The slopes of the law of a contact along the motion, by displacement (N/m) and by velocity (N s/m), at a
-  /// time within one of its phases: the limits from inside at its ends, zero outside all phases, and of motions
-  /// of flow_motion(), which keep none. O(panels + nodes).
+  /// time within one of its phases: the limits from inside at its ends, zero outside all phases, and of
+  /// motions of flow_motion(), which keep none. O(panels + nodes).
   double tangent(int contact, double time) const;
   double damping(int contact, double time) const;
 
