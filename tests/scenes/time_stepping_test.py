@@ -63,3 +63,32 @@ def test_impacts_that_come_to_one_period_by_turns_repeat_after_one(run, scenes):
     assert record.code == 0, record.errors
     assert record.summary.get("period_of_motion", 1) == 1
     assert record.summary["impacts"] == 1
+
+
+@pytest.mark.parametrize(("damping", "tolerance"), [(20.0, 1e-11), (1000.0, 1e-12)])
+def test_a_damper_that_sets_in_at_once_is_stepped_to_any_tolerance(run, matrix, damping, tolerance):
+    """Across the jump of its force steps are as short as rounding of the time lets them be."""
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1.0]])
+    matrix("c.mtx", [[0.02]])
+    record = run(f"""
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+damping = "c.mtx"
+contact_dofs = [1]
+[contact]
+law = "kelvin_voigt"
+stiffness = 200.0
+damping = {damping}
+gap = 0.5
+[forcing]
+load_dofs = [1]
+amplitude = 1.0
+frequency = 0.17
+[analysis]
+type = "time_stepping"
+tolerance = {tolerance}
+""")
+    assert record.summary["status"] == "converged"

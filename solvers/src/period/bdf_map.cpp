@@ -145,6 +145,13 @@ class BdfMap::Integrator {
     return state;
   }
 
+  /// Counts the times from the end of a period, which leaves them the digits of steps across a jump of the
+  /// force.
+  void begin_period() {
+    begin_.time -= 1.0;
+    end_.time -= 1.0;
+  }
+
   const Instant& begin() const { return begin_; }
   const Instant& end() const { return end_; }
   long failed_steps() const { return failed_steps_ + static_cast<long>(driver_->e->failed_steps); }
@@ -185,7 +192,6 @@ void BdfMap::start(const PeriodState& begin, double tolerance) {
   integrator_ = std::make_unique<Integrator>(system_, begin.motion, tolerance,
                                              tolerance * step_floor_ * (size > 0.0 ? size : 1.0));
   tolerance_ = tolerance;
-  period_ = 0.0;
   changes_.clear();
 }
 
@@ -260,11 +266,11 @@ Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
   Period period;
   for (Index next = 0;;) {
     for (; next < samples; ++next) {
-      const double time = period_ + double(next) / double(samples);
+      const double time = double(next) / double(samples);
       if (time > integrator_->end().time) break;
       states.col(next) = integrator_->at(time);
     }
-    if (integrator_->end().time >= period_ + 1.0) break;
+    if (integrator_->end().time >= 1.0) break;
     if (operations() >= limit) return period;
     ++steps_;
     if (!integrator_->advance()) {
@@ -278,16 +284,16 @@ Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
     note_changes();
   }
   states_ = std::move(states);
-  period_ += 1.0;
-  end_.motion = integrator_->at(period_);
+  end_.motion = integrator_->at(1.0);
+  integrator_->begin_period();
   period.ended = Period::End::complete;
   period.state = end_;
   period.contacts = contacts();
   std::ranges::stable_sort(changes_, {}, &ContactChange::time);
-  const auto later = std::ranges::find_if(changes_, [&](const auto& one) { return one.time >= period_; });
-  for (auto one = changes_.begin(); one != later; ++one)
-    period.changes.push_back({one->time - (period_ - 1.0), one->contact, one->closes});
+  const auto later = std::ranges::find_if(changes_, [](const auto& one) { return one.time >= 1.0; });
+  period.changes.assign(changes_.begin(), later);
   changes_.erase(changes_.begin(), later);
+  for (ContactChange& one : changes_) one.time -= 1.0;
   return period;
 }
 

@@ -49,8 +49,7 @@ class BdfMap final : public PeriodMap {
   Eigen::MatrixXd states_;              // 2n x samples, of the last period
   PeriodState end_;                     // of the last period
   double tolerance_ = 0.0;              // of the steps under way
-  double period_ = 0.0;                 // at which the next period begins, in the integrator's time
-  std::vector<ContactChange> changes_;  // by the integrator's time, of the next period and later
+  std::vector<ContactChange> changes_;  // from the end of the last period on
   long steps_ = 0, failed_steps_ = 0;   // the latter of the integrators before
 };
 
