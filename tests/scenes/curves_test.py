@@ -170,3 +170,36 @@ def test_a_sweep_whose_motions_are_all_unstable_has_a_warning(run, motions_of_sp
     for number, start in enumerate(motions_of_spring):
         warnings = run(scene, "--start-from", start).summary["warnings"]
         assert any("All motions of the curve are unstable" in text for text in warnings) == (number == 1)
+
+
+def test_an_exact_curve_of_a_bar_with_fast_modes_begins_and_ends_soon(run):
+    """Its fastest modes decay within a thousandth of the period, behind a contact that begins after t = 0."""
+    record = run("""
+[structure]
+type = "bar"
+youngs_modulus = 70e9
+density = 2700.0
+area = 25e-4
+length = 1.0
+elements = 25
+stiffness_damping = 1e-4
+[contact]
+law = "linear"
+stiffness = 1e9
+gap = 1e-3
+[forcing]
+amplitude = 250e3
+frequency = 150.0
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 64
+[analysis]
+type = "frequency_sweep"
+exact = true
+frequency_from = 1000.0
+frequency_to = 1500.0
+""", timeout=20)
+    assert record.summary["status"] == "reached_end"
+    assert record.summary["largest_error_of_displacement"] < 1e-9
+    assert record.summary["frequency_at_largest_vibration_Hz"] == pytest.approx(1153.5, abs=2.0)

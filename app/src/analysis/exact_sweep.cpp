@@ -79,6 +79,8 @@ void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability,
   sweep.curve.status = curve.status;
   sweep.curve.closed_at_start = curve.status == solvers::SweepStatus::closed;
   sweep.curve.parameter = measure.parameter;
+  if (curve.status == solvers::SweepStatus::no_start && curve.start != solvers::PhasesStatus::converged)
+    sweep.start_status = to_string(curve.start);
   SweepPhases& phases = sweep.phases.emplace_back();
   for (const ExactPoint& point : curve.points) {
     sweep.curve.points.push_back(measure(point.value, point.motion));

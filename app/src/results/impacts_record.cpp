@@ -143,10 +143,6 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
 void append_impacts(Record& record, const Sweep& sweep) {
   if (sweep.impacts.empty()) return;
   Summary& summary = record.summary;
-  if (!sweep.start_status.empty() && !record.interrupted)
-    record.warnings.push_back(
-        fmt::format("Where the curve was to begin no periodic motion was found that a curve begins with: {}.",
-                    sweep.start_status));
   double impulse = sweep.curve.points.empty() ? missing : 0.0, speed = impulse;
   for (const PointImpacts& point : sweep.impacts.front()) {
     impulse = std::max(impulse, point.largest_impulse);

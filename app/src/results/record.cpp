@@ -229,6 +229,10 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.status = record.interrupted ? "interrupted" : sweep.status();
   record.warnings = model.warnings;
   warn_of_unbalanced_load(record, model);
+  if (!sweep.start_status.empty() && !record.interrupted)
+    record.warnings.push_back(
+        fmt::format("Where the curve was to begin no periodic motion was found that a curve begins with: {}.",
+                    sweep.start_status));
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =

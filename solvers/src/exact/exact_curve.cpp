@@ -11,6 +11,7 @@
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "phases/phase_motion_parts.hpp"
+#include "phases/phase_newton.hpp"
 #include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers {
@@ -282,7 +283,7 @@ void ExactCurveOptions::validate() const {
 double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& dynamics) {
   constexpr double of_motion = 8.0, of_multipliers = 25.0;
   const double n = motion.unknowns, s = double(dynamics.poles().size());
-  return of_motion * n * n * (n / 1.5 + 4.0 * s) + of_multipliers * s * s * s + 1.0;
+  return of_motion * detail::step_operations(n, s) + of_multipliers * s * s * s;
 }
 
 ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
@@ -296,7 +297,10 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
   std::optional<PathPoint> start =
       model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
   if (model.cancelled()) curve.status = SweepStatus::cancelled;
-  if (start && start->agrees) Tracer(model, curve, std::move(*start)).run();
+  if (start && start->agrees)
+    Tracer(model, curve, std::move(*start)).run();
+  else
+    curve.start = PhasesStatus::not_found;
   return curve;
 }
 

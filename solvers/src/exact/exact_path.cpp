@@ -153,6 +153,7 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   const PhaseModel model(family_.at(solution.value), length_);
   const ContactMotion free = model.free_motion(times_);
   const PhaseSolution own(model, std::move(solution.newton), nodes, times_, free);
+  const bool fine = error <= options_.phases.tolerance;
   PathPoint point;
   point.value = solution.value;
   point.iterate = own.newton.iterate;
@@ -163,7 +164,7 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   point.agrees = own.agrees();
   if (own.newton.iterate.forces.coefficients().size() > 0)
     point.force_size = own.newton.iterate.forces.coefficients().cwiseAbs().maxCoeff();
-  point.motion.status = PhasesStatus::converged;
+  point.motion.status = fine ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
   point.motion.residual = own.newton.residual;
   point.motion.iterations = own.newton.iterations;
   point.motion.unknowns = static_cast<int>(point.direction.size());
@@ -183,6 +184,14 @@ PhaseIterate PathModel::coarser(const PathPoint& last, PhaseIterate start) const
   return with_nodes(start, LegendreNodes(fewer));
 }
 
+bool PathModel::affords(const PhaseIterate& iterate, const LegendreNodes& nodes) const {
+  constexpr double fewest_steps = 3.0;
+  const double unknowns = double(nodes.count()) * double(iterate.layout.grid().panels.size()) +
+                          double(iterate.layout.passages.size());
+  return fewest_steps * step_operations(unknowns, double(family_.dynamics().poles().size())) <=
+         options_.phases.max_operations;
+}
+
 std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, const Held& held,
                                           double forwards) const {
   constexpr double rounding = 1e-13;
@@ -194,13 +203,15 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
                                     {options_.phases.max_iterations, rounding, observer_});
     if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
     const EstimatedError error = error_of(found.newton, vibration_);
+    if (!std::isfinite(error.resolution)) return std::nullopt;
+    const LegendreNodes own = nodes;
     start = found.newton.iterate;
     value = found.value;
     const bool movable = held.kind != Held::Kind::force;  // the nodes of others are others
     if (error.resolution <= options_.phases.tolerance || !movable || i == most_refinements ||
-        !make_finer(start, nodes, error, options_.phases)) {
+        !make_finer(start, nodes, error, options_.phases) || !affords(start, nodes)) {
       found.direction *= forwards;
-      return point_of(std::move(found), nodes, error.resolution);
+      return point_of(std::move(found), own, error.resolution);
     }
   }
 }

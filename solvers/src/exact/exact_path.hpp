@@ -69,7 +69,8 @@ class PathModel {
   /// to.
   PhaseIterate coarser(const PathPoint& last, PhaseIterate start) const;
 
-  /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs.
+  /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs and
+  /// max_operations of its options allow.
   /// `forwards`: the sign of the change of the unknown held along the curve. Nothing where Newton's method
   /// does not converge, and at once after the observer has returned false.
   std::optional<PathPoint> solve(double value, PhaseIterate start, const Held& held, double forwards) const;
@@ -82,6 +83,8 @@ class PathModel {
 
  private:
   PathPoint point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const;
+  /// Whether a few steps with these panels and nodes stay below max_operations.
+  bool affords(const PhaseIterate& iterate, const LegendreNodes& nodes) const;
   Eigen::VectorXd change(const PathPoint& from, double value, const Layout& layout) const;
   double cosine(const Eigen::VectorXd& way, const PathPoint& at) const;
 

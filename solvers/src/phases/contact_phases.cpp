@@ -130,7 +130,7 @@ class Search {
     const double poles = double(model_.response.poles()),
                  n = double(nodes_.count()) * double(iterate.layout.grid().panels.size()) +
                      double(iterate.layout.passages.size()),
-                 of_step = n * n * (n / 1.5 + 4.0 * poles) + 1.0, steps = operations_left_ / of_step;
+                 of_step = detail::step_operations(n, poles), steps = operations_left_ / of_step;
     if (steps < least_steps) {
       exhausted_ = true;
       PhaseNewtonResult none;

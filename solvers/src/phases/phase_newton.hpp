@@ -36,6 +36,11 @@ struct NewtonLimits {
   const Observer& observer;
 };
 
+/// About so many floating-point operations a step takes.
+inline double step_operations(double unknowns, double poles) {
+  return unknowns * unknowns * (unknowns / 1.5 + 4.0 * poles) + 1.0;
+}
+
 /// Newton's method on the forces at q nodes of each panel and the instants of all passages. That with
 /// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: of the start.
 PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, const LegendreNodes& nodes,

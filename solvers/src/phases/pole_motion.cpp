@@ -10,16 +10,17 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// start exp(rate t) at times of which most follow each other by equal steps. O(times).
+// start exp(rate t) at times of which most follow each other by equal steps forwards: backwards a state that
+// has decayed to nothing does not come back. O(times).
 void decay(Complex rate, const Eigen::Ref<const Eigen::VectorXd>& times, Complex start,
            Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> real,
            Eigen::Ref<Eigen::RowVectorXd, 0, Eigen::InnerStride<>> imag) {
   constexpr double rounding = 1e-14;
-  const double step = times.size() > 1 ? times[1] - times[0] : 0.0;
+  const double step = times.size() > 1 ? times[times.size() - 1] - times[times.size() - 2] : 0.0;
   const Complex factor = std::exp(rate * step);
   Complex value = 0.0;
   for (Index i = 0; i < times.size(); ++i) {
-    const bool follows = i > 0 && std::abs(times[i] - times[i - 1] - step) < rounding;
+    const bool follows = i > 0 && step > 0.0 && std::abs(times[i] - times[i - 1] - step) < rounding;
     value = follows ? Complex(value.real() * factor.real() - value.imag() * factor.imag(),
                               value.real() * factor.imag() + value.imag() * factor.real())
                     : start * std::exp(rate * times[i]);

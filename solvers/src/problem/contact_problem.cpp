@@ -33,9 +33,10 @@ ForcedResponseOptions watched(ForcedResponseOptions options, bool& cancelled) {
   return options;
 }
 
-ExactCurve without_points(bool cancelled) {
+ExactCurve without_points(bool cancelled, PhasesStatus start) {
   ExactCurve curve;
   curve.status = cancelled ? SweepStatus::cancelled : SweepStatus::no_start;
+  curve.start = start;
   return curve;
 }
 
@@ -203,22 +204,18 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
   return {std::move(curve), std::move(first)};
 }
 
-std::optional<PhaseMotion> ContactProblem::motion_here(const ExactCurveOptions& options,
-                                                       const ForcedResponseOptions& how,
-                                                       const ResponseStart& start) {
+PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                                        const ResponseStart& start) {
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
-  if (response.status == SolveStatus::cancelled) return std::nullopt;
+  if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {
     ResponsePhases found = response_phases(condensed_, response, phases_problem_here(), options.phases);
-    if (found.motion.parts != nullptr) return std::move(found.motion);
+    if (found.motion.parts != nullptr) return found.motion;
   }
   SettlingOptions settling;
   settling.observer = how.observer;
   const SettledMotion settled = solvers::settle(condensed_, laws_, settling);
-  if (!settled.integrated()) return std::nullopt;
-  PhaseMotion motion = phases_here(settled, options.phases);
-  if (motion.parts == nullptr) return std::nullopt;
-  return motion;
+  return settled.integrated() ? phases_here(settled, options.phases) : PhaseMotion();
 }
 
 ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how,
@@ -227,9 +224,9 @@ ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const F
   if (!dynamics()) return {};
   load_fully(options.from);
   bool cancelled = false;
-  const auto first = motion_here(options, watched(how, cancelled), start);
-  if (!first) return without_points(cancelled);
-  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::frequency}, *first, options);
+  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
+  if (first.parts == nullptr) return without_points(cancelled, first.status);
+  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::frequency}, first, options);
 }
 
 ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
@@ -240,9 +237,9 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
   condensed_.set_load_frequency(frequency);
   condensed_.set_load_scale(options.from);
   bool cancelled = false;
-  const auto first = motion_here(options, watched(how, cancelled), start);
-  if (!first) return without_points(cancelled);
-  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, *first, options);
+  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
+  if (first.parts == nullptr) return without_points(cancelled, first.status);
+  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, first, options);
 }
 
 ExactCurve ContactProblem::exact_curve_from(double frequency, const PhaseMotion& motion,

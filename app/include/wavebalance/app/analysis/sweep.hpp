@@ -69,7 +69,7 @@ struct Sweep {
   std::vector<solvers::PhaseMotion> exact_motions = {};
   std::vector<std::vector<solvers::ImpactMotion>> impact_motions = {};
   std::vector<double> unexplained = {};  ///< of an exact curve: ExactCurve::unexplained, values of the points
-  std::string start_status = {};  ///< of impacts, where the structure settles to none at the first place
+  std::string start_status = {};         ///< of impacts and exact curves: why there is no first motion
   /// Set by add_phases() with analysis.stability: the special points of the structure.
   std::optional<solvers::StructurePoints> structure_points = {};
   bool phases_cancelled = false;  ///< the observer stopped add_phases()

@@ -53,6 +53,8 @@ struct ExactEvent {
 /// A curve of motions of the structure.
 struct ExactCurve {
   SweepStatus status = SweepStatus::no_start;
+  /// Of the first motion: why a curve with `no_start` has none.
+  PhasesStatus start = PhasesStatus::converged;
   std::vector<ExactPoint> points;
   std::vector<ExactEvent> events;
   /// Numbers of the points before which the count of multipliers outside the circle changes otherwise than by

@@ -158,8 +158,8 @@ class ContactProblem {
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
-  std::optional<PhaseMotion> motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
-                                         const ResponseStart& start);
+  PhaseMotion motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                          const ResponseStart& start);
   PhasesProblem phases_problem_here();
   PhaseMotion phases_here(const SettledMotion& settled, const ContactPhasesOptions& options);
 
