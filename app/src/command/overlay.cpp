@@ -110,7 +110,9 @@ void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const st
   const auto add = [&](const Table& table, const std::string& kind, int number) {
     curves.push_back({number == 0 ? label : fmt::format("{}, {} {}", label, kind, number),
                       number == 0 ? "frequency_sweep" : kind,
-                      column_of(table, quantities::frequency.column(), file), column_of(table, column, file),
+                      column_of(table, quantities::frequency.column(), file),
+                      {},
+                      column_of(table, column, file),
                       unstable_of(table)});
   };
   // The curves of a table by their number in a column, the first of which is 0 in all columns.
@@ -131,8 +133,12 @@ void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const st
 void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
               const std::string& column) {
   const Table table = read_csv(file);
-  OverlayCurve curve{label, "nonlinear_mode", column_of(table, quantities::frequency.column(), file),
-                     column_of(table, column, file), unstable_of(table)};
+  OverlayCurve curve{label,
+                     "nonlinear_mode",
+                     column_of(table, quantities::frequency.column(), file),
+                     {},
+                     column_of(table, column, file),
+                     unstable_of(table)};
   const std::vector<std::string> statuses = table.texts("status");
   for (std::size_t i = 0; i < statuses.size(); ++i)
     if (statuses[i] != "converged" && statuses[i] != "linear") curve.displacement[i] = missing;
@@ -151,7 +157,35 @@ void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, con
   if (!u.empty() && quantity == OverlayQuantity::min) value = *low;
   if (!u.empty() && quantity == OverlayQuantity::max_abs) value = std::max(-*low, *high);
   if (quantity == OverlayQuantity::rms) value = number_in(summary, quantities::rms_displacement);
-  curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {value}, {missing}});
+  curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {}, {value}, {missing}});
+}
+
+/// A motion of the contact that leads in the folder `first`.
+OverlayCurve motion_in(const fs::path& folder, const std::string& label, const fs::path& first) {
+  const Summary summary = read_summary(folder / "summary.json"),
+                wanted = read_summary(first / "summary.json");
+  fs::path file = folder / "response.csv";
+  Table table = read_csv(file);
+  if (holds(folder, "contacts.csv")) {
+    file = folder / "contacts.csv";
+    const double contact = number_in(wanted, quantities::leading_contact);
+    table = read_csv(file).where("contact", fmt::format("{:g}", contact));
+    if (table.has_column("direction"))
+      table = table.where("direction", text_in(wanted, quantities::leading_direction));
+  }
+  const double frequency = number_in(summary, quantities::frequency),
+               unstable = number_in(summary, quantities::unstable_multipliers);
+  OverlayCurve curve{
+      fmt::format("{}, {:.6g} Hz", label, frequency), "motion", {}, column_of(table, "time_fraction", file),
+      column_of(table, "displacement_m", file),       {}};
+  curve.frequency.assign(table.rows(), frequency);
+  curve.unstable.assign(table.rows(), unstable);
+  return curve;
+}
+
+/// Whether a folder holds one motion and no curve.
+bool is_response(const fs::path& folder) {
+  return holds(folder, "response.csv") && !holds(folder, "sweep.csv") && !holds(folder, "backbone.csv");
 }
 
 void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
@@ -173,7 +207,7 @@ bool any_number(const Series& series) {
 }
 
 void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor) {
-  Series series(plain(curve.label), curve.frequency, curve.displacement);
+  Series series(plain(curve.label), curve.time.empty() ? curve.frequency : curve.time, curve.displacement);
   for (double& value : series.y) value *= factor;
   series.colour = colour;
   if (curve.kind == "response") series.style = SeriesStyle::points;
@@ -203,10 +237,14 @@ Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity
   const std::vector<std::string> labels = labels_of(folders);
   const Scene first = scene_in(folders.front());
   overlay.gap = common_gap(first);
+  const bool over_time = std::all_of(folders.begin(), folders.end(), is_response);
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Scene scene = scene_in(folders[i]);
     require_same_structure(first, scene, folders[i]);
-    add_curves(overlay.curves, folders[i], labels[i], quantity);
+    if (over_time)
+      overlay.curves.push_back(motion_in(folders[i], labels[i], folders.front()));
+    else
+      add_curves(overlay.curves, folders[i], labels[i], quantity);
     const double gap = common_gap(scene);
     if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
     if (scene.contact.law != no_law && first.contact.law != no_law)
@@ -230,24 +268,37 @@ Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
-  panel.x.label = "Frequency (Hz)";
-  panel.y.label = fmt::format("{} ({}m)", names_of(quantity).words, scale.prefix);
+  const bool over_time = is_over_time(overlay);
+  panel.x.label = over_time ? "Time (fraction of a period)" : "Frequency (Hz)";
+  panel.y.label =
+      fmt::format("{} ({}m)", over_time ? "Displacement" : names_of(quantity).words, scale.prefix);
   std::size_t next = 0;
   for (const OverlayCurve& curve : overlay.curves) {
     const bool mode = curve.kind == "nonlinear_mode";
     draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], scale.factor);
   }
-  if (std::isfinite(overlay.gap) && quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min)
+  const bool is_largest = quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min;
+  if (std::isfinite(overlay.gap) && (over_time || is_largest))
     panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, "m"));
   return figure;
 }
 
+bool is_over_time(const Overlay& overlay) {
+  return !overlay.curves.empty() && overlay.curves.front().kind == "motion";
+}
+
 Table overlay_table(const Overlay& overlay) {
-  Table table({"curve", "kind", "frequency_Hz", "displacement_m", "unstable"});
+  std::vector<std::string> columns{"curve", "kind", "frequency_Hz", "displacement_m", "unstable"};
+  const bool over_time = is_over_time(overlay);
+  if (over_time) columns.insert(columns.begin() + 3, "time_fraction");
+  Table table(columns);
   for (const OverlayCurve& curve : overlay.curves)
-    for (std::size_t i = 0; i < curve.frequency.size(); ++i)
-      table.append_row(
-          {curve.label, curve.kind, curve.frequency[i], curve.displacement[i], curve.unstable[i]});
+    for (std::size_t i = 0; i < curve.frequency.size(); ++i) {
+      std::vector<Cell> row{curve.label, curve.kind, curve.frequency[i], curve.displacement[i],
+                            curve.unstable[i]};
+      if (over_time) row.insert(row.begin() + 3, curve.time[i]);
+      table.append_row(std::move(row));
+    }
   return table;
 }
 

@@ -50,7 +50,9 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   page.body =
       "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
       (holds_file(files, "overlay.svg")
-           ? picture_html(files, "overlay", "Displacement over the frequency, of all folders")
+           ? picture_html(files, "overlay",
+                          is_over_time(overlay) ? "Displacement over a period, of all folders"
+                                                : "Displacement over the frequency, of all folders")
            : "<p>There is no picture: gnuplot was not found.</p>\n") +
       (has_unstable ? "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n"
                     : "<p>The curves are those of</p>\n<ul>\n") +
