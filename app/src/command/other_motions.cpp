@@ -21,10 +21,11 @@ std::string isolas_sentence(const Summary& summary) {
                                isolas->numbers("highest_frequency_Hz")[i],
                                quantity(isolas->numbers("max_contact_force_N")[i], "N")));
   const double starts = number_in(summary, quantities::isola_starts);
+  const double frequencies = number_in(summary, quantities::isola_frequencies);
   return fmt::format(
-      "Motions on other curves were sought at {:.0f} frequencies, from rest{}. {} Curves that are narrower than the "
+      "Motions on other curves were sought at {:.0f} frequenc{}, from rest{}. {} Curves that are narrower than the "
       "distance of these frequencies, or attract few states, may be missed.",
-      number_in(summary, quantities::isola_frequencies),
+      frequencies, frequencies > 1.0 ? "ies" : "y",
       starts > 1.0 ? fmt::format(" and {:.0f} random state{} each", starts - 1.0, starts > 2.0 ? "s" : "")
                    : "",
       found == 0 ? "None was found." : fmt::format("They are on {}.", fmt::join(each, "; ")));

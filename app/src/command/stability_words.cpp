@@ -112,7 +112,15 @@ std::string partly_known_sentence(const Summary& summary) {
                      sentence_of(summary, text_in(summary, quantities::stability_not_known)));
 }
 
-/// The unstable parts of the curve and of each branch.
+/// "branch 2", "isola 1", or "the curve", of a row of unstable parts.
+std::string curve_of_part(const Table& parts, std::size_t row) {
+  const std::string branch = cell_text(parts.at(row, "branch")),
+                    isola = parts.has_column("isola") ? cell_text(parts.at(row, "isola")) : "0";
+  if (isola == "0") return branch == "0" ? "the curve" : "branch " + branch;
+  return "isola " + isola + (branch == "0" ? "" : ", branch " + branch + ",");
+}
+
+/// The unstable parts of the curve, of each branch and of each isola.
 void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary,
                            const SweepAxis& axis) {
   if (find_entry(summary, quantities::points_stability_not_known.name) == nullptr) return;
@@ -122,17 +130,19 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
       sentences.emplace_back("No motion whose stability is known is unstable.");
     return;
   }
-  std::map<std::string, std::vector<std::string>> places;
+  std::vector<std::pair<std::string, std::vector<std::string>>> places;  // curve by curve, as the rows
   const std::vector<double> begins = parts->numbers("begin_" + axis.suffix),
                             ends = parts->numbers("end_" + axis.suffix);
-  for (std::size_t i = 0; i < parts->rows(); ++i)
-    places[cell_text(parts->at(i, "branch"))].push_back(
-        begins[i] == ends[i] ? fmt::format("{:.7g} {}", ends[i], axis.unit)
-                             : fmt::format("{:.7g} to {:.7g} {}", begins[i], ends[i], axis.unit));
-  for (const auto& [branch, where] : places)
-    sentences.push_back(fmt::format("Along {} motions are unstable at {}.",
-                                    branch == "0" ? "the curve" : "branch " + branch,
-                                    fmt::join(where, ", ")));
+  for (std::size_t i = 0; i < parts->rows(); ++i) {
+    const std::string curve = curve_of_part(*parts, i);
+    if (places.empty() || places.back().first != curve)
+      places.emplace_back(curve, std::vector<std::string>());
+    places.back().second.push_back(begins[i] == ends[i]
+                                       ? fmt::format("{:.7g} {}", ends[i], axis.unit)
+                                       : fmt::format("{:.7g} to {:.7g} {}", begins[i], ends[i], axis.unit));
+  }
+  for (const auto& [curve, where] : places)
+    sentences.push_back(fmt::format("Along {} motions are unstable at {}.", curve, fmt::join(where, ", ")));
 }
 
 }  // namespace

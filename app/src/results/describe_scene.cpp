@@ -141,9 +141,10 @@ std::string isolas_line(const Analysis& analysis) {
   const double interval = std::abs(analysis.frequency_to - analysis.frequency_from);
   const double frequencies = std::ceil(interval / analysis.isola_spacing * (1.0 - 1e-9));
   return fmt::format(
-      "isolas     sought at {:.0f} frequencies, from rest and {} random states each: {:.0f} motions in time, of up to "
+      "isolas     sought at {:.0f} frequenc{}, from rest and {} random states each: {:.0f} motions in time, of up to "
       "seconds each, which the cost below leaves out\n",
-      frequencies, analysis.isola_starts, frequencies * (1 + analysis.isola_starts));
+      frequencies, frequencies > 1.0 ? "ies" : "y", analysis.isola_starts,
+      frequencies * (1 + analysis.isola_starts));
 }
 
 std::string forcing_line(const Scene& scene) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/sweep_axis.hpp"
@@ -61,7 +63,7 @@ std::optional<double> change_between(const Sweep& sweep, std::size_t number, std
   return jump;
 }
 
-void append_parts(Table& table, const Sweep& sweep, std::size_t number) {
+void append_parts(Table& table, const Sweep& sweep, std::size_t number, std::size_t isola) {
   const solvers::FrequencySweep& curve = number == 0 ? sweep.curve : sweep.branches[number - 1].curve;
   const std::vector<solvers::PointStability> points = sweep.stability_of(number).points;
   const auto place = [&](std::size_t i) { return parameter_of(curve.points[i], curve.parameter); };
@@ -72,9 +74,11 @@ void append_parts(Table& table, const Sweep& sweep, std::size_t number) {
     std::size_t before = first, after = i + 1;  // past points whose stability is not known
     while (before > 0 && points[before - 1].unstable < 0) --before;
     while (after + 1 < points.size() && points[after].unstable < 0) ++after;
-    table.append_row({std::int64_t(number),
-                      change_between(sweep, number, before, first).value_or(place(first)),
-                      change_between(sweep, number, i + 1, after).value_or(place(i))});
+    std::vector<Cell> row{std::int64_t(number),
+                          change_between(sweep, number, before, first).value_or(place(first)),
+                          change_between(sweep, number, i + 1, after).value_or(place(i))};
+    if (table.has_column("isola")) row.emplace_back(std::int64_t(isola));
+    table.append_row(std::move(row));
   }
 }
 
@@ -82,8 +86,14 @@ void append_parts(Table& table, const Sweep& sweep, std::size_t number) {
 
 Table unstable_parts(const Sweep& sweep) {
   const SweepAxis axis = sweep_axis(sweep);
-  Table table({"branch", "begin_" + axis.suffix, "end_" + axis.suffix});
-  for (std::size_t number = 0; number <= sweep.branches.size(); ++number) append_parts(table, sweep, number);
+  std::vector<std::string> columns{"branch", "begin_" + axis.suffix, "end_" + axis.suffix};
+  if (!sweep.isolas.empty()) columns.emplace_back("isola");
+  Table table(columns);
+  for (std::size_t isola = 0; isola <= sweep.isolas.size(); ++isola) {
+    const Sweep& one = isola == 0 ? sweep : sweep.isolas[isola - 1];
+    for (std::size_t number = 0; number <= one.branches.size(); ++number)
+      append_parts(table, one, number, isola);
+  }
   return table;
 }
 
