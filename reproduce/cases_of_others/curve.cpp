@@ -189,6 +189,7 @@ app::Figure with_enlargement(app::Panel panel, const app::Rectangle& part) {
   figure.columns = 2;
   figure.panel_width = 520;
   figure.panel_height = 460;
+  panel.title = "response";
   app::Panel enlarged = panel;
   enlarged.title = "enlarged";
   enlarged.x.lower = part.x1;

@@ -80,6 +80,7 @@ app::Table response_table(report::Artefact& artefact) {
 
 app::Panel response_panel(const app::Table& responses) {
   app::Panel panel;
+  panel.title = "response";
   panel.x.label = "Angular frequency (rad/s)";
   panel.y.label = "Largest displacement";
   for (const auto& [from, to] : {std::pair{0.6, 0.8}, std::pair{1.2, 2.0}}) {
@@ -115,8 +116,9 @@ app::Table distance_table(report::Artefact& artefact) {
 
 app::Panel distance_panel(const app::Table& distances) {
   app::Panel panel;
+  panel.title = "distance from rigid friction";
   panel.x.label = "Stiffness of the slider";
-  panel.y.label = "Relative distance from rigid friction";
+  panel.y.label = "Relative distance";
   panel.x.logarithmic = panel.y.logarithmic = true;
   panel.y.tick_format = panel.x.tick_format = "10^{%L}";
   for (const auto& [name, colour] : {std::pair{"distance_at_0.75", app::Colour::blue},

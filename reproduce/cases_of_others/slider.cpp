@@ -66,6 +66,7 @@ app::Panel damping_panel(const app::DampedStudy& study, const solvers::DampedBac
     damping.push_back(100.0 * point.damping_ratio());
   }
   app::Panel panel;
+  panel.title = "free";
   panel.x.label = "Amplitude over that of first slip";
   panel.y.label = "Damping ratio (%)";
   app::Series series("damped mode", amplitude, damping);
@@ -96,6 +97,7 @@ void slider(report::Artefact& artefact) {
   figure.panel_width = 520;
   figure.panel_height = 460;
   figure.panels.push_back(curve_panel(curve, "63 functions", 1.0));
+  figure.panels.back().title = "driven";
   figure.panels.back().y.label = "Largest displacement";
   figure.panels.push_back(damping_panel(study, mode));
   artefact.picture(std::move(figure));

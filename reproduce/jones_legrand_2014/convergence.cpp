@@ -187,8 +187,8 @@ std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& 
   }
   for (app::Panel& panel : panels) {
     const double margin = 0.05 * (upper - lower);
-    panel.y = logarithmic ? axis(label, std::pow(10.0, std::floor(std::log10(lower))),
-                                 std::pow(10.0, std::ceil(std::log10(upper))))
+    constexpr double factor = 1.5;  // beyond the curves; whole decades would leave one of them empty
+    panel.y = logarithmic ? axis(label, lower / factor, factor * upper)
                           : axis(label, lower - margin, upper + margin);
     panel.y.logarithmic = logarithmic;
   }

@@ -23,7 +23,8 @@ app::Series drawn(const std::string& label, const Table& rows, const std::string
 }
 
 void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::Backbone& curve,
-                   const Table& table, const std::vector<SecondSolution>& second, int published_harmonics) {
+                   const Table& table, const std::vector<SecondSolution>& second, int published_harmonics,
+                   bool published_ends) {
   using app::Dash;
   auto& panel =
       figure.add_panel(fmt::format("frequency, {} harmonics, {} samples", study.scene().analysis.harmonics,
@@ -40,6 +41,13 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::
   published.style = app::SeriesStyle::line_points;
   published.marker = 1;
   panel.add(published);
+  if (published_ends) {
+    app::Series end("as published, not found beyond", std::vector{published.x.back()},
+                    std::vector{published.y.back()}, app::SeriesStyle::points);
+    end.colour = Colour::black;
+    end.marker = 8;  // open
+    panel.add(end);
+  }
   std::vector<double> x, y, resonance_energy, resonance_frequency;
   for (const auto& one : second) {
     x.push_back(one.energy_ratio);
@@ -186,7 +194,7 @@ void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::B
       defect = std::max(defect, point.equation_residual);
     }
   artefact.note(fmt::format(
-      "The printed equations, in all {} coordinates, were followed to energy {}; the last point is {} at {}. Their "
+      "The printed equations, in all {} coordinates, were followed to energy {} and not found beyond: {} at {}. Their "
       "motions miss the equation of motion by up to {} of the elastic forces. The dashed line, the root of r of the "
       "corrected motions, is what the paper's formula would call frequency.",
       study.model().size(), number(reached, 3), to_string(last.status), number(last.prescribed_ratio, 3),
@@ -224,7 +232,7 @@ void fig07(report::Artefact& artefact) {
   app::Figure figure;
   figure.panel_width = 620;
   figure.panel_height = 370;
-  add_backbones(figure, study, curve, table, second, scene.analysis.harmonics);
+  add_backbones(figure, study, curve, table, second, scene.analysis.harmonics, !published.back().accepted());
   add_torsion(figure, measures);
   artefact.picture(figure);
   artefact.caption(fmt::format(

@@ -48,10 +48,10 @@ Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure
 
 /// How fast the curves of each pair come to the exact one, or to the finest one where there is none.
 void add_distances(Figure& figure, const SweepComparison& comparison) {
-  Panel& panel = figure.add_panel();
-  panel.x.label = "Functions";
   const bool exact = comparison.exact.has_value();
-  panel.y.label = fmt::format("Distance from the {} curve", exact ? "exact" : "finest");
+  Panel& panel = figure.add_panel(fmt::format("Distance from the {} curve", exact ? "exact" : "finest"));
+  panel.x.label = "Functions";
+  panel.y.label = "Distance (-)";
   panel.x.logarithmic = panel.y.logarithmic = true;
   std::map<std::string, Series> pairs;
   for (const ComparedCurve& curve : comparison.curves) {
@@ -135,7 +135,7 @@ Figure curves_figure(const SweepComparison& comparison) {
   figure.title = "Responses over the " + comparison.quantity + ", the most functions of each pair";
   figure.panel_width = 900;
   figure.panel_height = 460;
-  Panel& panel = figure.add_panel();
+  Panel& panel = figure.add_panel("Responses");
   panel.x.label = comparison.axis;
   panel.y.label = "Largest displacement (mm)";
   std::set<std::string> drawn;

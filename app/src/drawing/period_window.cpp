@@ -51,9 +51,9 @@ PeriodWindow::PeriodWindow(const Response& response) : periods_(response.periods
   start_ = at >= 0.5 ? at - 1.0 : at;
 }
 
-Axis PeriodWindow::axis(const std::string& more) const {
+Axis PeriodWindow::axis() const {
   const std::string what = periods_ == 1 ? "a period" : std::to_string(periods_) + " periods of the load";
-  return {.label = "Time (fraction of " + what + (more.empty() ? ")" : "; " + more + ")"),
+  return {.label = "Time (fraction of " + what + ")",
           .lower = start_,
           .upper = start_ + 1.0,
           .ticks = {},

@@ -17,7 +17,7 @@ class PeriodWindow {
 
   /// Where it begins, in [-0.5, 0.5), a multiple of 1 / points.
   double start() const { return start_; }
-  Axis axis(const std::string& more = "") const;  ///< "Time (fraction of a period; more)"
+  Axis axis() const;  ///< "Time (fraction of a period)"
   /// `values` at uniform instants of the period from 0 on, with the first one again at the end.
   Series curve(const Eigen::VectorXd& values) const;
   /// A fraction of the period as the instant of the window.

@@ -82,11 +82,11 @@ void add_motion(Figure& figure, const MotionPicture& picture, const std::string&
   const Response& response = picture.response;
   const std::vector<std::pair<double, double>>& spans = picture.spans;
   const Scale scale = axis_scale(values.cwiseAbs().maxCoeff());
-  Panel& panel = figure.add_panel(quantity + picture.name);
+  Panel& panel = figure.add_panel(quantity + picture.name + (spans.empty() ? "" : " (shaded: contact)"));
   for (const auto& [begin, end] : spans)
     panel.rectangles.push_back({begin, scale.factor * values.minCoeff(), end,
                                 scale.factor * values.maxCoeff(), Colour::sky_blue, 0.35});
-  panel.x = picture.window.axis(spans.empty() ? "" : "shaded: contact");
+  panel.x = picture.window.axis();
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   Series series = picture.window.curve(scale.factor * values);
   if (!response.converged) {
@@ -281,9 +281,9 @@ Figure damped_figure(const Scene& scene, const Table& backbone) {
   figure.title = method_title(scene);
   figure.panel_width = 640;
   figure.panel_height = 320;
-  for (const auto& [column, label] :
-       {std::pair{"frequency_Hz", "Frequency (Hz)"}, {"damping_ratio", "Damping ratio"}}) {
-    Panel& panel = figure.add_panel();
+  for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
+                                             {"Damping", "damping_ratio", "Damping ratio"}}) {
+    Panel& panel = figure.add_panel(title);
     panel.x.label =
         has_friction(scene) ? "Amplitude over that of first slip" : "Amplitude over that of first contact";
     panel.x.logarithmic = true;
@@ -362,7 +362,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
     figure.title += ", " + frequency_text(scene.forcing.frequency);
   if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
-  figure.panel_width = 640;
+  figure.panel_width = 660;  // two names of "half peak to peak, unstable" fit beside each other in the legend
   figure.panel_height = 420;
   const std::optional<std::size_t> output = leading_output(outputs.outputs, scene);
   const bool about_a_mean = vibrates_about_a_mean(scene);

@@ -67,7 +67,7 @@ TEST(SubharmonicScene, HasAMotionOfTwoPeriodsOfTheLoad) {
   EXPECT_EQ(value_of<std::int64_t>(record.summary, "period_of_motion"), 2);
   EXPECT_GT(value_of<double>(record.summary, "change_after_one_period"), 1.0);
   EXPECT_EQ(value_of<std::string>(record.summary, "stability"), "stable");
-  EXPECT_EQ(record.figure.panels[0].x.label, "Time (fraction of 2 periods of the load; shaded: contact)");
+  EXPECT_EQ(record.figure.panels[0].x.label, "Time (fraction of 2 periods of the load)");
   // The velocity is that of the time column.
   const auto u = record.response.numbers("displacement_m"), v = record.response.numbers("velocity_m_per_s");
   const double step = 2.0 * two_pi / 2.7 / 2048;

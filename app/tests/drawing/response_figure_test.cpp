@@ -33,7 +33,7 @@ TEST(ResponseFigure, ShadesThePhasesOfContactInEachPanel) {
       // The interval of contact is not cut by the edges of the picture.
       EXPECT_EQ(panel.rectangles.size(), phases ? response.phases->motion.phases.size() : 0u);
       EXPECT_EQ(in_contact > 0.0, phases);
-      EXPECT_EQ(panel.x.label.find("shaded") != std::string::npos, in_contact > 0.0);
+      EXPECT_EQ(panel.title.find("shaded") != std::string::npos, in_contact > 0.0);
     }
   }
 }

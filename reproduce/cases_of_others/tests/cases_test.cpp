@@ -55,6 +55,15 @@ TEST(CasesOfOthers, ACurveOfImpactsShowsTheirImpulses) {
   EXPECT_NE(script.find("Impulse of the impact"), std::string::npos);
 }
 
+TEST(CasesOfOthers, PanelsWithALetterHaveATitle) {
+  const std::vector<std::string> several{"den_hartog", "nlvib_example03", "pyharm_onedofgap", "slider"};
+  results().need(several);
+  for (const std::string& name : several) {
+    const std::string text = app::read_file(results().folder() / (name + ".figure.js"));
+    EXPECT_EQ(text.find(R"({"title":"","x":)"), std::string::npos) << name;
+  }
+}
+
 TEST(CasesOfOthers, EachValueAgreesWithinItsTolerance) {
   std::vector<std::string> all = names;
   all.emplace_back("den_hartog");

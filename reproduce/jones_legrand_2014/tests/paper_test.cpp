@@ -207,6 +207,19 @@ TEST(Jl14Paper, ErrorsMeetAnIndependentImplementation) {
         << listed.pair << " " << listed.functions;
 }
 
+TEST(Jl14Paper, TheErrorsOfTheTipFillTheirAxis) {
+  results().need({"reference_case1", "reference_case2", "fig11"});
+  const std::string text = app::read_file(results().folder() / "fig11_tip_error.figure.js");
+  const std::size_t begin = text.find(" = {") + 3;
+  const auto panels = nlohmann::json::parse(text.substr(begin, text.rfind(';') - begin))["panels"];
+  const auto errors = results().read("fig11_tip_error.csv").numbers("rms_relative_error");
+  const auto [least, largest] = std::minmax_element(errors.begin(), errors.end());
+  for (const auto& panel : panels) {
+    EXPECT_GT(panel["y"]["lower"].get<double>(), *least / 2.0);
+    EXPECT_LT(panel["y"]["upper"].get<double>(), *largest * 2.0);
+  }
+}
+
 TEST(Jl14Paper, EnergyNormsMeetAnIndependentImplementation) {
   results().need({"reference_case1", "reference_case2", "fig10"});
   const Table table = results().read("fig10_energy_norm.csv");

@@ -55,6 +55,13 @@ TEST(Ll10Blade, BackboneIsTheListedOneAndThePublishedFormulaFallsShortOfIt) {
   EXPECT_NEAR(at(table, "published", 7.0), at(table, "consistent", 7.0, "rayleigh_frequency_ratio"), 0.03);
 }
 
+// The printed equations are not followed to the end of the axis.
+TEST(Ll10Blade, TheEndOfThePublishedCurveIsMarked) {
+  results().need({"fig07"});
+  EXPECT_NE(app::read_file(results().folder() / "fig07_blade_backbone.figure.js").find("not found beyond"),
+            std::string::npos);
+}
+
 TEST(Ll10Blade, VerdictsOnTheBladeFollowTheFigures) {
   results().need({"fig07", "fig08"});
   using enum report::Verdict;
