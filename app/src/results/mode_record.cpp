@@ -109,7 +109,7 @@ void append_statuses(Summary& summary, const Backbone& curve) {
   summary.emplace_back(quantities::interruptions, static_cast<std::int64_t>(curve.interruptions.size()));
 }
 
-/// The points of a curve without a motion, which beside an internal resonance leave it converged.
+/// The points of a curve where no motion was found, which beside an internal resonance leave it converged.
 void warn_of_failed_points(Record& record, const Backbone& curve) {
   std::vector<std::string> counts;
   int failed = 0;
@@ -126,7 +126,7 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
                            ? fmt::format("{:.4f} to {:.4f}", gap.first_ratio, gap.last_ratio)
                            : fmt::format("{:.4f}", gap.first_ratio));
   record.warnings.push_back(fmt::format(
-      "{} of {} points of the curve have no motion ({}), at frequency ratios {}; analysis.samples = 2 x "
+      "At {} of {} points of the curve no motion was found ({}), at frequency ratios {}; analysis.samples = 2 x "
       "analysis.harmonics, or other harmonics, may leave fewer.",
       failed, curve.points.size(), fmt::join(counts, ", "), fmt::join(ranges, ", ")));
 }

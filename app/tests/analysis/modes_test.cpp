@@ -109,7 +109,7 @@ TEST(Analyse, PointsWithoutAMotionAreAWarningWithTheirNumberAndPlaces) {
   const std::int64_t failed = count("points_cycling") + count("points_no_contact") + count("points_singular");
   ASSERT_GT(failed, 0);
   EXPECT_TRUE(warns(record, std::to_string(failed) + " of " + std::to_string(count("points")) +
-                                " points of the curve have no motion"))
+                                " points of the curve no motion was found"))
       << testing::PrintToString(record.warnings);
   EXPECT_TRUE(warns(record, std::to_string(count("points_cycling")) + " cycling"));
   EXPECT_TRUE(warns(record, "at frequency ratios 1."));
