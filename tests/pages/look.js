@@ -40,9 +40,22 @@ window.look ??= (() => {
   }
   const overlap = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 4 && b.top < a.bottom - 4;
   function unreadable() {
-    // Keys of lists that are broken within a word.
+    // Keys of lists, numbers of tables and options of commands that are broken, and panels with a letter and no title.
     const lines = (one) => { const range = document.createRange(); range.selectNodeContents(one); return range.getClientRects().length; };
     const broken = [...document.querySelectorAll("dt")].filter((one) => !one.textContent.includes(" ") && lines(one) > 1);
+    const torn = [...document.querySelectorAll("td")].filter((one) => one.textContent && Number.isFinite(Number(one.textContent)) && lines(one) > 1);
+    const options = [...document.querySelectorAll("pre code, td")].flatMap((one) => {
+      const found = [], nodes = document.createTreeWalker(one, NodeFilter.SHOW_TEXT);
+      for (let node = nodes.nextNode(); node; node = nodes.nextNode())
+        for (const { index, 0: word } of node.textContent.matchAll(/--[a-z-]+/g)) {
+          const range = document.createRange();
+          range.setStart(node, index);
+          range.setEnd(node, index + word.length);
+          if (range.getClientRects().length > 1) found.push({ textContent: word });
+        }
+      return found;
+    });
+    const untitled = [...document.querySelectorAll(".panel > p")].filter((one) => /^\([a-z]\)\s*$/.test(one.textContent));
     const cut = [...document.querySelectorAll(".plot .label, .plot .tick text, .motion text")].filter((one) => one.textContent).filter((one) => {
       const label = one.getBoundingClientRect(), box = one.closest("svg").getBoundingClientRect();
       return label.top < box.top - 1 || label.bottom > box.bottom + 1 || label.left < box.left - 1 || label.right > box.right + 1;
@@ -55,7 +68,11 @@ window.look ??= (() => {
       const strokes = [...one.querySelectorAll("[stroke]")].map((mark) => brightness(getComputedStyle(mark).stroke));
       return [brightness(getComputedStyle(one).color), ...strokes].some((shade) => Math.abs(shade - ground(one)) < 45);
     });
-    return [...cut, ...raw, ...upon, ...faint, ...broken].map((one) => one.textContent);
+    const crowded = [...document.querySelectorAll(".plot .axis")].flatMap((axis) => {
+      const numbers = [...axis.querySelectorAll(".tick text:not([visibility])")].filter((one) => one.textContent).map((one) => ({ one, box: one.getBoundingClientRect() }));
+      return numbers.filter(({ box }, i) => i > 0 && overlap(box, numbers[i - 1].box)).map(({ one }) => one);
+    });
+    return [...crowded, ...cut, ...raw, ...upon, ...faint, ...broken, ...torn, ...options, ...untitled].map((one) => one.textContent);
   }
 
   // Names of legends whose button hides nothing, or whose second click does not bring it back.

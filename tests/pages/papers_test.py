@@ -40,7 +40,8 @@ def sums():
 
 
 def figure():
-    """Two panels of a sine and a constant, the second with points that were shifted for sight and a logarithmic abscissa."""
+    """Panels of a sine and a constant, the second with points that were shifted for sight and a logarithmic abscissa, the third
+    below the first, which leaves the name of the abscissa to it."""
 
     def axis(label, logarithmic=False, ticks=(), form="", texts=()):
         return {"label": label, "lower": None, "upper": None, "logarithmic": logarithmic, "ticks": ticks, "texts": texts, "format": form}
@@ -57,9 +58,10 @@ def figure():
     shifted = series("dots", [9.8e-4, 0.031, 1.02], [-0.9, 0.0, 0.9], "line_points", told=[1e-3, 0.03, 1.0])
     long = "A title of an ordinate that is much longer than its axis is high (mm)"
     return {"title": "", "columns": 2, "letters": True, "panel": [480, 320],
-            "panels": [panel("first", axis("Time (periods)", form="%.0f", ticks=[0.0, 1.0]), axis("u_{tip} (mm)"), series("sine", TIMES, SINE),
+            "panels": [panel("first", axis("", form="%.0f", ticks=[0.0, 1.0]), axis("u_{tip} (mm)"), series("sine", TIMES, SINE),
                              series("half", TIMES, half)),
-                       panel("second", axis("Error", True, [1e-3, 1e-2, 0.1, 1.0], texts=["10^{-3}", "", "10^{-1}", "1"]), axis(long), series("half", [1e-3, 1.0], [0.5, 0.5]), shifted)]}
+                       panel("second", axis("Error", True, [1e-3, 1e-2, 0.1, 1.0], texts=["10^{-3}", "", "10^{-1}", "1"]), axis(long), series("half", [1e-3, 1.0], [0.5, 0.5]), shifted),
+                       panel("third", axis("Time (periods)"), axis("u_{tip} (mm)"), series("half", TIMES, half))]}
 
 
 def record(paper, stem, **more):
@@ -170,9 +172,9 @@ def test_curves_zoom_tell_values_and_hide(look, browser, results):
     assert told(look, browser, 0, 0, 10) == ["sine", "Time (periods): 0.25", "utip (mm): 1"]
     assert told(look, browser, 1, 1, 1)[:2] == ["dots", "Error: 0.03"]  # drawn at 0.031, so that it stands beside another
     count = "document.querySelectorAll('.plot .curve').length"
-    assert browser.value(count) == 4
+    assert browser.value(count) == 5
     browser.click("document.querySelector('.legend button')")
-    assert browser.value(count) == 3
+    assert browser.value(count) == 4
     browser.click("document.querySelector('.legend button')")
     path = "document.querySelector('.plot .curve').getAttribute('d')"
     whole = browser.value(path)

@@ -1,5 +1,8 @@
 """What every command writes, in a browser: page and pictures of each kind of analysis, of study, comparison and overlay."""
 
+import csv
+import json
+
 import pytest
 
 FEW = ("--budget", "1", "--pairs", "fourier:fourier,haar:fourier,daubechies6:daubechies6")
@@ -86,6 +89,15 @@ def test_on_a_wide_screen_what_follows_the_picture_stands_beside_it(look, browse
     assert browser.value("document.querySelector('.motion').getBoundingClientRect().top > document.querySelector('figure').getBoundingClientRect().bottom")
 
 
+def test_an_enlarged_axis_stays_readable(look, browser, report, scenes):
+    look.open(made(report, scenes, "comparison") / "report.html", 1000)
+    browser.value("look.draw(true)")
+    browser.value("document.querySelector('.plot svg').focus()")
+    for _ in range(6):
+        browser.send("Input.dispatchKeyEvent", type="keyDown", key="+", text="+")
+        assert browser.value("look.unreadable()") == []
+
+
 def words_of(browser):
     """The text of the page, folded or not."""
     return browser.value("document.querySelector('main').textContent")
@@ -114,6 +126,55 @@ def test_overlay_is_sound(look, report, scenes):
     sound(look, folder, "overlay.html")
 
 
+def rows_of(file):
+    """The rows of a CSV file as dictionaries."""
+    with open(file, newline="") as text:
+        return list(csv.DictReader(text))
+
+
+def test_responses_alone_are_laid_over_each_other_as_motions(look, browser, report, scenes):
+    first, second = (made(report, scenes, name) for name in ("forced response", "time stepping"))
+    folder = report("overlay", first, second, "--quantity", "rms")
+    sound(look, folder, "overlay.html")
+    look.open(folder / "overlay.html")
+    browser.value("look.draw(true)")
+    axes = browser.value("[...document.querySelectorAll('.plot .label')].map((one) => one.textContent)")
+    assert axes == ["Time (fraction of a period)", "Displacement (mm)"]
+    drawn = [row for row in rows_of(folder / "overlay.csv") if row["curve"].endswith(", 150 Hz")]
+    motions = [row for one in (first, second) for row in rows_of(one / "response.csv")]
+    assert [(row["time_fraction"], row["displacement_m"]) for row in drawn] == \
+        [(row["time_fraction"], row["displacement_m"]) for row in motions]
+
+
+def test_motions_of_one_contact_are_laid_over_each_other(report, scenes):
+    first, second = (report("run", scenes / "impacts/between_stops.toml", "--analysis", "forced_response",
+                            "--set", f"forcing.frequency={frequency}") for frequency in (0.1, 0.2))
+    leading = json.loads((first / "summary.json").read_text())["leading_contact"]
+    drawn = rows_of(report("overlay", first, second) / "overlay.csv")
+    motions = [row for one in (first, second) for row in rows_of(one / "contacts.csv") if row["contact"] == str(leading)]
+    assert [row["displacement_m"] for row in drawn] == [row["displacement_m"] for row in motions]
+
+
+def test_names_of_a_curve_with_impacts_stand_beside_each_other(browser, report, scenes):
+    folder = report("run", scenes / "cases_of_others/impact_oscillator.toml")
+    browser.open(folder / "sweep.svg", 2200, 6000)
+    places = browser.value("""["half peak to peak", "rms without mean", "fold", "grazing"].map((name) =>
+      [...document.querySelectorAll("text")].find((one) => one.textContent.trim() === name).getBoundingClientRect().left)""")
+    assert len({round(place) for place in places}) == 2, places
+
+
+def test_a_state_is_hidden_in_the_map_of_states_alone(look, browser, report, scenes):
+    look.open(made(report, scenes, "friction") / "report.html")
+    browser.value("look.draw(true)")
+    count = "[...document.querySelectorAll('.plot')].map((one) => one.querySelectorAll('rect[opacity]').length)"
+    before = browser.value(count)
+    shade = browser.value("[...document.querySelectorAll('.plot')].pop().querySelector('rect[opacity]').getAttribute('opacity')")
+    assert browser.value("document.querySelector('.legend .swatch rect').getAttribute('opacity')") == shade
+    browser.click("document.querySelector('.legend button')")
+    after = browser.value(count)
+    assert before[0] > 0 and after[:-1] == before[:-1] and after[-1] < before[-1]
+
+
 @pytest.mark.parametrize("sampling", ["grid", "list", "samples"])
 def test_study_is_sound(look, report, scenes, tmp_path_factory, sampling):
     frequency = '[[parameters]]\nkey = "forcing.frequency"\nfrom = 100.0\nto = 200.0\n'
@@ -128,4 +189,18 @@ def test_study_is_sound(look, report, scenes, tmp_path_factory, sampling):
     sound(look, folder)
     look.open(folder / "report.html")
     quantities = look.browser.value("[...document.querySelectorAll('.named tbody td:first-child')].map((one) => one.textContent)")
-    assert "max_displacement_m" in quantities and "condition_estimate" not in quantities
+    assert "max_displacement_m" in quantities and not {"condition_estimate", "leading_multiplier_real"} & set(quantities)
+    rows = rows_of(folder / "study.csv")
+    largest = max(rows, key=lambda row: float(row["max_displacement_m"]))
+    commands = look.browser.value("[...document.querySelectorAll('pre')].map((one) => one.textContent)")
+    assert any(f"forcing.frequency={largest['forcing.frequency']} " in one and f"run{largest['run']}" in one for one in commands), commands
+    if sampling != "grid":
+        return
+    look.browser.value("look.draw(true)")
+    place = look.browser.place("document.querySelector('.plot svg')")
+    look.browser.mouse("mouseMoved", place)
+    middle = next(row for row in rows if (row["forcing.frequency"], row["contact.gap"]) == ("150", "0.001"))
+    told = look.browser.value("document.querySelector('.plot .values').innerText").split("\n")
+    assert told[:3] == [f"run: {middle['run']}", "forcing.frequency (Hz): 150", "contact.gap (mm): 1"]
+    assert float(told[3].split(": ")[1]) == pytest.approx(1e3 * float(middle["max_displacement_m"]), rel=1e-4)
+    assert look.browser.errors == []

@@ -70,7 +70,9 @@ std::string folded(const std::string& title, const std::string& body) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escaped(title), body);
 }
 
-std::string code_html(const std::string& text) { return "<pre><code>" + escaped(text) + "</code></pre>\n"; }
+std::string code_html(const std::string& text) {
+  return "<pre><code>" + with_options(text) + "</code></pre>\n";
+}
 
 std::string shell_word(const std::string& text) {
   const bool ordinary = !text.empty() && text.find_first_not_of(

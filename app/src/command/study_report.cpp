@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -83,11 +84,41 @@ std::string failures_html(const Study& study, const StudyRecord& record) {
          code_html(command_of_row(study, record.table, failures.front()));
 }
 
+/// The runs with the largest and the least value of the quantity that pictures show, and how to solve the
+/// first of them alone.
+std::string extremes_html(const Study& study, const StudyRecord& record) {
+  const std::string quantity = text_in(record.summary, {"quantity"});
+  if (quantity.empty()) return "";
+  const std::vector<double> values = record.table.numbers(quantity);
+  std::optional<std::size_t> largest, least;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::get<bool>(record.table.at(i, "converged")) || !std::isfinite(values[i])) continue;
+    if (!largest || values[i] > values[*largest]) largest = i;
+    if (!least || values[i] < values[*least]) least = i;
+  }
+  if (!largest || *largest == *least) return "";
+  const auto run = [&](std::size_t i) {
+    return fmt::format("{:.4g} in run {}", values[i], cell_text(record.table.at(i, "run")));
+  };
+  return "<p>" +
+         escaped(fmt::format("{} is largest, {}, and least, {}. study.csv has a row for each run. This "
+                             "command solves run {} alone:",
+                             quantity, run(*largest), run(*least),
+                             cell_text(record.table.at(*largest, "run")))) +
+         "</p>\n" + code_html(command_of_row(study, record.table, *largest));
+}
+
 /// Whether a quantity says how a run was solved and not what came out.
 bool is_of_the_solver(const std::string& quantity) {
-  static const std::set<std::string> names{
-      "residual",        "iterations",         "phases_estimated_error",
-      "phases_unknowns", "condition_estimate", "rounding_error_estimate"};
+  static const std::set<std::string> names{"residual",
+                                           "iterations",
+                                           "phases_estimated_error",
+                                           "phases_unknowns",
+                                           "condition_estimate",
+                                           "rounding_error_estimate",
+                                           "leading_multiplier_real",
+                                           "leading_multiplier_imag",
+                                           "leading_multiplier_error"};
   return names.contains(quantity);
 }
 
@@ -151,7 +182,7 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
   page.body =
       "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", list_html(lines_of(study_outcome(record)))) +
-      section_html("Pictures", pictures_html(record.pictures, files)) +
+      section_html("Pictures", pictures_html(record.pictures, files) + extremes_html(study, record)) +
       section_html("Quantiles", quantiles_html(study, summary)) +
       section_html("Runs that did not converge", failures_html(study, record)) +
       section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +

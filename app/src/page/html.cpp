@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "page/library_files.hpp"
@@ -12,9 +13,19 @@
 namespace wavebalance::app {
 namespace {
 
+/// Whether a cell is one number, which no line may break.
+bool is_number(const std::string& cell) {
+  char* end = nullptr;
+  std::strtod(cell.c_str(), &end);
+  return !cell.empty() && *end == '\0';
+}
+
 std::string row_html(const std::vector<std::string>& cells, const char* tag) {
   std::string text = "<tr>";
-  for (const auto& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, with_formulas(cell));
+  for (const auto& cell : cells)
+    text += fmt::format("<{0}{2}>{1}</{0}>", tag,
+                        cell.find('$') == cell.npos ? with_options(cell) : with_formulas(cell),
+                        is_number(cell) ? " class=\"whole\"" : "");
   return text + "</tr>\n";
 }
 
@@ -80,6 +91,18 @@ std::string with_formulas(std::string_view text) {
               escaped(text.substr(begin + 1, end - begin - 1)) + "</span>";
     text.remove_prefix(end + 1);
   }
+}
+
+std::string with_options(std::string_view text) {
+  std::string result;
+  for (std::size_t begin = text.find("--"); begin != text.npos; begin = text.find("--")) {
+    const std::size_t end =
+        std::min(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", begin), text.size());
+    result += escaped(text.substr(0, begin)) + "<span class=\"whole\">" +
+              escaped(text.substr(begin, end - begin)) + "</span>";
+    text.remove_prefix(end);
+  }
+  return result + escaped(text);
 }
 
 std::string picture_size(std::string_view bytes) {

@@ -131,10 +131,33 @@ Json segment_data(const Segment& s) {
           {"label", s.label}};
 }
 
+/// A heat map as a series: the middles of its cells, half their sizes, colours, and what is told of each.
+Json map_data(const HeatMap& map) {
+  const auto half = [](const std::vector<double>& places) {
+    return 0.5 * (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+  };
+  Json cells{{"title", map.label},
+             {"half", {rounded(half(map.x)), rounded(half(map.y))}},
+             {"range", {rounded(map.from_zero ? map.least : -map.largest), rounded(map.largest)}},
+             {"colours", map_colours(map)},
+             {"heads", map.told_heads}};
+  std::vector<double> x, y, values;
+  for (std::size_t i = 0; i < map.told_rows.size(); ++i) {
+    if (map.told_rows[i].empty()) continue;
+    x.push_back(rounded(map.x[i % map.x.size()]));
+    y.push_back(rounded(map.y[i / map.x.size()]));
+    values.push_back(rounded(map.values[i]));
+    cells["rows"].push_back(rounded(map.told_rows[i]));
+  }
+  cells["values"] = values;
+  return {{"label", ""}, {"style", "cells"}, {"x", x}, {"y", y}, {"cells", cells}};
+}
+
 Json panel_data(const Panel& panel) {
   Json data{
       {"title", panel.title}, {"x", axis_data(panel.x)}, {"y", axis_data(panel.y)}, {"legend", panel.legend}};
   for (const char* list : {"series", "segments", "rectangles", "texts"}) data[list] = Json::array();
+  if (panel.heat_map) data["series"].push_back(map_data(*panel.heat_map));
   for (std::size_t i = 0; i < panel.series.size(); ++i)
     data["series"].push_back(series_data(panel.series[i], i, panel));
   for (const Segment& one : panel.segments) data["segments"].push_back(segment_data(one));
@@ -164,8 +187,9 @@ bool has_point(const Series& series) {
 bool has_curves(const Figure& figure) {
   bool points = false;
   for (const Panel& panel : figure.panels) {
-    if (panel.drawing || panel.z || panel.heat_map || !panel.frame) return false;
-    points = points || std::any_of(panel.series.begin(), panel.series.end(), has_point);
+    const bool tells = panel.heat_map && !panel.heat_map->told_rows.empty();
+    if (panel.drawing || panel.z || (panel.heat_map && !tells) || !panel.frame) return false;
+    points = points || tells || std::any_of(panel.series.begin(), panel.series.end(), has_point);
   }
   return points;
 }

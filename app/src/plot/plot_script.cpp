@@ -66,14 +66,11 @@ std::string map_block(const HeatMap& map, const std::string& name) {
 /// The ends of the bar say so where values lie beyond them.
 std::string map_text(const HeatMap& map) {
   const std::string end = number_text(map.largest);
-  std::string text =
-      map.from_zero ? "set palette defined (0 '#FFFFFF', 0.25 '#ADD8F0', 0.5 '#56B4E9', 0.75 '#0072B2', 1 "
-                      "'#062A4E')\nset cbrange [" +
-                          number_text(map.least) + ":"
-                    : "set palette defined (-1 '#0072B2', -0.5 '#7FB8D8', 0 '#FFFFFF', 0.5 '#EAAE7F', 1 "
-                      "'#D55E00')\nset cbrange [-" +
-                          end + ":";
-  text += end + "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics autofreq scale 0.4\n";
+  std::string text;
+  for (int i = 0; const char* colour : map_colours(map))
+    text += fmt::format("{}{} '{}'", i == 0 ? "set palette defined (" : ", ", i, colour), ++i;
+  text += ")\nset cbrange [" + (map.from_zero ? number_text(map.least) : "-" + end) + ":" + end +
+          "]\nset cblabel " + quoted(map.label) + "\nset colorbox\nset cbtics autofreq scale 0.4\n";
   const auto beyond = [&](double sign) {
     return std::any_of(map.values.begin(), map.values.end(),
                        [&](double value) { return sign * value > map.largest * (1.0 + 1e-9); });

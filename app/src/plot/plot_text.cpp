@@ -18,6 +18,11 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::array<const char*, 5> map_colours(const HeatMap& map) {
+  if (map.from_zero) return {"#FFFFFF", "#ADD8F0", "#56B4E9", "#0072B2", "#062A4E"};
+  return {"#0072B2", "#7FB8D8", "#FFFFFF", "#EAAE7F", "#D55E00"};
+}
+
 std::string colour_code(Colour colour) {
   switch (colour) {
     case Colour::orange:

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 
 #include "wavebalance/app/plot/plot.hpp"
@@ -15,6 +16,9 @@ std::string colour_code(Colour colour);
 
 /// The colour of the index-th series of a panel that has none of its own, from 0.
 Colour automatic_colour(std::size_t index);
+
+/// The colours of a map, at equal steps from its least value to its largest.
+std::array<const char*, 5> map_colours(const HeatMap& map);
 
 /// " pt 7 ps 0.7": the number-th symbol, from 0.
 std::string symbol_text(std::size_t number);

@@ -175,17 +175,23 @@ std::size_t place_in(const std::vector<double>& ordered, double value) {
   return static_cast<std::size_t>(std::lower_bound(ordered.begin(), ordered.end(), value) - ordered.begin());
 }
 
-void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
-             const std::vector<Outcome>& outcomes, const std::string& quantity) {
+void add_map(Figure& figure, const Table& table, const std::vector<Varying>& varying,
+             const std::vector<double>& values, const std::vector<Outcome>& outcomes,
+             const std::string& quantity) {
   const Varying &x = varying[0], &y = varying[1];
   HeatMap map;
   map.x = places_in_map(x, x.distinct);
   map.y = places_in_map(y, y.distinct);
   map.values.assign(map.x.size() * map.y.size(), missing);
+  map.label = shown_as(quantity).label;
+  map.told_heads = {"run", x.label, y.label, map.label};
+  map.told_rows.resize(map.values.size());
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    map.values[place_in(y.distinct, y.numbers[i]) * map.x.size() + place_in(x.distinct, x.numbers[i])] =
-        values[i];
+    const std::size_t place =
+        place_in(y.distinct, y.numbers[i]) * map.x.size() + place_in(x.distinct, x.numbers[i]);
+    map.values[place] = values[i];
+    map.told_rows[place] = {number_of(table.at(i, "run")), x.numbers[i], y.numbers[i], values[i]};
     least = std::fmin(least, values[i]);
     largest = std::fmax(largest, std::abs(values[i]));
   }
@@ -195,7 +201,6 @@ void add_map(Figure& figure, const std::vector<Varying>& varying, const std::vec
   // Values near each other take all colours; white is left to what has no value.
   constexpr double near = 0.5, pale = 0.15;
   if (least > near * largest) map.least = least - pale * (largest - least);
-  map.label = shown_as(quantity).label;
   Panel& panel = figure.add_panel();
   panel.x = axis_of_map(x);
   panel.y = axis_of_map(y);
@@ -272,6 +277,7 @@ void add_distribution(Figure& figure, std::vector<double> values, const std::str
   Panel& panel = figure.add_panel("Distribution");
   panel.x.label = shown_as(quantity).label;
   panel.y.label = "Runs with at most this value (%)";
+  panel.y.lower = 0.0;
   panel.add({"", values, shares, SeriesStyle::steps});
 }
 
@@ -328,6 +334,11 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     panel.add(std::move(series));
     for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
       add_marks(panel, one.numbers, values_of(values, outcomes, outcome), outcomes, outcome);
+    double lowest = missing, highest = missing;
+    for (const Series& marks : panel.series)
+      for (const double value : marks.y)
+        lowest = std::fmin(lowest, value), highest = std::fmax(highest, value);
+    if (lowest < highest) set_limits(panel.y, lowest, highest);
   }
 }
 
@@ -347,7 +358,7 @@ Figure study_figure(const Study& study, const StudyRuns& runs, const Table& tabl
     return figure;
   figure.title = fmt::format("{} runs", runs.size());
   if (draws_map(study, varying)) {
-    add_map(figure, varying, values, outcomes, quantity);
+    add_map(figure, table, varying, values, outcomes, quantity);
   } else if (study.sampling == Sampling::grid) {
     add_curves(figure, study, table, varying, values, outcomes, quantity);
   } else {

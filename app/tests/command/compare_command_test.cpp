@@ -41,7 +41,8 @@ TEST(CommandCompare, WritesItsFilesAndSaysWhatToTake) {
        {std::string("For an error of 1e-4 of displacement and force"), std::string("[time]\ntrial = "),
         std::string("Errors are those against contact phases."), std::string("How each pair did"),
         std::string("Its motion is stable."), std::string("error_over_time.figure.js"),
-        std::string("wavebalance compare "), "--pairs fourier:fourier,haar:fourier --budget " + budget})
+        std::string("wavebalance compare "),
+        "fourier:fourier,haar:fourier <span class=\"whole\">--budget</span> " + budget})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_NE(outcome.output.find("The reference is contact phases"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("For an error of 1e-2 of displacement and force the cheapest is "),

@@ -76,7 +76,8 @@ TEST(CommandStudy, ARunThatDoesNotConvergeIsThreeAndThePageNamesTheCommandThatRe
   EXPECT_EQ(outcome.output.find("\nconverged"), std::string::npos)
       << outcome.output;  // the line before says it
   const std::string page = read_file(folder / "out" / "report.html");
-  EXPECT_NE(page.find("--set time.functions=0 --output run2"), std::string::npos);
+  EXPECT_NE(page.find("--set</span> time.functions=0 <span class=\"whole\">--output</span> run2"),
+            std::string::npos);
 }
 
 TEST(CommandStudy, WrongStudiesAndOptionsAreTwoAndNothingIsWritten) {

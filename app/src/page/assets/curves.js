@@ -15,7 +15,7 @@
   } };
   const symbols = () => [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, downwards,
                          d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle];
-  const number = (value) => d3.format(".5~g")(value).replace("-", "\u2212");
+  const number = (value) => (value === null ? "none" : d3.format(".5~g")(value).replace("-", "\u2212"));
 
   // A power of ten as such; nothing for other values.
   const power = (value) => {
@@ -108,6 +108,9 @@
 
   const finite = (scale, value) => value !== null && Number.isFinite(scale(value));
 
+  // Of a map its cells tell their values, and not the marks upon them.
+  const telling = (list) => (list.some((series) => series.cells) ? list.filter((series) => series.cells) : list);
+
   function scaleOf(axis, values, range, round) {
     const scale = axis.logarithmic ? d3.scaleLog() : d3.scaleLinear();
     const usable = values.filter((v) => v !== null && (!axis.logarithmic || v > 0));
@@ -119,9 +122,13 @@
     return scale.domain([axis.lower ?? chosen[0], axis.upper ?? chosen[1]]);
   }
 
+  // The abscissa of a panel; of those in a column often only the last one has its name.
+  const abscissa = (data, i) => data.panels.slice(i).find((panel, k) => k % data.columns === 0 && panel.x.label)?.x.label ?? "x";
+
   class Panel {
-    constructor(data, box, size, hidden) {
+    constructor(data, abscissaName, box, size, hidden) {
       this.data = data;
+      this.abscissa = abscissaName;
       this.hidden = hidden;
       this.width = Math.max(120, size[0] - margin.left - margin.right);
       this.height = Math.max(120, size[1] - margin.top - margin.bottom);
@@ -134,7 +141,7 @@
     }
 
     make(box, size) {
-      const name = `${this.data.y.label} over ${this.data.x.label}`;
+      const name = `${this.data.y.label} over ${this.abscissa}`;
       this.svg = d3.select(box).append("svg").attr("width", size[0]).attr("height", size[1])
         .attr("tabindex", 0).attr("role", "img").attr("aria-label", parts(name).map((part) => part.text).join(""));
       const root = this.svg.append("g").attr("transform", `translate(${margin.left},${margin.top})`);
@@ -186,7 +193,7 @@
 
     // Arrow keys to the sides tell one point of a curve after another, those up and down another curve.
     step(key) {
-      const curves = this.shown().filter((series) => series.y.some((value, i) => finite(this.x, series.x[i]) && finite(this.y, value)));
+      const curves = telling(this.shown()).filter((series) => series.y.some((value, i) => finite(this.x, series.x[i]) && finite(this.y, value)));
       if (curves.length === 0) return;
       const by = { ArrowUp: -1, ArrowDown: 1 }[key] ?? 0;
       const series = curves[(Math.max(0, curves.indexOf(this.told)) + by + curves.length) % curves.length];
@@ -194,7 +201,8 @@
       this.told = series;
       const there = (i) => finite(this.x, series.x[i]) && finite(this.y, series.y[i]);
       do this.index = (this.index + (key === "ArrowLeft" ? -1 : 1) + series.x.length) % series.x.length; while (!there(this.index));
-      this.tell({ series, at: [this.x(series.x[this.index]), this.y(series.y[this.index])], told: series.told?.[this.index] });
+      this.tell({ series, at: [this.x(series.x[this.index]), this.y(series.y[this.index])], told: series.told?.[this.index],
+                  row: series.cells?.rows[this.index] });
     }
 
     draw() {
@@ -208,6 +216,7 @@
       };
       this.xAxis.call(ticks(d3.axisBottom(this.x), this.data.x, this.width / 80).tickSizeInner(-this.height).tickPadding(7));
       this.yAxis.call(ticks(d3.axisLeft(this.y), this.data.y, this.height / 45).tickSizeInner(-this.width).tickPadding(7));
+      this.spread(this.xAxis);
       this.svg.style("touch-action", transform.k > 1 ? "none" : "pan-y");
       this.plot.selectAll("*").remove();
       this.outer.selectAll("*").remove();
@@ -219,6 +228,16 @@
         svgText(this.plot.append("text").attr("x", this.x(mark.x)).attr("y", this.y(mark.y)).attr("dy", "0.32em")
           .attr("text-anchor", mark.anchor), mark.text);
       this.leave();
+    }
+
+    // Numbers that would stand on the one before are left out.
+    spread(axis) {
+      let end = -Infinity;
+      axis.selectAll(".tick text").attr("visibility", null).each(function () {
+        const { left, right, width } = this.getBoundingClientRect();
+        if (width > 0 && left < end + 4) this.setAttribute("visibility", "hidden");
+        else if (width > 0) end = right;
+      });
     }
 
     shown() { return this.data.series.filter((series) => !this.hidden.has(key(series))); }
@@ -238,7 +257,18 @@
         svgText(this.outer.append("text").attr("x", this.width - 4).attr("y", b[1] - 4).attr("text-anchor", "end"), one.label);
     }
 
+    cells({ cells, x, y }) {
+      const at = (i) => cells.range[0] + (i / (cells.colours.length - 1)) * (cells.range[1] - cells.range[0]);
+      const colour = d3.scaleLinear().domain(cells.colours.map((_, i) => at(i))).range(cells.colours).clamp(true);
+      cells.values.forEach((value, i) => {
+        if (value !== null)
+          this.rectangle({ x: [x[i] - cells.half[0], x[i] + cells.half[0]], y: [y[i] - cells.half[1], y[i] + cells.half[1]],
+                           colour: colour(value), opacity: 1 });
+      });
+    }
+
     curve(series) {
+      if (series.cells) return this.cells(series);
       const { x, y } = this;
       const at = series.x.map((value, i) => [x(value), finite(x, value) && finite(y, series.y[i]) ? y(series.y[i]) : NaN]);
       const there = ([, v]) => Number.isFinite(v);
@@ -259,6 +289,11 @@
     // The point of a series next to the pixel (u, v): one of its points where they have symbols, else on the lines between.
     nearest(series, u, v) {
       let best = { distance: reach };
+      if (series.cells) {
+        const x = this.x.invert(u), y = this.y.invert(v), [width, height] = series.cells.half;
+        const i = series.x.findIndex((value, k) => Math.abs(x - value) <= width && Math.abs(y - series.y[k]) <= height);
+        return i < 0 ? best : { distance: 0, at: [this.x(series.x[i]), this.y(series.y[i])], series, row: series.cells.rows[i] };
+      }
       let before = null;
       const joined = series.style === "line";
       series.x.forEach((value, i) => {
@@ -281,7 +316,7 @@
       const box = this.svg.node().getBoundingClientRect();
       const u = event.clientX - box.left - margin.left, v = event.clientY - box.top - margin.top;
       const inside = u >= 0 && v >= 0 && u <= this.width && v <= this.height;
-      const found = this.shown().map((series) => this.nearest(series, u, v));
+      const found = telling(this.shown()).map((series) => this.nearest(series, u, v));
       const best = inside ? found.reduce((a, b) => (b.distance < a.distance ? b : a), { distance: reach }) : {};
       if (best.at) this.tell(best);
       else this.leave();
@@ -292,8 +327,9 @@
       const [x, y] = best.at;
       this.dot.attr("cx", x).attr("cy", y).attr("fill", best.series.colour).attr("visibility", "visible");
       const line = (label, value) => element("div", {}, ...html(label || "value"), `: ${number(value)}`);
-      this.values.replaceChildren(element("strong", {}, ...html(best.series.label)),
-        line(this.data.x.label, best.told ?? this.x.invert(x)), line(this.data.y.label, this.y.invert(y)));
+      const lines = best.row ? best.row.map((value, i) => line(best.series.cells.heads[i], value))
+        : [line(this.abscissa, best.told ?? this.x.invert(x)), line(this.data.y.label, this.y.invert(y))];
+      this.values.replaceChildren(element("strong", {}, ...html(best.series.label)), ...lines);
       this.values.hidden = false;
       const right = x > this.width / 2;
       this.values.style.left = right ? "" : `${x + margin.left + 12}px`;
@@ -311,14 +347,20 @@
   const key = (series) => [series.label, series.colour, series.dash, series.style].join("|");
 
   const hasPoint = (series) => series.x.some((x, i) => x !== null && series.y[i] !== null);
-  const areaOpacity = (data, series) => data.panels.flatMap((panel) => panel.rectangles).find((one) => one.colour === series.colour)?.opacity ?? 1;
+  const areaOpacity = (data, series) => data.panels.find((panel) => panel.series.includes(series)).rectangles
+    .find((one) => one.colour === series.colour)?.opacity ?? 1;
+
+  // What the colours of a map mean.
+  const colourBar = ({ title, range, colours }) => element("span", { class: "range" }, ...html(title), ` ${number(range[0])} `,
+    element("span", { style: `background: linear-gradient(90deg, ${colours})` }), ` ${number(range[1])}`);
 
   function legend(data, hidden, redraw) {
     const entries = new Map();
     for (const panel of data.panels)
       for (const series of panel.series)
         if (series.label && (series.area || hasPoint(series))) entries.set(key(series), series);
-    return element("div", { class: "legend" }, ...[...entries].map(([name, series]) => {
+    const bars = data.panels.flatMap((panel) => panel.series).filter((series) => series.cells).map((series) => colourBar(series.cells));
+    return element("div", { class: "legend" }, ...bars, ...[...entries].map(([name, series]) => {
       const swatch = d3.create("svg").attr("class", "swatch").attr("width", 28).attr("height", 12).attr("aria-hidden", "true");
       if (series.area)
         swatch.append("rect").attr("width", 28).attr("height", 12).attr("fill", series.colour).attr("opacity", areaOpacity(data, series));
@@ -363,7 +405,7 @@
       place.append(plot);
       grid.append(place);
       const height = Math.max(200, Math.min(420, (each * data.panel[1]) / data.panel[0]));
-      panels.push(new Panel(panel, plot, [each, height], hidden));
+      panels.push(new Panel(panel, abscissa(data, index), plot, [each, height], hidden));
     });
     return () => panels.forEach((panel) => panel.reset());
   }
@@ -393,14 +435,15 @@
   }
 
   // The points of a curve as a table, at most so many of them.
-  function table(panel, letter, series) {
+  function table(panel, abscissaName, letter, series) {
     const most = 100, every = Math.max(1, Math.ceil(series.x.length / most));
     const row = (tag, ...cells) => element("tr", {}, ...cells.map((cell) => element(tag, {}, ...[cell].flat())));
     const rows = [];
+    const heads = series.cells?.heads ?? [abscissaName, panel.y.label || "y"];
     for (let i = 0; i < series.x.length; i += every)
-      if (series.y[i] !== null) rows.push(row("td", number((series.told ?? series.x)[i]), number(series.y[i])));
+      if (series.y[i] !== null) rows.push(row("td", ...(series.cells?.rows[i] ?? [(series.told ?? series.x)[i], series.y[i]]).map(number)));
     const name = element("caption", {}, `${letter} `, ...html(series.label || panel.title), every > 1 ? `, one point of ${every}` : "");
-    return element("table", {}, name, element("thead", {}, row("th", html(panel.x.label || "x"), html(panel.y.label || "y"))),
+    return element("table", {}, name, element("thead", {}, row("th", ...heads.map(html))),
       element("tbody", {}, ...rows));
   }
 
@@ -411,8 +454,8 @@
       if (!details.open || place.firstChild) return;
       await wavebalance.load(source);
       const data = wavebalance.figures[name];
-      data.panels.forEach((panel, i) => panel.series.filter((series) => series.x.length).forEach((series) =>
-        place.append(table(panel, data.letters ? `(${String.fromCharCode(97 + i)})` : "", series))));
+      data.panels.forEach((panel, i) => telling(panel.series).filter(hasPoint).forEach((series) =>
+        place.append(table(panel, abscissa(data, i), data.letters ? `(${String.fromCharCode(97 + i)})` : "", series))));
     });
     return details;
   }

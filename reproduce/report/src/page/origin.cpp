@@ -71,7 +71,7 @@ std::string scenes_html(const Record& record, const Place& place) {
   }
   if (links.empty()) return "";
   return fmt::format("<p>Single runs of the {} {}:</p>\n<pre><code>{}</code></pre>\n",
-                     record.scenes.size() == 1 ? "scene" : "scenes", links, app::escaped(commands));
+                     record.scenes.size() == 1 ? "scene" : "scenes", links, app::with_options(commands));
 }
 
 std::string files_html(const Record& record, const Place& place) {
@@ -108,8 +108,8 @@ std::string origin_html(const Record& record, const Place& place) {
   std::string text =
       "<details class=\"origin\"><summary>Data, commands and origin</summary>\n" + files_html(record, place);
   if (!record.program.empty())
-    text += fmt::format("<p>All of it again:</p>\n<pre><code>{} --output results/{}</code></pre>\n",
-                        app::escaped(record.program), app::escaped(record.identity.paper));
+    text += fmt::format("<p>All of it again:</p>\n<pre><code>{}</code></pre>\n",
+                        app::with_options(record.program + " --output results/" + record.identity.paper));
   text += scenes_html(record, place);
   return text +
          fmt::format(

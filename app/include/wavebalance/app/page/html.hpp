@@ -24,6 +24,9 @@ std::string escaped(std::string_view text);
 /// dollar sign without a second one stays.
 std::string with_formulas(std::string_view text);
 
+/// `text` escaped, in which no line breaks an option of a command, "--set".
+std::string with_options(std::string_view text);
+
 /// A picture with its caption. Its files lie at path + ".svg" or ".png" as seen from the page.
 struct FigureBlock {
   std::string path;              ///< "results/fig06", without suffix

@@ -6,7 +6,8 @@
 namespace wavebalance::app {
 
 /// Whether `figure` has curves that a page can zoom: every panel is a diagram with axes in two dimensions,
-/// and a series has a point. Drawings, heat maps, perspectives and sketches without axes remain pictures.
+/// and a series has a point, or a heat map tells its values. Other heat maps, drawings, perspectives and
+/// sketches without axes remain pictures.
 bool has_curves(const Figure& figure);
 
 /// The data of `figure` as a script, `wavebalance.figures["name"] = {...}`, which curves.js of app/page

@@ -81,6 +81,8 @@ struct HeatMap {
   std::string label;           ///< what the colours show
   bool from_zero = false;      ///< for values >= 0: white for `least`, dark blue for the largest
   double least = 0.0;
+  std::vector<std::string> told_heads = {};         ///< empty, or names of what a page tells of a value
+  std::vector<std::vector<double>> told_rows = {};  ///< as many as values; empty where nothing is told
 };
 
 /// A straight line from (x1, y1) to (x2, y2); unset ends run to the panel's edge.
