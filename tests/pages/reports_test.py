@@ -62,6 +62,7 @@ def test_a_tiny_motion_has_a_unit_in_which_it_can_be_read(look, browser, report,
     look.open(made(report, scenes, "far from the gap") / "report.html")
     look.near("document.querySelector('.motion')")
     assert browser.value("document.querySelector('.motion output').textContent") == "t = \u22120.5 T, u = \u22125.728 nm, force 0"
+    assert "the nearest stays 1 mm short of its gap" in words_of(browser)
     look.open(made(report, scenes, "far beyond the gap") / "report.html")
     look.near("document.querySelector('.motion')")
     assert " m, force" in browser.value("document.querySelector('.motion output').textContent")

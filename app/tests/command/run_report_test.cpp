@@ -25,8 +25,8 @@ TEST(RunReport, ReportTellsWhatWasAskedAndWhatCameOut) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const std::string report = read_file(folder / "out" / "report.html");
   for (const char* words : {"<h1>case: Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm",
-                            "--set contact.gap=1.1e-3", "The motion is stable", "href=\"response.csv\"",
-                            "src=\"response.svg\"", "alt=\""})
+                            "--set</span> contact.gap=1.1e-3", "The motion is stable",
+                            "href=\"response.csv\"", "src=\"response.svg\"", "alt=\""})
     EXPECT_NE(report.find(words), std::string::npos) << words;
   EXPECT_EQ(report.find("<h2>Warnings"), std::string::npos);
 }
