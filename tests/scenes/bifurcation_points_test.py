@@ -70,38 +70,13 @@ def test_a_curve_with_impacts_passes_the_grazing_of_both_stops_at_once(run, matr
     assert "1" not in impacts and impacts[0] == "0" and impacts[-1] == "2"
 
 
-ABSORBER = """
-[structure]
-type = "matrices"
-mass = "m.mtx"
-stiffness = "k.mtx"
-damping = "c.mtx"
-[contact]
-law = "polynomial"
+def test_two_folds_within_one_step_of_the_exact_curve_are_not_withdrawn(run, absorber):
+    # A nonlinear energy sink: w = 1.0155921 and 1.0155087, by shooting.
+    summary = run(absorber([[1.01, -0.01], [-0.01, 0.01]], [[0.012, -0.01], [-0.01, 0.01]], """law = "polynomial"
 polynomial = [-0.01, 0.0, 0.05]
 [[contact.pairs]]
-dofs = [1, 2]
-[forcing]
-load_dofs = [1]
-amplitude = 0.012
-[time]
-trial = "fourier"
-weight = "fourier"
-functions = 31
-quadrature_points = 128
-[analysis]
-type = "frequency_sweep"
-frequency_from = 0.143239449
-frequency_to = 0.175070437
-"""
-
-
-def test_two_folds_within_one_step_of_the_exact_curve_are_not_withdrawn(run, matrix):
-    # A nonlinear energy sink: w = 1.0155921 and 1.0155087, by shooting.
-    matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
-    matrix("c.mtx", [[0.012, -0.01], [-0.01, 0.01]])
-    matrix("k.mtx", [[1.01, -0.01], [-0.01, 0.01]])
-    summary = run(ABSORBER).summary
+dofs = [1, 2]""", 0.012, """frequency_from = 0.143239449
+frequency_to = 0.175070437""")).summary
     folds = sorted(2.0 * math.pi * frequency for frequency in summary["turning_points_Hz"])
     assert folds == pytest.approx([1.0155087, 1.0155921], abs=2e-7)
     assert all(point["structure_status"] == "found" for point in summary["special_points"])

@@ -74,6 +74,42 @@ def matrix(tmp_path):
     return write
 
 
+@pytest.fixture
+def structure(matrix):
+    """Writes mass, stiffness and damping, numbers of one mass or rows of matrices; the [structure] of a scene."""
+
+    def text(mass, stiffness, damping):
+        given = (("mass", mass), ("stiffness", stiffness), ("damping", damping))
+        files = [(key, matrix(f"{key[0]}.mtx", rows if isinstance(rows, list) else [[rows]])) for key, rows in given]
+        return '[structure]\ntype = "matrices"\n' + "".join(f'{key} = "{name}"\n' for key, name in files)
+
+    return text
+
+
+@pytest.fixture
+def absorber(structure):
+    """The text of a sweep over a driven mass of 1 kg with an absorber of 0.05 kg."""
+
+    def text(stiffness, damping, contact, amplitude, analysis):
+        masses = structure([[1.0, 0.0], [0.0, 0.05]], stiffness, damping)
+        return masses + f"""[contact]
+{contact}
+[forcing]
+load_dofs = [1]
+amplitude = {amplitude}
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 31
+quadrature_points = 128
+[analysis]
+type = "frequency_sweep"
+{analysis}
+"""
+
+    return text
+
+
 CHAIN = """
 [structure]
 type = "matrices"

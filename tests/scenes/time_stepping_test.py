@@ -66,18 +66,9 @@ def test_impacts_that_come_to_one_period_by_turns_repeat_after_one(run, scenes):
 
 
 @pytest.mark.parametrize(("damping", "tolerance"), [(20.0, 1e-11), (1000.0, 1e-12)])
-def test_a_damper_that_sets_in_at_once_is_stepped_to_any_tolerance(run, matrix, damping, tolerance):
+def test_a_damper_that_sets_in_at_once_is_stepped_to_any_tolerance(run, structure, damping, tolerance):
     """Across the jump of its force steps are as short as rounding of the time lets them be."""
-    matrix("m.mtx", [[1.0]])
-    matrix("k.mtx", [[1.0]])
-    matrix("c.mtx", [[0.02]])
-    record = run(f"""
-[structure]
-type = "matrices"
-mass = "m.mtx"
-stiffness = "k.mtx"
-damping = "c.mtx"
-contact_dofs = [1]
+    record = run(structure(1.0, 1.0, 0.02) + f"""contact_dofs = [1]
 [contact]
 law = "kelvin_voigt"
 stiffness = 200.0

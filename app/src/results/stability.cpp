@@ -279,7 +279,9 @@ std::vector<Cell> isola_row(const Sweep& isola, std::size_t number) {
     if (point.unstable >= 0) unstable = (std::isnan(unstable) ? 0.0 : unstable) + (point.unstable > 0);
   return {static_cast<std::int64_t>(number),
           isola.origin.frequency,
-          std::string(isola.origin.start == 0 ? "rest" : "random"),
+          std::string(isola.origin.start == 0  ? "rest"
+                      : isola.origin.start < 0 ? "resonance"
+                                               : "random"),
           lowest,
           highest,
           largest,

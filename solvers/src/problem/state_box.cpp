@@ -90,13 +90,35 @@ struct ModalVibration {
   double omega = 0.0;           // rad/s, of the harmonic
   Eigen::VectorXcd amplitudes;  // m
 
-  // The most that a shape can vibrate with the work of the load, which follows from the vibration.
-  double most(const Eigen::VectorXd& shape) const {
+  // The load along a shape, which follows from the vibration.
+  std::complex<double> load(const Eigen::VectorXd& shape) const {
     const Eigen::VectorXcd load = (squares.array() - omega * omega).matrix().cwiseProduct(amplitudes) +
                                   std::complex<double>(0.0, omega) * (damping * amplitudes);
-    return std::abs(shape.cast<std::complex<double>>().dot(load)) / (omega * shape.dot(damping * shape));
+    return shape.cast<std::complex<double>>().dot(load);
+  }
+  // The most that a shape can vibrate with the work of the load.
+  double most(const Eigen::VectorXd& shape) const {
+    return std::abs(load(shape)) / (omega * shape.dot(damping * shape));
   }
 };
+
+// The contacts where a shape vibrates with an amplitude in a harmonic, as late behind the load as leaves its
+// damping the work that the load gives: before or after the quarter of a turn, at which it gives most.
+void add_resonances(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
+                    const ModalVibration& vibration, const Eigen::VectorXd& shape, double amplitude,
+                    int harmonic, StateBox& box) {
+  constexpr int points = 256;
+  const double lag = std::asin(std::min(1.0, amplitude / vibration.most(shape)));
+  for (const double late : {lag, std::numbers::pi - lag}) {
+    const double phase = std::arg(vibration.load(shape)) - late;
+    Eigen::RowVectorXd wave(points);
+    for (int l = 0; l < points; ++l)
+      wave[l] = amplitude * std::cos(2.0 * std::numbers::pi * harmonic * l / points + phase);
+    Motion motion{(vibration.contacts * shape * wave).colwise() + contacts_stand, {}, {}};
+    motion.force = problem.laws().force(motion.displacement);
+    box.add_resonance(std::move(motion));
+  }
+}
 
 // The modes that vibrate, and how the structure would with each contact as the spring that makes the
 // frequency of the harmonic one of its own: stiff contacts make shapes that no mode has.
@@ -141,9 +163,12 @@ void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& st
                    least = moved / contacts.cwiseAbs().maxCoeff(),
                    most = std::min(most_times * least, vibration.most(shape));
       if (!(least > 0.0)) continue;
-      const double found = factor * resonant_amplitude(problem, contacts_stand, contacts,
-                                                       shape.cwiseAbs2().dot(vibration.squares),
-                                                       vibration.omega * vibration.omega, least, most);
+      const double resonant = resonant_amplitude(problem, contacts_stand, contacts,
+                                                 shape.cwiseAbs2().dot(vibration.squares),
+                                                 vibration.omega * vibration.omega, least, most),
+                   found = factor * resonant;
+      if (!(resonant > 0.0)) continue;
+      add_resonances(problem, contacts_stand, vibration, shape, resonant, h, box);
       for (Eigen::Index j = 0; j < shape.size(); ++j)
         box.include_mode(j, found * std::abs(shape[j]), found * vibration.omega * std::abs(shape[j]));
     }

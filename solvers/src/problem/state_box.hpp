@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "wavebalance/solvers/problem/coexisting_motions.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
@@ -30,6 +31,10 @@ class StateBox {
   /// A state uniform in the box.
   StructureState random(std::mt19937& generator) const;
 
+  /// Keeps a motion of the contacts over a period of the load, as one that may be near a resonance.
+  void add_resonance(Motion contacts) { resonances_.push_back(std::move(contacts)); }
+  const std::vector<Motion>& resonances() const { return resonances_; }
+
   const Eigen::MatrixXd& shapes() const { return shapes_; }          ///< n x m, mass-normalised
   const Eigen::MatrixXd& projection() const { return projection_; }  ///< m x n
   /// The half sides as they are told.
@@ -39,6 +44,7 @@ class StateBox {
   Eigen::MatrixXd shapes_, projection_;      // n x m, m x n
   Eigen::VectorXd middle_;                   // of the displacements, m
   Eigen::VectorXd displacement_, velocity_;  // half sides, m
+  std::vector<Motion> resonances_;
 };
 
 /// A box around what the static loads deflect, with the contacts that they close. It holds twice the
@@ -46,7 +52,8 @@ class StateBox {
 /// twice the resonant vibrations that the laws move there. Such is one of a single mode, or of the shape that
 /// the structure has with one contact as the spring that tunes it, whose frequency, with the stiffness that
 /// the contacts have in the first harmonic, is that of a harmonic of the load, and of which the damping takes
-/// no more than the work of the load. Nothing where the structure has no modes to compute. O((modes +
+/// no more than the work of the load: resonances() are these, with the two phases in which the damping takes what
+/// the load gives. Nothing where the structure has no modes to compute. O((modes +
 /// contacts) contacts) evaluations of the laws.
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency);
 

@@ -24,7 +24,7 @@ struct IsolatedCurvesOptions {
 /// A curve of responses through a motion that lies on no other curve.
 struct IsolatedCurve {
   double found_at = 0.0;  ///< Hz, where the structure settles to a motion of it, or comes near to one
-  int start = 0;          ///< what it settled from there: 0 rest, or the number of the random state
+  int start = 0;  ///< what it settled from there: 0 rest, the number of the random state, or -1: a resonance
   /// From one of its ends to the other, or once around. Its status is `reached_end` where the ends lie on
   /// both ends of the interval, `returned` where they lie on one, and otherwise what stopped it.
   FrequencySweep curve;
@@ -42,7 +42,8 @@ struct IsolatedCurves {
 
 /// Seeks curves of responses beside `known`, which frequency_sweep() followed with keep_unknowns on the same
 /// problem. At each frequency the structure settles from rest and from random states, of the box of
-/// coexisting_motions(). Newton's method solves for the response near the motion that it settles to, near
+/// coexisting_motions(). Newton's method solves for the responses near resonant vibrations that the laws move
+/// there, and solves for the response near the motion that it settles to, near
 /// unstable ones that it comes close to (SettledMotion::returns), and where its operations run out near its
 /// last period. A response is on a curve where one of responses_at() there differs from it, also later by
 /// what the load takes to repeat, by at most a hundredth of what vibrates. One that is on no curve is
