@@ -212,6 +212,11 @@ TEST(ExactCurve, IsEndedByItsObserverAndByItsLimits) {
   const ExactCurve few = traced.over_frequency(0.1, 0.35, options);
   EXPECT_EQ(few.status, SweepStatus::point_limit);
   EXPECT_EQ(few.points.size(), 7u);
+  options.phases.tolerance = 1e-15;
+  options.phases.max_operations = 1.0;  // which allow no finer panels
+  const ExactCurve rough = traced.over_frequency(0.1, 0.35, options);
+  ASSERT_EQ(rough.points.size(), 7u);
+  EXPECT_EQ(rough.points.front().motion.status, PhasesStatus::tolerance_missed);
 }
 
 TEST(ExactCurve, RefusesOptionsOutOfRangeAndAFirstMotionThatIsNotKnown) {

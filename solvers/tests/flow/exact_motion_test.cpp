@@ -274,6 +274,23 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
       cancelled);
 }
 
+// Phases of too few nodes miss the tolerance, so that the flow is tried, too.
+TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
+  std::mt19937 generator(11);
+  const testing::RandomCase random(generator, 1);
+  CondensedProblem problem(testing::fourier_pair(127, 512), random.structure, testing::cosine_load());
+  problem.set_frequency(random.frequency);
+  const ContactDynamics dynamics(random.structure);
+  const PeriodicResponse response = forced_response(problem, random.laws, {});
+  ContactPhasesOptions options{.tolerance = 1e-12, .nodes = 6, .max_nodes = 6, .max_panels = 1};
+  const auto status = [&] {
+    return response_phases(problem, random.laws, response, dynamics, options, exact_motion).motion.status;
+  };
+  EXPECT_EQ(to_string(status()), "converged");
+  options.observer = [](const Progress& progress) { return progress.phase != "exact motion"; };
+  EXPECT_EQ(to_string(status()), "cancelled");
+}
+
 TEST(ExactMotion, BadInputIsRefusedByName) {
   const FrictionScene chain = testing::chain_of_three(3.0, 0.85);
   const FrictionMotion found(chain, {}, 15, 64);
