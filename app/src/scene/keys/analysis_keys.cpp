@@ -56,8 +56,8 @@ void add_sweep(std::vector<SceneKey>& keys) {
                  optional);
   over_frequency(
       &Analysis::isolas, "isolas", "",
-      "true also seeks motions that lie on no curve of the sweep, by settling from rest and random states, "
-      "and follows the curves through them, closed ones too",
+      "true also seeks motions that lie on no curve of the sweep, near resonances that the law moves and by "
+      "settling from rest and random states, and follows the curves through them, closed ones too",
       optional, only_with(by_balance()));
   over_frequency(
       &Analysis::isola_spacing, "isola_spacing", "Hz",
