@@ -12,68 +12,14 @@
 #include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
+#include "problem/motion_samples.hpp"
 #include "problem/state_box.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-constexpr int points_of_period =
-    256;  // at which motions are compared, mixed and measured, per period of the load
-constexpr double same_motion = 1e-6;  // relative distance of displacements
-
-// A motion of the contacts over some periods of the load, from t = 0.
-struct Samples {
-  Motion contacts;
-  int periods = 1;
-
-  Index shift() const { return contacts.displacement.cols() / periods; }
-};
-
-Samples samples_of(const PhaseMotion& motion, int periods) {
-  const int points = periods * points_of_period;
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
-  return {{motion.displacement(times), motion.velocity(times), motion.force(times)}, periods};
-}
-
-// The columns from `first` on, as many as `count`, of values that repeat.
-Eigen::MatrixXd columns_from(const Eigen::MatrixXd& values, Index first, Index count) {
-  Eigen::MatrixXd columns(values.rows(), count);
-  for (Index l = 0; l < count; ++l) columns.col(l) = values.col((first + l) % values.cols());
-  return columns;
-}
-
-bool agree(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
-  return (one - other).norm() <= same_motion * std::max(one.norm(), other.norm());
-}
-
-// Whether `other` is `one`, `periods` periods of the load later.
-bool agree_after(const Samples& one, const Samples& other, int periods) {
-  const Eigen::MatrixXd& values = other.contacts.displacement;
-  return agree(one.contacts.displacement, columns_from(values, periods * other.shift(), values.cols()));
-}
-
-// The least number of periods of the load after which a motion repeats.
-int least_periods(const Samples& motion) {
-  for (int periods = 1; periods < motion.periods; ++periods)
-    if (motion.periods % periods == 0 && agree_after(motion, motion, periods)) return periods;
-  return motion.periods;
-}
-
-// The mean of a motion and itself some periods of the load later.
-Samples mean_with_later(const Samples& one, int later) {
-  const auto mean = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
-    return 0.5 * (values + columns_from(values, later * one.shift(), values.cols()));
-  };
-  return {{mean(one.contacts.displacement), {}, mean(one.contacts.force)}, one.periods};
-}
-
-// The first periods of a motion.
-Samples first_periods(const Samples& samples, int periods) {
-  const Index count = periods * samples.shift();
-  return {{samples.contacts.displacement.leftCols(count), {}, samples.contacts.force.leftCols(count)},
-          periods};
-}
+using detail::MotionSamples, detail::points_of_period, detail::samples_of;
 
 // What is told of a motion by its integration.
 UnsolvedMotion unsolved_of(const SettledMotion& settled, int periods, PhasesStatus status) {
@@ -150,7 +96,7 @@ class MotionsSearch {
   std::optional<std::size_t> add(ContactProblem& problem, int periods, const std::optional<PhaseMotion>& near,
                                  MotionSource source) {
     if (!near || !near->converged()) return std::nullopt;
-    const Samples samples = samples_of(*near, periods);
+    const MotionSamples samples = samples_of(*near, periods);
     const int least = least_periods(samples);
     if (least < periods) return solve(first_periods(samples, least), source);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -179,7 +125,7 @@ class MotionsSearch {
     return options;
   }
 
-  std::optional<std::size_t> solve(const Samples& start, MotionSource source) {
+  std::optional<std::size_t> solve(const MotionSamples& start, MotionSource source) {
     ContactProblem& problem = over(start.periods);
     return add(problem, start.periods,
                problem.phases(frequency_, start.contacts, phases_options(result_.starts + 1)), source);
@@ -302,8 +248,8 @@ class MotionsSearch {
   // Motions that others have lost their stability to by a doubling of the period lie midway between these and
   // themselves later.
   void between_periods() {
-    const std::vector<Samples> found = samples_;
-    for (const Samples& one : found)
+    const std::vector<MotionSamples> found = samples_;
+    for (const MotionSamples& one : found)
       for (int later = 1; later < one.periods && !cancelled_; ++later)
         if (one.periods % later == 0) solve(mean_with_later(one, later), MotionSource::newton);
   }
@@ -380,7 +326,7 @@ class MotionsSearch {
   double frequency_;
   const MotionsOptions& options_;
   std::map<int, ContactProblem> longer_;                  // by periods of the load
-  std::vector<Samples> samples_;                          // of the motions of the result
+  std::vector<MotionSamples> samples_;                    // of the motions of the result
   std::map<std::size_t, detail::StructureState> starts_;  // that settle to them, the first of each
   CoexistingMotions result_;
   std::vector<UnsolvedMotion> given_up_;  // near which no motion was found

@@ -9,6 +9,7 @@
 
 #include "linalg/dense.hpp"
 #include "period/modal_flow.hpp"
+#include "problem/motion_samples.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
@@ -225,7 +226,6 @@ StructureState StateBox::random(std::mt19937& generator) const {
 
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency) {
   constexpr double larger = 2.0;
-  constexpr int points_of_period = 256;
   problem.condensed().set_load_frequency(frequency);
   auto box = StateBox::make(problem.structure(), frequency, SettlingOptions{}.max_modes);
   if (!box) return box;
