@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "command/run_record.hpp"
+#include "report/run_record.hpp"
 #include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"

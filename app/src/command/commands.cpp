@@ -12,7 +12,7 @@
 #include "command/interrupt_guard.hpp"
 #include "command/next_steps.hpp"
 #include "command/progress_bar.hpp"
-#include "command/run_record.hpp"
+#include "report/run_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"

@@ -1,28 +1,13 @@
 #pragma once
-#include <filesystem>
 #include <string>
-#include <vector>
 
+#include "report/arguments.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
 
 /// Exit codes of the command.
 enum ExitCode { solved = 0, bad_input = 2, not_converged = 3, interrupted = 128 };  // + number of the signal
-
-struct RunArguments {
-  std::filesystem::path scene;
-  std::filesystem::path output;
-  std::vector<std::string> overrides;  ///< "section.key=value"
-  std::vector<std::string> removed;    ///< "section.key"
-  std::string analysis;                ///< --analysis; empty: that of the scene
-  std::filesystem::path start_from;    ///< a motion to start near, see read_start_motion(); empty: none
-  double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
-  int threads = 0;                     ///< AnalysisOptions::threads, ComparisonOptions::threads
-  bool quiet = false;
-  bool report = true;        ///< whether report.html is written
-  bool copy_inputs = false;  ///< whether the record gets copies of the files that the scene names
-};
 
 /// Puts the analysis of the arguments into their changes, with the keys that it leaves out, which are named
 /// on the standard error. Nothing without one. Throws SceneError.

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "command/compare_report.hpp"
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
-#include "command/run_record.hpp"
-#include "command/run_report.hpp"
+#include "report/compare_report.hpp"
+#include "report/run_record.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

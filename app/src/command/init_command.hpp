@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "command/run_report.hpp"
+#include "report/run_report.hpp"
 
 namespace wavebalance::app {
 

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
-#include "command/overlay.hpp"
-#include "command/report_parts.hpp"
-#include "command/run_report.hpp"
+#include "report/overlay.hpp"
+#include "report/report_parts.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/files/summary.hpp"

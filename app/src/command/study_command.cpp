@@ -14,8 +14,8 @@
 #include "command/commands.hpp"
 #include "command/interrupt_guard.hpp"
 #include "command/progress_bar.hpp"
-#include "command/run_record.hpp"
-#include "command/study_report.hpp"
+#include "report/run_record.hpp"
+#include "report/study_report.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/study/journal.hpp"
 

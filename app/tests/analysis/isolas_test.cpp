@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "command/run_words.hpp"
+#include "report/run_words.hpp"
 #include "support/curve_record.hpp"
 #include "support/scene_error.hpp"
 #include "support/summary_value.hpp"

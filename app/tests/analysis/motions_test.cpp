@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "command/run_words.hpp"
+#include "report/run_words.hpp"
 #include "support/curve_record.hpp"
 #include "support/scene_error.hpp"
 #include "support/summary_value.hpp"

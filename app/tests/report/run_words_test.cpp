@@ -1,4 +1,4 @@
-#include "command/run_words.hpp"
+#include "report/run_words.hpp"
 
 #include <gtest/gtest.h>
 

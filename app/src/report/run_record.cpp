@@ -1,4 +1,4 @@
-#include "command/run_record.hpp"
+#include "report/run_record.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "command/bar_motion.hpp"
+#include "report/bar_motion.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

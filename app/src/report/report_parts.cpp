@@ -1,4 +1,4 @@
-#include "command/report_parts.hpp"
+#include "report/report_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "command/run_words.hpp"
+#include "report/run_words.hpp"
 #include "results/quantities.hpp"
 
 namespace wavebalance::app {

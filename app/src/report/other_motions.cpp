@@ -1,4 +1,4 @@
-#include "command/other_motions.hpp"
+#include "report/other_motions.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "command/overlay.hpp"
+#include "report/overlay.hpp"
 
 #include <fmt/format.h>
 

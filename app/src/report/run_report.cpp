@@ -1,4 +1,4 @@
-#include "command/run_report.hpp"
+#include "report/run_report.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "command/report_parts.hpp"
-#include "command/run_words.hpp"
 #include "plot/unit_prefix.hpp"
+#include "report/report_parts.hpp"
+#include "report/run_words.hpp"
 #include "results/rest_record.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

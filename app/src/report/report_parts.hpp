@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "command/run_report.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
 

@@ -1,4 +1,4 @@
-#include "command/run_words.hpp"
+#include "report/run_words.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "command/other_motions.hpp"
-#include "command/peak_words.hpp"
 #include "plot/unit_prefix.hpp"
+#include "report/other_motions.hpp"
+#include "report/peak_words.hpp"
 #include "results/quantities.hpp"
 
 namespace wavebalance::app {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "command/report_parts.hpp"
+#include "report/report_parts.hpp"
 #include "support/chain_files.hpp"
 #include "support/command.hpp"
 #include "support/scene_texts.hpp"

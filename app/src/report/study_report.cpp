@@ -1,4 +1,4 @@
-#include "command/study_report.hpp"
+#include "report/study_report.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "command/report_parts.hpp"
 #include "files/number_text.hpp"
+#include "report/report_parts.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"

@@ -1,4 +1,4 @@
-#include "command/compare_report.hpp"
+#include "report/compare_report.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "command/report_parts.hpp"
+#include "report/report_parts.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 #include <string>
 
-#include "command/run_record.hpp"
-#include "command/run_report.hpp"
-#include "command/study_command.hpp"
+#include "report/arguments.hpp"
+#include "report/run_record.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/study/study_record.hpp"
 
 namespace wavebalance::app {

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "command/compare_command.hpp"
-#include "command/run_report.hpp"
+#include "report/arguments.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 
 namespace wavebalance::app {

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include "command/commands.hpp"
-#include "command/run_report.hpp"
+#include "report/arguments.hpp"
+#include "report/run_report.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
 

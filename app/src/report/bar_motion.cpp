@@ -1,4 +1,4 @@
-#include "command/bar_motion.hpp"
+#include "report/bar_motion.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "command/peak_words.hpp"
+#include "report/peak_words.hpp"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "command/commands.hpp"
+#include "report/arguments.hpp"
 #include "wavebalance/app/results/record.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
 
