@@ -214,7 +214,8 @@ TEST(ExactCurve, IsEndedByItsObserverAndByItsLimits) {
   EXPECT_EQ(few.points.size(), 7u);
   options.phases.tolerance = 1e-15;
   options.phases.max_operations = 1.0;  // which allow no finer panels
-  const ExactCurve rough = traced.over_frequency(0.1, 0.35, options);
+  Traced touching(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.155);
+  const ExactCurve rough = touching.over_frequency(0.155, 0.35, options);
   ASSERT_EQ(rough.points.size(), 7u);
   EXPECT_EQ(rough.points.front().motion.status, PhasesStatus::tolerance_missed);
 }
