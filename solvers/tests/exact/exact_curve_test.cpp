@@ -212,7 +212,7 @@ TEST(ExactCurve, IsEndedByItsObserverAndByItsLimits) {
   const ExactCurve few = traced.over_frequency(0.1, 0.35, options);
   EXPECT_EQ(few.status, SweepStatus::point_limit);
   EXPECT_EQ(few.points.size(), 7u);
-  options.phases.tolerance = 1e-15;
+  options.phases.tolerance = 1e-30;
   options.phases.max_operations = 1.0;  // which allow no finer panels
   Traced touching(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.155);
   const ExactCurve rough = touching.over_frequency(0.155, 0.35, options);
