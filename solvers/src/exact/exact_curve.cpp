@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <stdexcept>
 #include <string>
 
-#include "exact/exact_events.hpp"
+#include "exact/curve_tracer.hpp"
+#include "exact/map_curve.hpp"
 #include "exact/phase_switch.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
@@ -17,58 +17,25 @@
 namespace wavebalance::solvers {
 namespace {
 
-using detail::Held, detail::PathModel, detail::PathPoint, detail::Prediction, detail::Switch;
+using detail::CurvePoint, detail::Held, detail::PathModel, detail::PathPoint, detail::PointOnCurve,
+    detail::Prediction, detail::Switch;
 
-// Follows one curve: `points_` are the last ones with the same phases.
-class Tracer {
+// Follows a curve by phases of contact.
+class PhaseTracer : public detail::CurveTracer {
  public:
-  Tracer(PathModel& model, ExactCurve& curve, PathPoint first)
-      : model_(model),
-        options_(model.options()),
-        curve_(curve),
-        step_(options_.first_step),
-        first_(std::move(first)) {}
-
-  void run() {
-    accept(first_);
-    while (curve_.status == SweepStatus::no_start) {
-      if (static_cast<int>(curve_.points.size()) >= options_.max_points ||
-          operations_ > options_.max_operations)
-        curve_.status = SweepStatus::point_limit;
-      else if (model_.goes_on(static_cast<int>(curve_.points.size()), points_.back().value))
-        advance();
-      if (model_.cancelled()) curve_.status = SweepStatus::cancelled;
-    }
-    if (!turns_as_it_ends()) curve_.status = SweepStatus::lost;
-  }
+  PhaseTracer(PathModel& model, ExactCurve& curve, PathPoint first)
+      : CurveTracer(model, curve, std::make_shared<PathPoint>(std::move(first))), model_(model) {}
 
  private:
-  // A curve that ends ahead or is closed turns an even number of times, one that returns an odd one. Else a
-  // fold is missing.
-  bool turns_as_it_ends() const {
-    const auto folds = std::count_if(curve_.events.begin(), curve_.events.end(), [](const ExactEvent& event) {
-      return event.type == SpecialPointType::fold;
-    });
-    if (curve_.status == SweepStatus::reached_end || curve_.status == SweepStatus::closed)
-      return folds % 2 == 0;
-    return curve_.status != SweepStatus::returned || folds % 2 == 1;
-  }
-
-  bool within(double value) const {
-    return value >= std::min(behind(), options_.to) && value <= std::max(behind(), options_.to);
-  }
-
-  double behind() const { return options_.behind > 0.0 ? options_.behind : options_.from; }
-
-  void advance() {
-    std::optional<Switch> vanishes = detail::disappearance(model_, points_.back());
+  void advance() override {
+    std::optional<Switch> vanishes = detail::disappearance(model_, last());
     if (vanishes && within(vanishes->grazing.value)) {
       go_over(std::move(*vanishes));
       return;
     }
     std::optional<PathPoint> next = corrected();
     if (next && !next->agrees) {
-      if (std::optional<Switch> over = detail::appearance(model_, points_.back(), *next)) {
+      if (std::optional<Switch> over = detail::appearance(model_, last(), *next)) {
         if (within(over->grazing.value))
           go_over(std::move(*over));
         else
@@ -77,25 +44,29 @@ class Tracer {
       }
       next.reset();
     }
-    if (!next) {
-      step_ *= 0.5;
-      if (step_ < options_.smallest_step) curve_.status = SweepStatus::lost;
-      return;
-    }
-    step_ = std::min(options_.largest_step, step_ * growth_);
-    if (!within(next->value)) {
-      end_before(*next);
-      return;
-    }
-    go_to(std::move(*next));
+    if (!next) return shorten_step();
+    step_ = std::min(options().largest_step, step_ * growth_);
+    if (!within(next->value)) return end_before(*next);
+    go_to(shared(std::move(*next)));
   }
+
+  double operations_of(const CurvePoint& point) const override {
+    return exact_point_operations(point.motion, model_.family().dynamics());
+  }
+
+  bool same_unknowns(const CurvePoint& a, const CurvePoint& b) const override {
+    return static_cast<const PathPoint&>(a).passages() == static_cast<const PathPoint&>(b).passages();
+  }
+
+  static PointOnCurve shared(PathPoint point) { return std::make_shared<PathPoint>(std::move(point)); }
+  const PathPoint& last() { return static_cast<const PathPoint&>(*points().back()); }
 
   // The next point, if it lies where it is expected.
   std::optional<PathPoint> corrected() {
     constexpr double sharper = 0.3;
-    const PathPoint& last = points_.back();
+    const PathPoint& last = this->last();
     // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
-    if (points_.size() > 1 && step_ > sharper * (last.place - points_[points_.size() - 2].place)) {
+    if (points().size() > 1 && step_ > sharper * (last.place - points()[points().size() - 2]->place)) {
       Prediction expected = detail::through(neighbours(), last.place + step_);
       if (last.passages() == 0 || model_.cosine(last, expected) > least_cosine)
         return near(std::move(expected));
@@ -111,7 +82,7 @@ class Tracer {
   // The solution near a prediction. Sets arc_, its distance from the last point; 0 where there is none.
   std::optional<PathPoint> near(Prediction expected) {
     constexpr double close = 0.05, farthest = 0.25, longest = 2.5;
-    const PathPoint& last = points_.back();
+    const PathPoint& last = this->last();
     arc_ = 0.0;
     if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
     const Held held = model_.fastest(last, true);
@@ -125,7 +96,7 @@ class Tracer {
     // The unknown held says the direction where it changes all the way. The way itself says it always.
     const double ahead = next->passages() > 0 ? model_.cosine(last, *next) : 1.0;
     if (std::abs(ahead) < least_cosine) return std::nullopt;
-    if (ahead < 0.0) next->direction = -next->direction;
+    if (ahead < 0.0) next->turn_around();
     growth_ = off < close * step_ ? 1.5 : 1.0;
     next->place = last.place + arc_;
     return next;
@@ -143,81 +114,10 @@ class Tracer {
     return false;
   }
 
-  std::vector<const PathPoint*> neighbours() const {
+  std::vector<const PathPoint*> neighbours() {
     std::vector<const PathPoint*> all;
-    for (const PathPoint& point : points_) all.push_back(&point);
+    for (const PointOnCurve& point : points()) all.push_back(static_cast<const PathPoint*>(point.get()));
     return all;
-  }
-
-  Eigen::VectorXcd multipliers_of(const PathPoint& point) const {
-    return options_.stability ? point.motion.multipliers() : Eigen::VectorXcd();
-  }
-
-  void accept(PathPoint point) {
-    constexpr std::size_t most = 4;
-    ExactPoint& added = curve_.points.emplace_back();
-    added.value = point.value;
-    added.motion = point.motion;
-    added.slope = point.slope() / model_.speed(point);
-    added.multipliers = multipliers_of(point);
-    added.unstable = detail::unstable_of(added.multipliers);
-    operations_ += exact_point_operations(point.motion, model_.family().dynamics());
-    points_.push_back(std::move(point));
-    if (points_.size() > most) points_.pop_front();
-  }
-
-  void note_events(const PathPoint& next) {
-    detail::EventsBetween between = detail::events_between(
-        model_, points_.back(), next, curve_.points.back().multipliers, multipliers_of(next));
-    if (model_.cancelled()) return;  // some may be missing
-    if (!between.explained) curve_.unexplained.push_back(curve_.points.size());
-    for (ExactEvent& event : between.events) {
-      event.next_point = curve_.points.size();
-      curve_.events.push_back(std::move(event));
-    }
-  }
-
-  void go_to(PathPoint next) {
-    if (curve_.status == SweepStatus::closed) return;
-    if (std::optional<PathPoint> again = first_between(next)) {
-      next = std::move(*again);
-      curve_.status = SweepStatus::closed;
-    }
-    note_events(next);
-    if (!model_.cancelled()) accept(std::move(next));
-  }
-
-  // The first point, where the curve comes back to it between its last point and the next one, which has the
-  // same phases.
-  std::optional<PathPoint> first_between(const PathPoint& next) const {
-    constexpr double same = 1e-6;  // of the vibration; steps are longer
-    constexpr std::size_t shortest = 4;
-    const PathPoint& last = points_.back();
-    const double before = last.value - first_.value, behind = next.value - first_.value;
-    if (curve_.points.size() < shortest || before * behind > 0.0 || behind * first_.slope() < 0.0 ||
-        last.passages() != first_.passages())
-      return std::nullopt;
-    const auto away = [&](const PathPoint& point) {
-      return detail::rms_of(point.displacement - first_.displacement);
-    };
-    if (away(last) > 2.0 * detail::rms_of(next.displacement - last.displacement)) return std::nullopt;
-    std::optional<PathPoint> again =
-        detail::zero_between(model_, last, next, model_.fastest(last, true),
-                             [this](const PathPoint& point) { return point.value - first_.value; });
-    if (!again || away(*again) > same * first_.vibration) return std::nullopt;
-    return again;
-  }
-
-  void note(SpecialPointType type, const PathPoint& at) {
-    const bool fold = type == SpecialPointType::fold;
-    const auto multiplier =
-        fold ? detail::nearest(at.motion.multipliers(), 1.0) : std::complex<double>(missing, missing);
-    curve_.events.push_back({type, at.value, multiplier, at.motion, curve_.points.size()});
-  }
-
-  SweepStatus end_at(double value) const {
-    return (value > behind()) == (options_.to > options_.from) && value != behind() ? SweepStatus::reached_end
-                                                                                    : SweepStatus::returned;
   }
 
   void go_over(Switch over) {
@@ -227,38 +127,24 @@ class Tracer {
       over.next = std::move(over.between.front());
       over.between.erase(over.between.begin());
     } else {
-      for (PathPoint& point : over.between) go_to(std::move(point));
+      for (PathPoint& point : over.between) go_to(shared(std::move(point)));
       over.between.clear();
     }
     if (model_.cancelled()) return;
     if (over.reverses && !over.appears) note(SpecialPointType::fold, over.grazing);
     note(SpecialPointType::grazing, over.grazing);
     if (over.reverses && over.appears) note(SpecialPointType::fold, over.grazing);
-    points_.clear();
-    step_ = std::min(step_, options_.first_step);
-    accept(std::move(over.next));
-    for (PathPoint& point : over.between) go_to(std::move(point));
-  }
-
-  void end_before(const PathPoint& next) {
-    const SweepStatus status = end_at(next.value);
-    const double limit = status == SweepStatus::reached_end ? options_.to : behind();
-    std::optional<PathPoint> last =
-        detail::zero_between(model_, points_.back(), next, model_.fastest(points_.back(), true),
-                             [limit](const PathPoint& point) { return point.value - limit; });
-    curve_.status = last ? status : SweepStatus::lost;
-    if (last) go_to(std::move(*last));
+    points().clear();
+    step_ = std::min(step_, options().first_step);
+    accept(shared(std::move(over.next)));
+    for (PathPoint& point : over.between) go_to(shared(std::move(point)));
   }
 
   // Of the angles between the directions of two points and the way from one to the other.
   static constexpr double least_cosine = 0.3;
 
   PathModel& model_;
-  const ExactCurveOptions& options_;
-  ExactCurve& curve_;
-  double step_, growth_ = 1.5, arc_ = 0.0, operations_ = 0.0;
-  const PathPoint first_;
-  std::deque<PathPoint> points_;
+  double growth_ = 1.5, arc_ = 0.0;
 };
 
 }  // namespace
@@ -292,13 +178,14 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
   if (first.parts == nullptr)
     throw std::invalid_argument("exact_curve: first has the status " + std::string(to_string(first.status)) +
                                 "; it must be a motion");
+  if (first.parts->multipliers) return detail::map_curve(family, first, options);  // a motion of the flow
   ExactCurve curve;
   PathModel model(family, first, options);
   std::optional<PathPoint> start =
       model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
   if (model.cancelled()) curve.status = SweepStatus::cancelled;
   if (start && start->agrees)
-    Tracer(model, curve, std::move(*start)).run();
+    PhaseTracer(model, curve, std::move(*start)).run();
   else
     curve.start = PhasesStatus::not_found;
   return curve;

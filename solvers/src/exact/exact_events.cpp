@@ -13,7 +13,7 @@ namespace {
 // A special point by its place between two neighbours, and the motion there.
 struct Located {
   SpecialPointType type;
-  PathPoint point;
+  PointOnCurve point;
   std::complex<double> multiplier;
 };
 
@@ -30,7 +30,7 @@ double product_of(const Eigen::VectorXcd& multipliers, double sign) {
 }
 
 // The modulus of the multiplier of that number, the largest first, less 1.
-double beyond_circle(const PathPoint& point, Index number) {
+double beyond_circle(const CurvePoint& point, Index number) {
   const Eigen::VectorXcd multipliers = point.motion.multipliers();
   return number < multipliers.size() ? std::abs(multipliers[number]) - 1.0 : missing;
 }
@@ -39,26 +39,25 @@ std::complex<double> upper(std::complex<double> multiplier) {
   return {multiplier.real(), std::abs(multiplier.imag())};
 }
 
-// A step of a curve and an unknown that changes monotonically along it.
+// A step of a curve.
 struct Step {
-  const PathModel& model;
-  const PathPoint &a, &b;
-  Held held;
+  const CurvePath& path;
+  const CurvePoint &a, &b;
+  bool turns;
 
-  std::optional<PathPoint> zero(const std::function<double(const PathPoint&)>& function) const {
-    return zero_between(model, a, b, held, function);
+  PointOnCurve zero(const std::function<double(const CurvePoint&)>& function) const {
+    return zero_between(path, a, b, turns, function);
   }
-  std::optional<PathPoint> at(double share) const { return point_between(model, a, b, held, share); }
 };
 
 void append_real(std::vector<Located>& found, const Step& step, const Eigen::VectorXcd& of_a,
                  const Eigen::VectorXcd& of_b, double sign, SpecialPointType type) {
   if (!(product_of(of_a, sign) * product_of(of_b, sign) < 0.0)) return;
-  std::optional<PathPoint> at =
-      step.zero([sign](const PathPoint& point) { return product_of(point.motion.multipliers(), sign); });
+  const PointOnCurve at =
+      step.zero([sign](const CurvePoint& point) { return product_of(point.motion.multipliers(), sign); });
   if (!at) return;
   const std::complex<double> multiplier = nearest(at->motion.multipliers(), -sign);
-  found.push_back({type, std::move(*at), multiplier});
+  found.push_back({type, at, multiplier});
 }
 
 // Multipliers that pass the circle at a place, and those outside beside them.
@@ -69,7 +68,7 @@ struct Passing {
 Passing passing(const Located& at) {
   constexpr double near = 1e-3;
   Passing counts;
-  for (const std::complex<double> multiplier : at.point.motion.multipliers()) {
+  for (const std::complex<double> multiplier : at.point->motion.multipliers()) {
     const bool passes = std::abs(upper(multiplier) - at.multiplier) <= near;
     counts.near += passes;
     counts.beside += !passes && lies_outside_circle(multiplier);
@@ -83,33 +82,33 @@ void append_pair(std::vector<Located>& found, const Step& step, int before, int 
   constexpr double real = 1e-9;
   if (before < 0 || after < 0 || std::abs(after - before) < 2) return;
   for (int number = std::min(before, after); number < std::max(before, after); ++number) {
-    std::optional<PathPoint> at =
-        step.zero([number](const PathPoint& point) { return beyond_circle(point, number); });
+    const PointOnCurve at =
+        step.zero([number](const CurvePoint& point) { return beyond_circle(point, number); });
     if (!at) continue;
     const std::complex<double> multiplier = upper(at->motion.multipliers()[number]);
     if (multiplier.imag() <= real) continue;
-    found.push_back({SpecialPointType::neimark_sacker, std::move(*at), multiplier});
+    found.push_back({SpecialPointType::neimark_sacker, at, multiplier});
     return;
   }
 }
 
 void sort(std::vector<Located>& found) {
   std::sort(found.begin(), found.end(),
-            [](const Located& x, const Located& y) { return x.point.place < y.point.place; });
+            [](const Located& x, const Located& y) { return x.point->place < y.point->place; });
 }
 
 void append_pairs(std::vector<Located>& found, const Step& step, int of_a, int of_b) {
   sort(found);
   std::vector<Located> pairs;
-  const PathPoint* last = &step.a;
+  const CurvePoint* last = &step.a;
   int before = of_a;
   for (const Located& one : found) {
     const int beside = passing(one).beside;
-    append_pair(pairs, {step.model, *last, one.point, step.held}, before, beside);
-    last = &one.point;
+    append_pair(pairs, {step.path, *last, *one.point, step.turns}, before, beside);
+    last = one.point.get();
     before = beside;
   }
-  append_pair(pairs, {step.model, *last, step.b, step.held}, before, of_b);
+  append_pair(pairs, {step.path, *last, step.b, step.turns}, before, of_b);
   std::move(pairs.begin(), pairs.end(), std::back_inserter(found));
   sort(found);
 }
@@ -157,8 +156,7 @@ bool may_pass_twice(const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, 
 // Whether the parameter may turn twice on the way: by the cubic with its values and slopes at both ends.
 bool may_turn_twice(const Step& step) {
   constexpr double clear = 0.5;
-  const double length = step.b.place - step.a.place, begin = step.a.slope() / step.model.speed(step.a),
-               end = step.b.slope() / step.model.speed(step.b);
+  const double length = step.b.place - step.a.place, begin = step.a.slope, end = step.b.slope;
   const double middle = 1.5 * (step.b.value - step.a.value) / length - 0.25 * (begin + end);
   return middle * begin < 0.0 || std::abs(middle) < clear * std::min(std::abs(begin), std::abs(end));
 }
@@ -166,11 +164,11 @@ bool may_turn_twice(const Step& step) {
 std::vector<Located> places_within(const Step& step, const Eigen::VectorXcd& of_a,
                                    const Eigen::VectorXcd& of_b) {
   std::vector<Located> found;
-  if (step.a.slope() * step.b.slope() < 0.0) {
-    std::optional<PathPoint> at = step.zero([](const PathPoint& point) { return point.slope(); });
+  if (step.a.slope * step.b.slope < 0.0) {
+    const PointOnCurve at = step.zero([](const CurvePoint& point) { return point.slope; });
     if (at) {
       const std::complex<double> multiplier = nearest(at->motion.multipliers(), 1.0);
-      found.push_back({SpecialPointType::fold, std::move(*at), multiplier});
+      found.push_back({SpecialPointType::fold, at, multiplier});
     }
   } else {
     append_real(found, step, of_a, of_b, -1.0, SpecialPointType::branch);
@@ -187,11 +185,11 @@ constexpr int most_halvings = 7;
 
 // The same by halves of the step, where the count changes otherwise than by the places found, or places may
 // have cancelled each other.
-Places places_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+Places places_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
                       const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, int halvings) {
-  const bool turns = a.slope() * b.slope() < 0.0;
+  const bool turns = a.slope * b.slope < 0.0;
   const bool known = clear_count(of_a) >= 0 && clear_count(of_b) >= 0;
-  const Step step{model, a, b, model.fastest(a, !turns)};
+  const Step step{path, a, b, turns};
   Places places{places_within(step, of_a, of_b), true};
   if (!known) return places;
   places.explained = is_explained(places.found, of_a, of_b);
@@ -199,11 +197,11 @@ Places places_between(const PathModel& model, const PathPoint& a, const PathPoin
   const bool clear = places.explained && !may_pass_twice(of_a, of_b, -1.0, whole) &&
                      (turns || (!may_pass_twice(of_a, of_b, 1.0, whole) && !may_turn_twice(step)));
   if (halvings == 0 || clear) return places;
-  const std::optional<PathPoint> middle = step.at(0.5);
+  const PointOnCurve middle = path.between(a, b, 0.5, turns);
   if (!middle || !middle->agrees) return places;
   const Eigen::VectorXcd of_middle = middle->motion.multipliers();
-  Places first = places_between(model, a, *middle, of_a, of_middle, halvings - 1);
-  Places second = places_between(model, *middle, b, of_middle, of_b, halvings - 1);
+  Places first = places_between(path, a, *middle, of_a, of_middle, halvings - 1);
+  Places second = places_between(path, *middle, b, of_middle, of_b, halvings - 1);
   first.explained = first.explained && second.explained;
   if (places.explained &&
       (!first.explained || first.found.size() + second.found.size() <= places.found.size()))
@@ -227,12 +225,13 @@ std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<d
 
 int unstable_of(const Eigen::VectorXcd& multipliers) { return count_outside(multipliers); }
 
-EventsBetween events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+EventsBetween events_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
                              const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {
-  Places places = places_between(model, a, b, of_a, of_b, most_halvings);
+  Places places = places_between(path, a, b, of_a, of_b, most_halvings);
   EventsBetween between{{}, places.explained};
-  for (Located& one : places.found)
-    between.events.push_back({one.type, one.point.value, one.multiplier, std::move(one.point.motion)});
+  for (const Located& one : places.found)
+    between.events.push_back(
+        {one.point->place, {one.type, one.point->value, one.multiplier, one.point->motion}});
   return between;
 }
 

@@ -2,7 +2,7 @@
 #include <complex>
 #include <vector>
 
-#include "exact/exact_path.hpp"
+#include "exact/curve_path.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -12,16 +12,22 @@ int unstable_of(const Eigen::VectorXcd& multipliers);
 /// The multiplier nearest to a place on the unit circle, Im >= 0; NaN where none is known.
 std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<double> place);
 
+/// A special point and its place along the curve.
+struct PlacedEvent {
+  double place;
+  ExactEvent event;
+};
+
 struct EventsBetween {
-  std::vector<ExactEvent> events;  ///< in their order
+  std::vector<PlacedEvent> events;  ///< in their order
   /// Whether the count of multipliers outside the circle changes as it does at these.
   bool explained = true;
 };
 
-/// The special points between two neighbours with the same phases: folds, and with `stability` where
+/// The special points between two neighbours with the same unknowns: folds, and with `stability` where
 /// multipliers pass the unit circle. `of_a` and `of_b` are the multipliers of the neighbours. A step whose
 /// points do not explain the change of their count is halved.
-EventsBetween events_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
+EventsBetween events_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
                              const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b);
 
 }  // namespace wavebalance::solvers::detail

@@ -17,23 +17,12 @@ constexpr double force_scale = 0.5;
 // Instants of contact that move much faster than all else count in the length of a step by this share.
 constexpr double passage_share = 0.2;
 
-// At least so many instants of a period at which motions are held against their phases.
-constexpr Index samples = 256;
-
 // How far a passage has moved, periods.
 double farthest_passage(const Layout& from, const Layout& to) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < std::min(from.passages.size(), to.passages.size()); ++i)
     farthest = std::max(farthest, std::abs(to.passages[i].time - from.passages[i].time));
   return farthest;
-}
-
-double vibration_of(const Eigen::MatrixXd& displacement) {
-  return rms_of(displacement.colwise() - displacement.rowwise().mean());
-}
-
-Eigen::VectorXd uniform(Index count) {
-  return Eigen::VectorXd::LinSpaced(count, 0.0, 1.0 - 1.0 / double(count));
 }
 
 double& passage_of(PhaseIterate& iterate, Index i) {
@@ -63,29 +52,8 @@ double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::
 
 }  // namespace
 
-PathModel::PathModel(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options)
-    : family_(family), options_(options), times_(uniform(samples)), observer_([this](const Progress& newton) {
-        cancelled_ = cancelled_ || !solvers::goes_on(options_.observer, progress_) ||
-                     !solvers::goes_on(options_.phases.observer, newton);
-        return !cancelled_;
-      }) {
-  const Eigen::MatrixXd displacement = first.displacement(times_);
-  length_ = displacement.cwiseAbs().maxCoeff();
-  vibration_ = vibration_of(displacement);
-  parameter_scale_ =
-      options.parameter_scale > 0.0 ? options.parameter_scale : std::abs(options.to - options.from) / 20.0;
-}
-
-bool PathModel::goes_on(int points, double value) {
-  progress_.step = points;
-  progress_.value = value;
-  return observer_(progress_);
-}
-
 double PathModel::arc_length(const PathPoint& from, const PathPoint& to) const {
-  const double vibration = std::max(vibration_, from.vibration);
-  const double moved = rms_of(to.displacement - from.displacement) / vibration;
-  return std::max(std::hypot(moved, (to.value - from.value) / parameter_scale_),
+  return std::max(CurvePath::arc_length(from, to),
                   passage_share * farthest_passage(from.iterate.layout, to.iterate.layout) / passage_scale);
 }
 
@@ -99,7 +67,7 @@ Held PathModel::fastest(const PathPoint& at, bool parameter) const {
       best = {kind, index};
     }
   };
-  if (parameter) offer(Held::Kind::parameter, 0, std::abs(at.direction[n + m]) / parameter_scale_);
+  if (parameter) offer(Held::Kind::parameter, 0, std::abs(at.direction[n + m]) / parameter_scale());
   for (Index i = 0; i < m; ++i) offer(Held::Kind::passage, i, std::abs(at.direction[n + i]) / passage_scale);
   for (Index i = 0; i < n && m == 0; ++i)
     offer(Held::Kind::force, i, std::abs(at.direction[i]) / (force_scale * at.force_size));
@@ -108,7 +76,7 @@ Held PathModel::fastest(const PathPoint& at, bool parameter) const {
 
 double PathModel::speed(const PathPoint& at) const {
   const Index m = at.passages(), n = at.forces();
-  double fastest = std::abs(at.direction[n + m]) / parameter_scale_;
+  double fastest = std::abs(at.direction[n + m]) / parameter_scale();
   if (m > 0) fastest = std::max(fastest, at.direction.segment(n, m).cwiseAbs().maxCoeff() / passage_scale);
   if (n > 0)
     fastest = std::max(fastest, at.direction.head(n).cwiseAbs().maxCoeff() / (force_scale * at.force_size));
@@ -134,26 +102,26 @@ Eigen::VectorXd PathModel::change(const PathPoint& from, double value, const Lay
     const auto number = static_cast<std::size_t>(i);
     way[i] = (layout.passages[number].time - from.iterate.layout.passages[number].time) / passage_scale;
   }
-  way[m] = (value - from.value) / parameter_scale_;
+  way[m] = (value - from.value) / parameter_scale();
   return way;
 }
 
 double PathModel::cosine(const Eigen::VectorXd& way, const PathPoint& at) const {
   Eigen::VectorXd direction = at.direction.tail(at.passages() + 1) / passage_scale;
-  direction[at.passages()] = at.slope() / parameter_scale_;
+  direction[at.passages()] = at.motion_of_parameter() / parameter_scale();
   return way.dot(direction) / (way.norm() * direction.norm());
 }
 
 double PathModel::distance(const Prediction& expected, const PathPoint& found) const {
-  return std::max(std::abs(found.value - expected.value) / parameter_scale_,
+  return std::max(std::abs(found.value - expected.value) / parameter_scale(),
                   farthest_passage(expected.iterate.layout, found.iterate.layout) / passage_scale);
 }
 
 PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const {
-  const PhaseModel model(family_.at(solution.value), length_);
-  const ContactMotion free = model.free_motion(times_);
-  const PhaseSolution own(model, std::move(solution.newton), nodes, times_, free);
-  const bool fine = error <= options_.phases.tolerance;
+  const PhaseModel model(family().at(solution.value), length());
+  const ContactMotion free = model.free_motion(times());
+  const PhaseSolution own(model, std::move(solution.newton), nodes, times(), free);
+  const bool fine = error <= options().phases.tolerance;
   PathPoint point;
   point.value = solution.value;
   point.iterate = own.newton.iterate;
@@ -164,6 +132,7 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   point.agrees = own.agrees();
   if (own.newton.iterate.forces.coefficients().size() > 0)
     point.force_size = own.newton.iterate.forces.coefficients().cwiseAbs().maxCoeff();
+  point.slope = point.motion_of_parameter() / speed(point);
   point.motion.status = fine ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
   point.motion.residual = own.newton.residual;
   point.motion.iterations = own.newton.iterations;
@@ -176,8 +145,8 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
 PhaseIterate PathModel::coarser(const PathPoint& last, PhaseIterate start) const {
   constexpr double much_better = 1e-3;
   const Index q = start.forces.coefficients().rows();
-  if (q == 0 || !(last.motion.estimated_error < much_better * options_.phases.tolerance)) return start;
-  const Index fewer = std::max<Index>(options_.phases.nodes, q - q / 4);
+  if (q == 0 || !(last.motion.estimated_error < much_better * options().phases.tolerance)) return start;
+  const Index fewer = std::max<Index>(options().phases.nodes, q - q / 4);
   if (fewer == q)
     for (Phase& phase : start.layout.phases)
       if (phase.begin >= 0) phase.cuts.clear();
@@ -188,8 +157,8 @@ bool PathModel::affords(const PhaseIterate& iterate, const LegendreNodes& nodes)
   constexpr double fewest_steps = 3.0;
   const double unknowns = double(nodes.count()) * double(iterate.layout.grid().panels.size()) +
                           double(iterate.layout.passages.size());
-  return fewest_steps * step_operations(unknowns, double(family_.dynamics().poles().size())) <=
-         options_.phases.max_operations;
+  return fewest_steps * step_operations(unknowns, double(family().dynamics().poles().size())) <=
+         options().phases.max_operations;
 }
 
 std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, const Held& held,
@@ -197,19 +166,19 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
   constexpr double rounding = 1e-13;
   constexpr int most_refinements = 12;
   LegendreNodes nodes(start.forces.coefficients().rows() > 0 ? start.forces.coefficients().rows()
-                                                             : Index(options_.phases.nodes));
+                                                             : Index(options().phases.nodes));
   for (int i = 0;; ++i) {
-    HeldSolution found = solve_held(family_, length_, value, start, nodes, held,
-                                    {options_.phases.max_iterations, rounding, observer_});
+    HeldSolution found = solve_held(family(), length(), value, start, nodes, held,
+                                    {options().phases.max_iterations, rounding, observer()});
     if (!found.newton.converged || !found.direction.allFinite()) return std::nullopt;
-    const EstimatedError error = error_of(found.newton, vibration_);
+    const EstimatedError error = error_of(found.newton, vibration());
     if (!std::isfinite(error.resolution)) return std::nullopt;
     const LegendreNodes own = nodes;
     start = found.newton.iterate;
     value = found.value;
     const bool movable = held.kind != Held::Kind::force;  // the nodes of others are others
-    if (error.resolution <= options_.phases.tolerance || !movable || i == most_refinements ||
-        !make_finer(start, nodes, error, options_.phases) || !affords(start, nodes)) {
+    if (error.resolution <= options().phases.tolerance || !movable || i == most_refinements ||
+        !make_finer(start, nodes, error, options().phases) || !affords(start, nodes)) {
       found.direction *= forwards;
       return point_of(std::move(found), own, error.resolution);
     }
@@ -233,7 +202,7 @@ PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes)
 
 Prediction along_tangent(const PathPoint& at, double distance, double speed) {
   const double step = distance / speed;
-  Prediction result{at.value + step * at.slope(), at.iterate};
+  Prediction result{at.value + step * at.motion_of_parameter(), at.iterate};
   const Index m = at.passages(), n = at.forces();
   if (n > 0) {
     const PanelForces& forces = at.iterate.forces;
@@ -266,28 +235,16 @@ Prediction through(const std::vector<const PathPoint*>& points, double place) {
   return result;
 }
 
-std::optional<PathPoint> point_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
-                                       const Held& held, double share) {
+PointOnCurve PathModel::between(const CurvePoint& from, const CurvePoint& to, double share,
+                                bool turns) const {
+  const auto &a = static_cast<const PathPoint&>(from), &b = static_cast<const PathPoint&>(to);
+  const Held held = fastest(a, !turns);
   const double place = a.place + share * (b.place - a.place);
   Prediction expected = through({&a, &b}, place);
-  std::optional<PathPoint> found =
-      model.solve(expected.value, std::move(expected.iterate), held, model.sign_of(a, held));
-  if (found) found->place = place;
-  return found;
-}
-
-std::optional<PathPoint> zero_between(const PathModel& model, const PathPoint& a, const PathPoint& b,
-                                      const Held& held,
-                                      const std::function<double(const PathPoint&)>& function) {
-  std::optional<PathPoint> last;
-  const auto at = [&](double share) {
-    last = point_between(model, a, b, held, share);
-    return last ? function(*last) : missing;
-  };
-  const std::optional<double> share = root(at, {0.0, function(a)}, {1.0, function(b)}, 1e-11);
-  if (!share) return std::nullopt;
-  at(*share);
-  return last;
+  std::optional<PathPoint> found = solve(expected.value, std::move(expected.iterate), held, sign_of(a, held));
+  if (!found) return nullptr;
+  found->place = place;
+  return std::make_shared<PathPoint>(std::move(*found));
 }
 
 }  // namespace wavebalance::solvers::detail

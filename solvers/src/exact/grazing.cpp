@@ -129,16 +129,16 @@ Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& in
   return {interval.contact, breakpoint, middle, interval.length, there > breakpoint};
 }
 
-double passed_by(const PathPoint& at, const Grazing& grazing) {
+double passed_by(const PhaseMotion& motion, const Grazing& grazing) {
   constexpr double least = 1e-3, most = 0.1;
   const auto velocity = [&](double time) {
-    return at.motion.velocity(Eigen::VectorXd::Constant(1, time))(grazing.contact, 0);
+    return motion.velocity(Eigen::VectorXd::Constant(1, time))(grazing.contact, 0);
   };
   for (double width = std::max(least, grazing.width); width < most; width *= 2.0) {
     const double from = grazing.time - width, to = grazing.time + width;
     const std::optional<double> time = root(velocity, {from, velocity(from)}, {to, velocity(to)}, 1e-13);
     if (!time) continue;
-    const double extremum = at.motion.displacement(Eigen::VectorXd::Constant(1, *time))(grazing.contact, 0);
+    const double extremum = motion.displacement(Eigen::VectorXd::Constant(1, *time))(grazing.contact, 0);
     return grazing.above ? extremum - grazing.breakpoint : grazing.breakpoint - extremum;
   }
   return missing;

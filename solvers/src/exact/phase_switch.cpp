@@ -83,8 +83,6 @@ PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
   return {std::move(layout), std::move(forces)};
 }
 
-void turn_around(PathPoint& point) { point.direction = -point.direction; }
-
 // A point with an interval.
 struct WithInterval {
   PathPoint point;
@@ -92,7 +90,7 @@ struct WithInterval {
 };
 
 bool differ(const PathModel& model, const PathPoint& a, const PathPoint& b) {
-  if (a.slope() * b.slope() < 0.0) return true;
+  if (a.slope * b.slope < 0.0) return true;
   return model.options().stability &&
          unstable_of(a.motion.multipliers()) != unstable_of(b.motion.multipliers());
 }
@@ -146,7 +144,7 @@ std::optional<WithInterval> with_new_interval(const PathModel& model, const Path
     const Held held{Held::Kind::passage, interval.to};
     std::optional<PathPoint> found = model.solve(beyond.value, start, held, 1.0);
     if (!found || !found->agrees || !has_about_the_length(*found, interval, interval.length)) continue;
-    if (growth(*found, interval) < 0.0) turn_around(*found);
+    if (growth(*found, interval) < 0.0) found->turn_around();
     return WithInterval{std::move(*found), interval};
   }
   return std::nullopt;
@@ -159,7 +157,7 @@ std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint
   constexpr int most = 20;
   constexpr double apart = 1e-9;
   const Held held{};
-  double before = start.value, passed_before = passed_by(start, grazing);
+  double before = start.value, passed_before = passed_by(start.motion, grazing);
   double now = before * (1.0 + 1e-7);
   std::optional<PathPoint> point;
   PhaseIterate iterate = start.iterate;
@@ -167,13 +165,13 @@ std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint
   for (int i = 0; i < most; ++i) {
     point = model.solve(now, iterate, held, 1.0);
     if (!point) return std::nullopt;
-    const double passed = passed_by(*point, grazing);
+    const double passed = passed_by(point->motion, grazing);
     // That of two points which are nearly one is rounding.
     if (i == 0 || std::abs(now - before) > apart * now) slope = (passed - passed_before) / (now - before);
     if (!std::isfinite(slope)) return std::nullopt;
     const double step = -passed / slope;
     if (std::abs(step) < 1e-14 * now || passed == passed_before) {
-      if (slope > 0.0) turn_around(*point);
+      if (slope > 0.0) point->turn_around();
       return point;
     }
     if (std::abs(step) > 0.2 * model.parameter_scale()) return std::nullopt;
@@ -191,7 +189,7 @@ bool vanishes_soon(const PathModel& model, const PathPoint& at, const Interval& 
   const double shrinks = -growth(at, interval);
   if (!(shrinks > 0.0)) return false;
   const double way = 0.5 * interval.length / shrinks, most = model.options().largest_step;
-  double farthest = std::abs(at.slope()) / model.parameter_scale();
+  double farthest = std::abs(at.motion_of_parameter()) / model.parameter_scale();
   for (int i = 0; i < at.passages(); ++i)
     if (i != interval.from && i != interval.to)
       farthest = std::max(farthest, std::abs(at.motion_of(i)) / passage_scale);
@@ -205,17 +203,19 @@ struct FirstGrazing {
 };
 
 std::optional<FirstGrazing> first_grazing(const PathModel& model, const PathPoint& current,
-                                          const PathPoint& next, const Held& held) {
+                                          const PathPoint& next, bool turns) {
   constexpr std::size_t most = 6;
   const std::vector<Interval> intervals = new_intervals(next);
   if (intervals.size() > most) return std::nullopt;
   std::optional<FirstGrazing> first;
   for (const Interval& interval : intervals) {
     const Grazing grazing = grazing_of(next, next.phases_of_motion, interval);
-    std::optional<PathPoint> at = zero_between(
-        model, current, next, held, [&](const PathPoint& point) { return passed_by(point, grazing); });
+    const PointOnCurve at = zero_between(model, current, next, turns, [&](const CurvePoint& point) {
+      return passed_by(point.motion, grazing);
+    });
     if (!at) return std::nullopt;
-    if (!first || at->place < first->point.place) first = FirstGrazing{std::move(*at), interval.length};
+    if (!first || at->place < first->point.place)
+      first = FirstGrazing{static_cast<const PathPoint&>(*at), interval.length};
   }
   return first;
 }
@@ -223,9 +223,9 @@ std::optional<FirstGrazing> first_grazing(const PathModel& model, const PathPoin
 }  // namespace
 
 std::optional<Switch> appearance(const PathModel& model, const PathPoint& current, const PathPoint& next) {
-  const bool turns = current.slope() * next.slope() < 0.0;
+  const bool turns = current.slope * next.slope < 0.0;
   const Held held = model.fastest(current, !turns);
-  std::optional<FirstGrazing> first = first_grazing(model, current, next, held);
+  std::optional<FirstGrazing> first = first_grazing(model, current, next, turns);
   if (!first) return std::nullopt;
   PathPoint* const at = &first->point;
   std::optional<WithInterval> behind;
@@ -238,7 +238,7 @@ std::optional<Switch> appearance(const PathModel& model, const PathPoint& curren
   }
   if (!between) return std::nullopt;
   const PathPoint& nearest = between->empty() ? behind->point : between->back();
-  const bool reverses = nearest.slope() * at->slope() < 0.0;
+  const bool reverses = nearest.slope * at->slope < 0.0;
   std::reverse(between->begin(), between->end());
   return Switch{std::move(*at), std::move(behind->point), true, *std::move(between), reverses};
 }
@@ -261,7 +261,7 @@ std::optional<Switch> disappearance(const PathModel& model, const PathPoint& cur
   if (!at || at->iterate.layout.shortest_interval() < shortest_interval) return std::nullopt;
   std::optional<std::vector<PathPoint>> between = towards(model, *at, {current, vanishing.front()});
   if (!between) return std::nullopt;
-  const bool reverses = (between->empty() ? current : between->back()).slope() * at->slope() < 0.0;
+  const bool reverses = (between->empty() ? current : between->back()).slope * at->slope < 0.0;
   PathPoint next = *at;
   return Switch{std::move(*at), std::move(next), false, *std::move(between), reverses};
 }

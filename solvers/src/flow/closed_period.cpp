@@ -1,7 +1,9 @@
 #include "flow/closed_period.hpp"
 
+#include <algorithm>
 #include <optional>
 
+#include "flow/panel.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
@@ -18,17 +20,6 @@ struct Period {
 
   bool returns() const { return contacts == last_contacts; }
 };
-
-// Memories that the period does not change have rows of the unit matrix, and those without a meaning none.
-std::vector<Index> free_states(const Eigen::MatrixXd& map) {
-  std::vector<Index> kept;
-  for (Index i = 0; i < map.rows(); ++i) {
-    Eigen::RowVectorXd own = map.row(i);
-    own[i] -= 1.0;
-    if (!own.isZero(0.0) && !map.row(i).isZero(0.0)) kept.push_back(i);
-  }
-  return kept;
-}
 
 class PeriodNewton {
  public:
@@ -125,18 +116,43 @@ class PeriodNewton {
 
 }  // namespace
 
+std::vector<Index> free_states(const Eigen::MatrixXd& map) {
+  std::vector<Index> kept;
+  for (Index i = 0; i < map.rows(); ++i) {
+    Eigen::RowVectorXd own = map.row(i);
+    own[i] -= 1.0;
+    if (!own.isZero(0.0) && !map.row(i).isZero(0.0)) kept.push_back(i);
+  }
+  return kept;
+}
+
+double period_operations(const ContactFlow& flow, int rows) {
+  // What forces make of the poles at the points of a panel, the forces, and what they do to perturbations of
+  // all states, where these are carried along, by products of large matrices.
+  constexpr double of_waves = 2e3, of_products = 0.2;
+  const double forces = double(rows * panel_nodes), states = double(flow.state().size()),
+               columns = std::max(1.0, double(flow.perturbation().cols())),
+               products =
+                   2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
+  return double(flow.panels().size()) *
+         (operations_of_panel + of_waves * states * double(panel_nodes) + of_products * products);
+}
+
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer,
                           Eigen::MatrixXd map) {
   return PeriodNewton(flow, observer, std::move(map)).run(most_iterations);
+}
+
+Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map) {
+  const std::vector<Index> free = free_states(map);
+  return free.empty() ? Eigen::VectorXcd() : map_multipliers(map(free, free));
 }
 
 Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed) {
   flow.start(closed.state, closed.contacts);
   flow.perturb(Eigen::MatrixXd::Identity(closed.state.size(), closed.state.size()));
   if (flow.advance_period() != FlowStatus::converged) return {};
-  const Eigen::MatrixXd map = flow.perturbation();
-  const std::vector<Index> free = free_states(map);
-  return free.empty() ? Eigen::VectorXcd() : map_multipliers(map(free, free));
+  return multipliers_of(flow.perturbation());
 }
 
 }  // namespace wavebalance::solvers::detail

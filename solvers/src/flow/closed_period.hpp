@@ -26,6 +26,18 @@ struct ClosedPeriod {
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer = {},
                           Eigen::MatrixXd map = {});
 
+/// About so many floating-point operations a panel takes at least, and the last period of a flow with so many
+/// rows and its perturbations took, in those of small matrices.
+inline constexpr double operations_of_panel = 2e5;
+double period_operations(const ContactFlow& flow, int rows);
+
+/// The states that a map of a period changes: a memory that it leaves as it is has a row of the unit matrix,
+/// and one without a meaning none.
+std::vector<Eigen::Index> free_states(const Eigen::MatrixXd& map);
+
+/// The multipliers of a map by falling modulus; that of 1 of a slider which does not move is left out.
+Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map);
+
 /// The multipliers of a state that comes back by falling modulus. That of 1 of a slider which does not move
 /// is left out. Empty where perturbations are not resolved.
 Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed);

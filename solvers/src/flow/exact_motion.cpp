@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "flow/closed_period.hpp"
 #include "flow/flow_phases.hpp"
+#include "flow/flow_start.hpp"
 #include "flow/law_machines.hpp"
 #include "linalg/index.hpp"
-#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -58,79 +56,16 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                                 " Hz; it must be positive and finite");
 }
 
-// The discrete states of all contacts at each time.
-std::vector<std::vector<int>> states_along(const std::vector<ContactMachine>& machines,
-                                           const Eigen::MatrixXd& displacement,
-                                           const Eigen::MatrixXd& force) {
-  std::vector<std::vector<int>> result;
-  for (Index k = 0; k < displacement.cols(); ++k) {
-    std::vector<int>& now = result.emplace_back();
-    for (const ContactMachine& machine : machines) {
-      const auto rows = std::size_t(machine.law->rows());
-      std::array<double, 2> memory{};
-      now.push_back(machine.law->at({displacement.col(k).data() + machine.row, rows},
-                                    {force.col(k).data() + machine.row, rows}, memory));
-    }
-  }
-  return result;
-}
-
-// The middle of the longest time in which no contact changes its state.
-Index calm_time(const std::vector<std::vector<int>>& states) {
-  const auto count = Index(states.size());
-  const auto at = [&](Index k) -> const std::vector<int>& { return states[std::size_t(k % count)]; };
-  Index first = 0;
-  while (first < count && at(first) == at(first + 1)) ++first;
-  if (first == count) return 0;
-  Index best = 0, middle = 0;
-  for (Index k = first + 1, begin = k; k <= first + count; ++k) {
-    if (at(k) == at(k + 1)) continue;
-    if (k + 1 - begin > best) {
-      best = k + 1 - begin;
-      middle = (begin + best / 2) % count;
-    }
-    begin = k + 1;
-  }
-  return middle;
-}
-
-Eigen::MatrixXd from_column(const Eigen::MatrixXd& values, Index first) {
-  Eigen::MatrixXd result(values.rows(), values.cols());
-  const Index rest = values.cols() - first;
-  result << values.rightCols(rest), values.leftCols(first);
-  return result;
-}
-
-// Column n belongs to Re(a exp(2 pi i n t)).
-Eigen::MatrixXcd harmonics_of(const Eigen::MatrixXd& samples) {
-  const Index count = samples.cols();
-  Eigen::MatrixXcd result(samples.rows(), count / 2 + 1);
-  for (Index c = 0; c < samples.rows(); ++c)
-    result.row(c) = translate_spectrum(samples.row(c).transpose()).transpose() * (2.0 / double(count));
-  result.col(0) *= 0.5;
-  if (count % 2 == 0) result.col(count / 2) *= 0.5;
-  return result;
-}
-
 class MotionSearch {
  public:
   MotionSearch(const PhasesProblem& problem, const Eigen::MatrixXd& start, const Eigen::MatrixXd& force,
                const ContactPhasesOptions& options)
       : original_(problem),
-        problem_(problem),
+        from_(flow_start(problem, start, force)),
+        problem_(begun_at(problem, from_.begin)),
         options_(options),
         start_(start),
-        times_(Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()))) {
-    const auto machines =
-        machines_of(problem.laws, problem.dynamics, start.cwiseAbs().maxCoeff(), problem.frequency);
-    const Index first = calm_time(states_along(machines, start, force));
-    begin_ = double(first) / double(start.cols());
-    first_displacement_ = start.col(first);
-    first_force_ = force.col(first);
-    harmonics_ = harmonics_of(from_column(force - problem.dynamics.holding() * start, first));
-    for (Index n = 0; n < problem_.contact_free.cols(); ++n)
-      problem_.contact_free.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * begin_);
-  }
+        times_(Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()))) {}
 
   PhaseMotion run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
@@ -154,23 +89,9 @@ class MotionSearch {
   }
 
  private:
-  static constexpr double least_operations = 2e5;  // of a panel
-  // Of a panel, in those of small matrices: what has no size, what forces make of the poles at its points,
-  // the forces, and what they do to perturbations of all states where these are carried along, by products of
-  // large matrices.
-  double operations_of_panel(const ContactFlow& flow) const {
-    constexpr double of_waves = 2e3, of_products = 0.2;
-    const double forces = double(problem_.dynamics.contacts() * panel_nodes),
-                 states = double(flow.state().size()),
-                 columns = std::max(1.0, double(flow.perturbation().cols())),
-                 products =
-                     2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
-    return least_operations + of_waves * states * double(panel_nodes) + of_products * products;
-  }
-
   // Whether operations and observer allow what follows a period.
   bool goes_on_after(const ContactFlow& flow, const Progress& progress) {
-    operations_left_ -= double(flow.panels().size()) * operations_of_panel(flow);
+    operations_left_ -= period_operations(flow, problem_.dynamics.contacts());
     exhausted_ = operations_left_ < 0.0;
     cancelled_ = !goes_on(options_.observer, progress);
     return !exhausted_ && !cancelled_;
@@ -180,21 +101,21 @@ class MotionSearch {
   bool refine(double tolerance) {
     constexpr double safety = 3.0, rounding = 1e-13;
     const FlowOptions flow_options;
-    exhausted_ = operations_left_ < flow_options.panels * least_operations;
+    exhausted_ = operations_left_ < flow_options.panels * operations_of_panel;
     if (exhausted_) return false;
     ContactFlow flow(problem_, {.tolerance = tolerance,
-                                .max_panels = int(std::clamp(operations_left_ / least_operations,
+                                .max_panels = int(std::clamp(operations_left_ / operations_of_panel,
                                                              double(flow_options.panels),
                                                              double(flow_options.max_panels)))});
     if (found_.found)
       flow.start(found_.state, found_.contacts);
     else
-      flow.start_near(harmonics_, first_displacement_, first_force_);
+      flow.start_near(from_.harmonics, from_.displacement, from_.force);
     const Observer observer = [&](const Progress& progress) { return goes_on_after(flow, progress); };
     ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map);
     iterations_ += closed.iterations;
     if (!closed.found) return false;
-    motion_ = motion_of(original_, flow, begin_);
+    motion_ = motion_of(original_, flow, from_.begin);
     const Eigen::MatrixXd now = motion_.displacement(times_);
     if (found_.found) error_ = std::max(safety * (now - displacement_).norm() / now.norm(), rounding);
     displacement_ = now;
@@ -204,12 +125,11 @@ class MotionSearch {
   }
 
   const PhasesProblem& original_;
+  FlowStart from_;
   PhasesProblem problem_;  // from the time at which the flow begins
   const ContactPhasesOptions& options_;
   Eigen::MatrixXd start_;
-  Eigen::VectorXd times_, first_displacement_, first_force_;
-  Eigen::MatrixXcd harmonics_;
-  double begin_ = 0.0;
+  Eigen::VectorXd times_;
   // What was found.
   std::optional<ContactFlow> flow_;
   ClosedPeriod found_;

@@ -73,12 +73,17 @@ class ContactFlow::Engine {
   std::optional<Solved> solve_next();
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
   std::optional<Hit> first_hit(const Solved& panel, double until);
-  GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, const Guard& guard);
+  /// Signals at the dense points, and those of a contact with numbers of the gradient.
+  struct Dense {
+    detail::Signals signals;
+    std::vector<detail::LocalValues> local;
+  };
+  GuardSamples sample_guard(const Solved& panel, const Dense& dense, const Guard& guard);
   std::optional<double> root_of(const Solved& panel, const Guard& guard, const GuardSamples& samples,
                                 detail::Sample a, detail::Sample b) const;
   std::optional<double> touch(const Solved& panel, const Guard& guard, const GuardSamples& samples,
                               std::size_t k) const;
-  std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, const Guard& guard,
+  std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard,
                                double until);
   double scale_of(const Dual& guard, int rows) const;
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;

@@ -57,8 +57,7 @@ double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
 }
 
 ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel,
-                                                                    const detail::Signals& dense,
-                                                                    const Guard& guard) {
+                                                                    const Dense& dense, const Guard& guard) {
   const Index c = guard.contact;
   const int state = now_.state[std::size_t(c)];
   const LawMachine& law = contacts_.law(c);
@@ -66,11 +65,10 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
   GuardSamples samples;
   double& size = size_[{c, 64 * state + guard.exit}];
   for (Index k = 0; k < dense_.at.size(); ++k) {
-    const detail::LocalValues local(contacts_, c, dense, first + k, now_.memory);
-    const Dual value = law.guard(state, guard.exit, local.signals());
+    const Dual value = law.guard(state, guard.exit, dense.local[std::size_t(k)].signals());
     samples.value.push_back(value.value);
     samples.rate.push_back(panel.shape->half() *
-                           detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense, first + k));
+                           detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense.signals, first + k));
     size = std::max({size, std::abs(value.value), k == 0 ? scale_of(value, law.rows()) : 0.0});
   }
   constexpr double clear = 1e-11;
@@ -120,7 +118,7 @@ std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guar
 
 // Guards that vanish at the beginning, behind an event, count by their first clear value. Nothing where that
 // is after `until`.
-std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense,
+std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Dense& dense,
                                                   const Guard& guard, double until) {
   const GuardSamples samples = sample_guard(panel, dense, guard);
   const std::vector<double>& g = samples.value;
@@ -155,9 +153,12 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const det
 }
 
 std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel, double until) {
-  const detail::Signals dense = motion(*panel.shape).at(panel.shape->waves(), panel.force);
+  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.force), {}};
   std::optional<Hit> best;
   for (Index c = 0; c < contacts_.count(); ++c) {
+    dense.local.clear();
+    for (Index k = 0; k < dense_.at.size(); ++k)
+      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k, now_.memory);
     const int exits = int(contacts_.law(c).exits(now_.state[std::size_t(c)]).size());
     for (int exit = 0; exit < exits; ++exit) {
       const Guard guard{c, exit};

@@ -10,8 +10,8 @@
 
 #include "campaign.hpp"
 #include "support/friction_motions.hpp"
-#include "support/friction_oracle.hpp"
 #include "support/friction_table.hpp"
+#include "support/oracle_check.hpp"
 #include "support/phase_cases.hpp"
 #include "support/random_friction.hpp"
 
@@ -162,54 +162,13 @@ TEST(ExactMotion, OfOneCoefficientOfZeroAreThoseWithoutFriction) {
   EXPECT_LE((found.phases.motion.displacement(times) - u).norm(), 1e-9 * u.norm());
 }
 
-// The state of a motion at the start of the period.
-FrictionOracle::State state_of(FrictionMotion& found, const FrictionOracle& oracle) {
-  using Does = FrictionOracle::Does;
-  const PhaseMotion& motion = found.phases.motion;
-  const StructurePhases whole =
-      structure_phases(found.problem, motion, 1, {.tolerance = 1e-13, .first_harmonics = 8192});
-  std::vector<Does> does;
-  Eigen::VectorXd tangential(Eigen::Index(motion.friction.size()));
-  for (std::size_t c = 0; c < motion.friction.size(); ++c) {
-    const FrictionAlong& contact = motion.friction[c];
-    const auto now = std::find_if(contact.parts.begin(), contact.parts.end(), [](const FrictionPart& part) {
-      return part.begin <= 0.0 || part.end > 1.0;
-    });
-    does.push_back(now->state == FrictionPart::State::open    ? Does::open
-                   : now->state == FrictionPart::State::stick ? Does::stick
-                   : now->sign > 0.0                          ? Does::slip_up
-                                                              : Does::slip_down);
-    tangential[Eigen::Index(c)] =
-        motion.force(Eigen::VectorXd::Zero(1))(contact.row + contact.constants.normal_rows, 0);
-  }
-  return oracle.start(whole.motion.displacement.col(0), whole.motion.velocity.col(0), tangential, does);
-}
-
-struct OracleCheck {
-  double change = 0.0;       // of the state over a period, over its size
-  double multipliers = 0.0;  // largest distance of one of the oracle's from those of the motion
-};
-
-OracleCheck check(FrictionMotion& found) {
-  const FrictionOracle oracle(found.scene);
-  const FrictionOracle::State start = state_of(found, oracle), end = oracle.period(start);
-  const Eigen::Index states = oracle.states();
-  const Eigen::VectorXcd exact = end.by_start.topLeftCorner(states, states).eigenvalues(),
-                         own = found.phases.motion.multipliers();
-  OracleCheck result{(end.z - start.z).norm() / start.z.norm()};
-  for (const std::complex<double> one : exact)
-    if (std::abs(one) > 1e-3)
-      result.multipliers = std::max(result.multipliers, (own.array() - one).abs().minCoeff());
-  return result;
-}
-
 TEST(ExactMotion, ComeBackAfterAPeriodOfTheEventDrivenMotionWithItsMultipliers) {
   for (const FrictionRow& row : testing::friction_rows()) {
     // The exponentials of the beam, whose fastest pole decays within 1e-6 of the period, lose digits.
     if (row.scene.laws.front().tangents() > 1 || row.name.starts_with("beam")) continue;
     FrictionMotion found(row.scene);
     ASSERT_EQ(to_string(found.phases.motion.status), "converged") << row.name;
-    const OracleCheck checked = check(found);
+    const testing::OracleCheck checked = testing::check(found.scene, found.problem, found.phases.motion);
     EXPECT_LE(checked.change, 1e-10) << row.name;
     EXPECT_LE(checked.multipliers, 1e-10) << row.name;
   }
@@ -320,7 +279,7 @@ struct Campaign {
     const bool sticks = std::any_of(motion.friction.begin(), motion.friction.end(),
                                     [](const FrictionAlong& one) { return one.always_sticks(); });
     stuck += sticks ? 1 : 0;
-    const OracleCheck checked = check(found);
+    const testing::OracleCheck checked = testing::check(found.scene, found.problem, found.phases.motion);
     worst = std::max(worst, checked.change);
     if (!sticks) worst_multiplier = std::max(worst_multiplier, checked.multipliers);
     if (!(checked.change < 1e-9) || (!sticks && !(checked.multipliers < 1e-8))) {

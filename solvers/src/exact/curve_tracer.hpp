@@ -1,0 +1,58 @@
+#pragma once
+#include <deque>
+#include <vector>
+
+#include "exact/exact_events.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Follows one curve, from its first point forwards. What is left to a derived class is how to go on by a
+/// step. A path is used by one tracer at a time.
+class CurveTracer {
+ public:
+  CurveTracer(CurvePath& path, ExactCurve& curve, PointOnCurve first);
+  virtual ~CurveTracer() = default;
+
+  void run();
+
+ protected:
+  /// Adds points, takes another step length, or gives the curve a status.
+  virtual void advance() = 0;
+  /// About so many floating-point operations a point took.
+  virtual double operations_of(const CurvePoint& point) const = 0;
+  virtual bool same_unknowns(const CurvePoint& a, const CurvePoint& b) const = 0;
+  /// Adds the special points between the last point and the next at which contacts change what they do.
+  virtual void append_changes(const CurvePoint& next, std::vector<PlacedEvent>& events);
+
+  const ExactCurveOptions& options() const { return path_.options(); }
+  ExactCurve& curve() { return curve_; }
+  /// The last ones with the same unknowns.
+  std::deque<PointOnCurve>& points() { return points_; }
+  /// Notes the special points between the last point and the next.
+  void note_events(const CurvePoint& next);
+  bool within(double value) const;
+  Eigen::VectorXcd multipliers_of(const CurvePoint& point) const;
+  void accept(PointOnCurve point);
+  void go_to(PointOnCurve next);
+  /// The curve leaves its interval between its last point and this one.
+  void end_before(const CurvePoint& next);
+  /// Half the step; the curve is lost where that is too short.
+  void shorten_step();
+  void note(SpecialPointType type, const CurvePoint& at);
+
+  double step_;
+
+ private:
+  bool turns_as_it_ends() const;
+  double behind() const { return options().behind > 0.0 ? options().behind : options().from; }
+  SweepStatus end_at(double value) const;
+  PointOnCurve first_between(const CurvePoint& next) const;
+
+  CurvePath& path_;
+  ExactCurve& curve_;
+  double operations_ = 0.0;
+  const PointOnCurve first_;
+  std::deque<PointOnCurve> points_;
+};
+
+}  // namespace wavebalance::solvers::detail

@@ -1,0 +1,223 @@
+#include "exact/map_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "exact/curve_tracer.hpp"
+#include "exact/map_path.hpp"
+#include "linalg/index.hpp"
+#include "phases/phase_refinement.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+/// What is expected at another place of the curve.
+struct Expected {
+  MapStart start;
+  Eigen::VectorXd displacement;
+};
+
+/// Two motions that are one to nine digits of a step, between which a contact changes what it does.
+struct Change {
+  std::shared_ptr<const MapPoint> before, behind;
+};
+
+class MapTracer : public CurveTracer {
+ public:
+  MapTracer(MapPath& path, ExactCurve& curve, PointOnCurve first)
+      : CurveTracer(path, curve, std::move(first)), path_(path) {}
+
+ private:
+  void advance() override {
+    constexpr double beside = 0.1;  // of the longest time without events
+    if (last().nearest_event < beside * last().calm) begin_anew();
+    const std::shared_ptr<MapPoint> next = corrected();
+    if (!next) return retry();
+    failures_ = 0;
+    if (next->pattern.rests_behind(last().pattern)) return rest_before(*next);
+    step_ = std::min(options().largest_step, step_ * growth_);
+    if (!within(next->value)) return end_before(*next);
+    go_to(next);
+  }
+
+  // A slider that comes to rest keeps the position that it has there.
+  void rest_before(const MapPoint& next) {
+    rest_ = change_between(
+        last(), next, [&](const ContactPattern& pattern) { return !pattern.rests_behind(last().pattern); });
+    if (!rest_) return retry();
+    const std::shared_ptr<const MapPoint> behind = rest_->behind;
+    if (within(behind->value))
+      go_to(behind);
+    else
+      end_before(*behind);
+    rest_.reset();
+    points().erase(points().begin(), points().end() - 1);
+    step_ = std::min(step_, options().first_step);
+  }
+
+  // Another beginning of the period, where contacts change what they do at that of the last point.
+  void retry() {
+    constexpr int most = 4;
+    shorten_step();
+    if (++failures_ % most == 0) begin_anew();
+  }
+
+  void begin_anew() {
+    PointOnCurve anew = path_.begun_anew(last());
+    if (!anew) return;
+    points().clear();
+    points().push_back(std::move(anew));
+  }
+
+  const MapPoint& last() { return static_cast<const MapPoint&>(*points().back()); }
+
+  // The next point, if it lies where it is expected.
+  std::shared_ptr<MapPoint> corrected() {
+    constexpr double sharper = 0.3;
+    // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
+    if (points().size() > 1 && step_ > sharper * (last().place - points()[points().size() - 2]->place))
+      if (std::shared_ptr<MapPoint> next = near(through_last())) return next;
+    return near({moved_by(last().direction), last().displacement + step_ * last().displacement_direction});
+  }
+
+  MapStart moved_by(const Eigen::VectorXd& direction) {
+    MapStart start = last().start;
+    start.state += step_ * direction.head(start.state.size());
+    start.value += step_ * direction[start.state.size()];
+    return start;
+  }
+
+  // By the polynomial through the last points with the same states of the contacts at the beginning.
+  Expected through_last() {
+    std::vector<const MapPoint*> known;
+    for (auto it = points().rbegin(); it != points().rend(); ++it) {
+      const auto& point = static_cast<const MapPoint&>(**it);
+      if (point.start.contacts != last().start.contacts) break;
+      known.push_back(&point);
+    }
+    const double place = last().place + step_;
+    Expected expected{last().start, Eigen::VectorXd::Zero(last().displacement.size())};
+    expected.start.value = 0.0;
+    expected.start.state.setZero();
+    for (const MapPoint* one : known) {
+      double weight = 1.0;
+      for (const MapPoint* other : known)
+        if (other != one) weight *= (place - other->place) / (one->place - other->place);
+      expected.start.value += weight * one->value;
+      expected.start.state += weight * one->start.state;
+      expected.displacement += weight * one->displacement;
+    }
+    return expected;
+  }
+
+  std::shared_ptr<MapPoint> near(const Expected& expected) {
+    constexpr double close = 0.05, farthest = 0.25, longest = 2.5, least_cosine = 0.3;
+    std::shared_ptr<MapPoint> next = path_.solve(expected.start, last());
+    if (!next) return nullptr;
+    const double scale = path_.arc_scale(last()), arc = path_.arc_length(last(), *next),
+                 off = std::hypot(rms_of(next->displacement - expected.displacement) / scale,
+                                  (next->value - expected.start.value) / path_.parameter_scale());
+    if (off > farthest * step_ || arc > longest * step_) return nullptr;
+    const double ahead = cosine(last(), *next);
+    if (std::abs(ahead) < least_cosine) return nullptr;
+    if (ahead < 0.0) next->turn_around();
+    growth_ = off < close * step_ ? 1.5 : 1.0;
+    next->place = last().place + arc;
+    return next;
+  }
+
+  // Of the angle between the way from one point to another and the direction there.
+  double cosine(const MapPoint& from, const MapPoint& to) const {
+    const double scale = path_.arc_scale(from) * std::sqrt(double(from.displacement.size()));
+    Eigen::VectorXd way(from.displacement.size() + 1), direction(way.size());
+    way << (to.displacement - from.displacement) / scale, (to.value - from.value) / path_.parameter_scale();
+    direction << to.displacement_direction / scale, to.slope / path_.parameter_scale();
+    return way.dot(direction) / (way.norm() * direction.norm());
+  }
+
+  void append_changes(const CurvePoint& next, std::vector<PlacedEvent>& events) override {
+    const auto& b = static_cast<const MapPoint&>(next);
+    if (rest_ && rest_->behind.get() == &b) {
+      append_changes(last(), *rest_->before, events);
+      append_change(rest_->before->pattern, *rest_, events);
+    } else {
+      append_changes(last(), b, events);
+    }
+  }
+
+  void append_changes(const MapPoint& a, const MapPoint& b, std::vector<PlacedEvent>& events) {
+    constexpr std::size_t most = 16;  // of a step
+    if (a.pattern == b.pattern || path_.cancelled()) return;
+    const auto change =
+        change_between(a, b, [&](const ContactPattern& pattern) { return pattern == a.pattern; });
+    if (!change) return;
+    append_change(a.pattern, *change, events);
+    if (events.size() < most) append_changes(*change->behind, b, events);
+  }
+
+  static void append_change(const ContactPattern& before, const Change& change,
+                            std::vector<PlacedEvent>& events) {
+    // A motion in which all contacts stick is smooth up to the first slip.
+    const bool slips = before.slips(), changes = slips != change.behind->pattern.slips();
+    const CurvePoint& at = changes && slips ? *change.behind : *change.before;
+    if (!changes && before.passages == change.behind->pattern.passages) return;
+    const auto type = changes ? SpecialPointType::slip : SpecialPointType::grazing;
+    events.push_back({at.place, {type, at.value, {missing, missing}, at.motion}});
+  }
+
+  // Where what contacts do is no more what it was, between two points.
+  std::optional<Change> change_between(const MapPoint& a, const MapPoint& b,
+                                       const std::function<bool(const ContactPattern&)>& as_before) const {
+    constexpr double resolved = 1e-9;  // of the way
+    double low = 0.0, high = 1.0;
+    while (high - low > resolved) {
+      const double middle = 0.5 * (low + high);
+      const auto pattern = path_.pattern_between(a, b, middle);
+      if (!pattern) return std::nullopt;
+      (as_before(*pattern) ? low : high) = middle;
+    }
+    // So near to it rounding may decide, what is told is on either side.
+    const auto nearest = [&](double share, double away, bool before) {
+      std::shared_ptr<const MapPoint> point;
+      do {
+        share = std::clamp(share, 0.0, 1.0);
+        point = std::static_pointer_cast<const MapPoint>(path_.between(a, b, share, false));
+        share += away;
+        away *= 4.0;
+      } while (point && share > 0.0 && share < 1.0 && as_before(point->pattern) != before);
+      return point;
+    };
+    Change change{nearest(low, -resolved, true), nearest(high, resolved, false)};
+    if (!change.before || !change.behind) return std::nullopt;
+    return change;
+  }
+
+  double operations_of(const CurvePoint&) const override { return path_.take_operations(); }
+
+  bool same_unknowns(const CurvePoint& a, const CurvePoint& b) const override {
+    return static_cast<const MapPoint&>(a).pattern == static_cast<const MapPoint&>(b).pattern;
+  }
+
+  MapPath& path_;
+  double growth_ = 1.5;
+  int failures_ = 0;
+  std::optional<Change> rest_;  // of the step that is taken, which ends there
+};
+
+}  // namespace
+
+ExactCurve map_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options) {
+  ExactCurve curve;
+  MapPath path(family, first, options);
+  PointOnCurve start = path.first(options.from, first, options.to > options.from ? 1.0 : -1.0);
+  if (path.cancelled()) curve.status = SweepStatus::cancelled;
+  if (start)
+    MapTracer(path, curve, std::move(start)).run();
+  else
+    curve.start = PhasesStatus::not_found;
+  return curve;
+}
+
+}  // namespace wavebalance::solvers::detail

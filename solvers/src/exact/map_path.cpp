@@ -1,0 +1,326 @@
+#include "exact/map_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "flow/closed_period.hpp"
+#include "flow/flow_phases.hpp"
+#include "flow/flow_start.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/index.hpp"
+#include "phases/phase_refinement.hpp"
+
+namespace wavebalance::solvers::detail {
+namespace {
+
+// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held. States
+// that the period leaves as they are change by `right`.
+Eigen::VectorXd bordered_step(const MapSlopes& slopes, const Eigen::VectorXd& held,
+                              const Eigen::VectorXd& right, double held_right) {
+  const std::vector<Index> free = free_states(slopes.map);
+  const auto count = Index(free.size()), states = slopes.map.rows();
+  Eigen::MatrixXd matrix(count + 1, count + 1);
+  Eigen::VectorXd all(count + 1);
+  matrix.topLeftCorner(count, count) =
+      Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(slopes.map(free, free));
+  for (Index i = 0; i < count; ++i) {
+    matrix(i, count) = -slopes.by_parameter[free[std::size_t(i)]];
+    matrix(count, i) = held[free[std::size_t(i)]];
+    all[i] = right[free[std::size_t(i)]];
+  }
+  matrix(count, count) = held[states];
+  all[count] = held_right;
+  const Eigen::VectorXd found = Lu<double>(matrix).solve(all);
+  Eigen::VectorXd step(states + 1);
+  step.head(states) = right;
+  for (Index i = 0; i < count; ++i) step[free[std::size_t(i)]] = found[i];
+  step[states] = found[count];
+  return step;
+}
+
+// What a step has left becomes the change that the matrix had for it.
+void learn(MapSlopes& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& step,
+           const Eigen::VectorXd& plane) {
+  const Eigen::VectorXd share = plane / plane.dot(step);
+  const Index states = left.size();
+  for (Index i = 0; i < states; ++i) {
+    if (left[i] == 0.0) continue;  // a state without a meaning, or one that the period leaves as it is
+    slopes.map.row(i) += left[i] * share.head(states).transpose();
+    slopes.by_parameter[i] += left[i] * share[states];
+  }
+}
+
+MapStart moved(MapStart start, const Eigen::VectorXd& step, double part = 1.0) {
+  const Index states = start.state.size();
+  start.state += part * step.head(states);
+  start.value += part * step[states];
+  return start;
+}
+
+ContactPattern pattern_of(const ContactFlow& flow) {
+  ContactPattern pattern;
+  for (std::size_t c = 0; c < flow.machines().size(); ++c) {
+    const LawMachine& law = *flow.machines()[c].law;
+    int passages = 0;
+    bool open = law.kind(flow.panels().back().states[c]) == ContactState::open, slides = false;
+    for (const FlowPanel& panel : flow.panels()) {
+      const ContactState kind = law.kind(panel.states[c]);
+      passages += (kind == ContactState::open) != open;
+      open = kind == ContactState::open;
+      slides = slides || kind != ContactState::stick;
+    }
+    pattern.passages.push_back(passages);
+    if (law.memories() > 0) pattern.slides.push_back(slides);
+  }
+  return pattern;
+}
+
+// Sets how far the beginning is from events.
+void set_calm(const ContactFlow& flow, MapPoint& point) {
+  if (flow.events().empty()) return;
+  const double first = flow.events().front().time, last = flow.events().back().time, whole = flow.period();
+  point.nearest_event = std::min(first, whole - last) / whole;
+  point.calm = (first + whole - last) / whole;
+  for (std::size_t i = 1; i < flow.events().size(); ++i)
+    point.calm = std::max(point.calm, (flow.events()[i].time - flow.events()[i - 1].time) / whole);
+}
+
+Eigen::VectorXd along_parameter(Index states) { return Eigen::VectorXd::Unit(states + 1, states); }
+
+}  // namespace
+
+/// A period from a start.
+struct MapPath::Period {
+  ContactFlow flow;
+  Eigen::VectorXd change;        // of the state
+  Eigen::MatrixXd displacement;  // m, R x points, from time 0
+  double distance;
+  bool returns;
+};
+
+/// A start that comes back.
+struct MapPath::Closed {
+  MapStart start;
+  ContactFlow flow;
+  double distance;
+  int iterations;
+  std::optional<MapSlopes> slopes;  // there or near
+};
+
+double MapPath::take_operations() const { return std::exchange(operations_, 0.0); }
+
+std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tolerance, bool with_map,
+                                               int points) const {
+  if (!(start.value > 0.0)) return std::nullopt;
+  ContactFlow flow(begun_at(family().at(start.value), start.begin), {.tolerance = tolerance});
+  flow.start(start.state, start.contacts);
+  const Index states = start.state.size(), rows = family().dynamics().contacts();
+  if (with_map) flow.perturb(Eigen::MatrixXd::Identity(states, states));
+  Eigen::MatrixXd displacement(rows, points);
+  const Index begin = std::lround(start.begin * points);
+  const auto sample = [&](const FlowSample& at) {
+    const Index k = begin + std::lround(at.time / flow.period() * points);
+    displacement.col(k % points) = at.displacement;
+  };
+  const FlowStatus status = points > 0 ? flow.advance_period(points, sample) : flow.advance_period();
+  operations_ += period_operations(flow, int(rows));
+  if (status != FlowStatus::converged) return std::nullopt;
+  const Eigen::VectorXd change = flow.state() - start.state, weights = flow.displacements_by_state();
+  const double size = std::max(start.state.cwiseProduct(weights).norm(), vibration()),
+               distance = change.cwiseProduct(weights).norm() / size;
+  const bool returns = flow.contact_states() == start.contacts;
+  if (!observer()({"exact curve", 0, distance, "relative change of a period"})) return std::nullopt;
+  return Period{std::move(flow), change, std::move(displacement), distance, returns};
+}
+
+std::optional<MapSlopes> MapPath::slopes_at(const MapStart& start, double tolerance) const {
+  constexpr double apart = 3e-6;  // of the parameter
+  const auto own = period(start, tolerance, true);
+  if (!own) return std::nullopt;
+  MapStart above = start, below = start;
+  above.value *= 1.0 + apart;
+  below.value *= 1.0 - apart;
+  const auto up = period(above, tolerance, false), down = period(below, tolerance, false);
+  if (!up || !down) return std::nullopt;
+  return MapSlopes{own->flow.perturbation(), (up->change - down->change) / (above.value - below.value)};
+}
+
+// Newton's method with a plane held. Its matrix takes what each step tells about it [C. G. Broyden, Math.
+// Comp. 19, 1965] as long as a step leaves a third at most; a step by a matrix of its own that leads farther
+// away is halved.
+std::optional<MapPath::Closed> MapPath::closed(MapStart start, const Eigen::VectorXd& held,
+                                               std::optional<MapSlopes> slopes, double tolerance) const {
+  constexpr double rounding = 1e-13, small = 1e-8, helps = 0.3, shortest = 1.0 / 32.0;
+  constexpr int most_passed = 4;
+  auto now = period(start, tolerance, false);
+  if (!now || !now->returns) return std::nullopt;
+  bool own = false;
+  int passed = 0;
+  for (int i = 0; i <= options().phases.max_iterations; ++i) {
+    if (now->distance < rounding)
+      return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
+    if (!slopes) {
+      slopes = slopes_at(start, tolerance);
+      if (!slopes) return std::nullopt;
+      own = true;
+    }
+    const Eigen::VectorXd step = bordered_step(*slopes, held, now->change, 0.0);
+    if (!step.allFinite()) return std::nullopt;
+    std::optional<Period> next;
+    double part = 1.0;
+    const auto leads = [&] { return next && next->returns && next->distance < now->distance; };
+    for (; part >= shortest && !leads(); part *= own ? 0.5 : 0.0)
+      next = period(moved(start, step, part), tolerance, false);
+    if (!leads() && own && now->distance < small)  // as far as rounding lets it
+      return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
+    if (!leads() && own) {  // a slider may have to find its place
+      if (++passed > most_passed) return std::nullopt;
+      start.state += now->change;
+      now = period(start, tolerance, false);
+      if (!now || !now->returns) return std::nullopt;
+      slopes.reset();
+      continue;
+    }
+    const bool slow = !leads() || next->distance > helps * now->distance;
+    if (leads()) {
+      start = moved(std::move(start), step, own ? 2.0 * part : 1.0);
+      if (!slow) learn(*slopes, next->change, step, plane_across(step, next->flow.displacements_by_state()));
+      now = std::move(next);
+    }
+    own = false;
+    if (slow) slopes.reset();
+  }
+  return std::nullopt;
+}
+
+Eigen::VectorXd MapPath::plane_across(const Eigen::VectorXd& change, const Eigen::VectorXd& weights) const {
+  Eigen::VectorXd all(change.size());
+  all << weights / vibration(), 1.0 / parameter_scale();
+  return all.cwiseAbs2().cwiseProduct(change);
+}
+
+// By differences of the flow along the tangent.
+bool MapPath::set_direction(MapPoint& point, const Eigen::VectorXd& held) const {
+  constexpr double apart = 1e-4;  // arc length
+  const Index states = point.start.state.size();
+  const Eigen::VectorXd tangent = bordered_step(point.slopes, held, Eigen::VectorXd::Zero(states), 1.0);
+  if (!tangent.allFinite()) return false;
+  const double scale = arc_scale(point),
+               rough = std::hypot(tangent.head(states).cwiseProduct(point.weights).norm() / scale,
+                                  tangent[states] / parameter_scale());
+  const double part = apart / rough;
+  const auto points = int(times().size());
+  const auto ahead = period(moved(point.start, tangent, part), tolerance_, false, points),
+             behind = period(moved(point.start, tangent, -part), tolerance_, false, points);
+  if (!ahead || !behind) return false;
+  point.displacement_direction = (ahead->displacement - behind->displacement).reshaped() / (2.0 * part);
+  const double speed =
+      std::hypot(rms_of(point.displacement_direction) / scale, tangent[states] / parameter_scale());
+  point.direction = tangent / speed;
+  point.displacement_direction /= speed;
+  point.slope = point.direction[states];
+  return true;
+}
+
+std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd& held) const {
+  auto point = std::make_shared<MapPoint>();
+  point->value = found.start.value;
+  point->start = found.start;
+  point->pattern = pattern_of(found.flow);
+  set_calm(found.flow, *point);
+  point->motion = motion_of(family().at(point->value), found.flow, point->start.begin);
+  const Eigen::MatrixXd displacement = point->motion.displacement(times());
+  point->displacement = displacement.reshaped();
+  point->vibration = vibration_of(displacement);
+  const auto slopes = slopes_at(found.start, tolerance_);
+  if (!slopes) return nullptr;
+  point->slopes = *slopes;
+  point->weights = found.flow.displacements_by_state();
+  if (!set_direction(*point, held)) return nullptr;
+  set_multipliers(point->motion, multipliers_of(slopes->map));
+  point->motion.residual = found.distance;
+  point->motion.iterations = found.iterations;
+  point->motion.unknowns = int(found.start.state.size()) + 1;
+  return point;
+}
+
+std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::VectorXd& held,
+                                          const std::optional<MapSlopes>& slopes) const {
+  constexpr double finest = 1e-12, coarser = 100.0, safety = 3.0;
+  for (;; tolerance_ /= coarser) {
+    auto found = closed(start, held, slopes, tolerance_);
+    if (!found) return nullptr;
+    const auto coarse =
+        closed(found->start, held, found->slopes ? found->slopes : slopes, coarser * tolerance_);
+    auto point = point_of(std::move(*found), held);
+    if (!coarse || !point) return nullptr;
+    const auto other = period(coarse->start, coarser * tolerance_, false, int(times().size()));
+    if (!other) return nullptr;
+    const double error =
+        safety * (other->displacement.reshaped() - point->displacement).norm() / point->displacement.norm();
+    point->motion.estimated_error = std::max(error, 1e-13);
+    const bool met = error <= options().phases.tolerance;
+    point->motion.status = met ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
+    if (met || tolerance_ < 1.1 * finest) return point;
+  }
+}
+
+std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
+  const PhasesProblem problem = family().at(value);
+  const FlowStart from = flow_start(problem, motion.displacement(times()), motion.force(times()));
+  ContactFlow flow(begun_at(problem, from.begin), {});
+  flow.start_near(from.harmonics, from.displacement, from.force);
+  auto point = solved({from.begin, value, flow.state(), flow.contact_states()},
+                      forwards * along_parameter(flow.state().size()), {});
+  return point;
+}
+
+std::shared_ptr<MapPoint> MapPath::begun_anew(const MapPoint& point) const {
+  auto anew = first(point.value, point.motion, 1.0);
+  if (!anew) return nullptr;
+  const double scale = arc_scale(point), size = double(point.displacement.size());
+  const double ahead =
+      anew->displacement_direction.dot(point.displacement_direction) / (scale * scale * size) +
+      anew->slope * point.slope / (parameter_scale() * parameter_scale());
+  if (ahead < 0.0) anew->turn_around();
+  anew->place = point.place;
+  return anew;
+}
+
+std::shared_ptr<MapPoint> MapPath::solve(const MapStart& start, const MapPoint& beside) const {
+  return solved(start, plane_across(beside.direction, beside.weights), beside.slopes);
+}
+
+// At a share of the chord, and the plane across it. Sliders at rest in `a` stay where they are.
+std::pair<MapStart, Eigen::VectorXd> MapPath::on_chord(const MapPoint& a, const MapPoint& b,
+                                                       double share) const {
+  const std::vector<Index> free = free_states(a.slopes.map);
+  const Index states = a.start.state.size();
+  Eigen::VectorXd chord = Eigen::VectorXd::Zero(states + 1);
+  chord(free) = (b.start.state - a.start.state)(free);
+  chord[states] = b.value - a.value;
+  MapStart start = share < 0.5 ? a.start : b.start;
+  start.state = a.start.state;
+  start.value = a.value;
+  return {moved(std::move(start), chord, share), plane_across(chord, a.weights)};
+}
+
+PointOnCurve MapPath::between(const CurvePoint& from, const CurvePoint& to, double share, bool) const {
+  const auto &a = static_cast<const MapPoint&>(from), &b = static_cast<const MapPoint&>(to);
+  const auto [start, plane] = on_chord(a, b, share);
+  auto point = solved(start, plane, (share < 0.5 ? a : b).slopes);
+  if (!point) return nullptr;
+  point->place = a.place + share * (b.place - a.place);
+  return point;
+}
+
+std::optional<ContactPattern> MapPath::pattern_between(const MapPoint& a, const MapPoint& b,
+                                                       double share) const {
+  const auto [start, plane] = on_chord(a, b, share);
+  const auto found = closed(start, plane, (share < 0.5 ? a : b).slopes, tolerance_);
+  if (!found) return std::nullopt;
+  return pattern_of(found->flow);
+}
+
+}  // namespace wavebalance::solvers::detail

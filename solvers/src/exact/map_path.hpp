@@ -1,0 +1,99 @@
+#pragma once
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "exact/curve_path.hpp"
+#include "wavebalance/solvers/flow/contact_flow.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// How the state after a period depends on that at its beginning and on the parameter.
+struct MapSlopes {
+  Eigen::MatrixXd map;
+  Eigen::VectorXd by_parameter;
+};
+
+/// A state from which a period may begin, `begin` periods after time 0.
+struct MapStart {
+  double begin = 0.0;
+  double value = 0.0;  ///< of the parameter
+  Eigen::VectorXd state;
+  std::vector<int> contacts;
+};
+
+/// What changes along a curve where a contact begins to touch, to open or to slip.
+struct ContactPattern {
+  std::vector<int> passages;  ///< of each contact, between open and not open, in a period
+  std::vector<bool> slides;   ///< of each contact with friction, whether it slips or opens
+  bool operator==(const ContactPattern&) const = default;
+
+  bool slips() const { return std::find(slides.begin(), slides.end(), true) != slides.end(); }
+  /// Whether a slider has come to rest, which slid in `before`.
+  bool rests_behind(const ContactPattern& before) const {
+    return !std::equal(before.slides.begin(), before.slides.end(), slides.begin(), std::less_equal<bool>());
+  }
+};
+
+/// A motion of a curve by the map of a period of the flow, and how the curve goes on from it.
+struct MapPoint : CurvePoint {
+  MapStart start;
+  Eigen::VectorXd weights;  ///< m, of the states in displacements
+  MapSlopes slopes;
+  ContactPattern pattern;
+  double nearest_event = 1.0, calm = 1.0;  ///< periods: from the beginning, and the longest time without one
+  Eigen::VectorXd direction;               ///< of the states and the parameter by arc length, forwards
+  Eigen::VectorXd displacement_direction;  ///< m, of CurvePoint::displacement by arc length
+
+  void turn_around() {
+    direction = -direction;
+    displacement_direction = -displacement_direction;
+    slope = -slope;
+  }
+};
+
+/// A curve of motions that come back after a period of the flow from event to event: x - P(x, parameter) = 0.
+/// What contacts do in a period follows from the laws, so that nothing is to be done where it changes.
+class MapPath : public CurvePath {
+ public:
+  using CurvePath::CurvePath;
+
+  /// The point near a motion, from a time far from all events; `forwards`: the sign of the change of the
+  /// parameter.
+  std::shared_ptr<MapPoint> first(double value, const PhaseMotion& motion, double forwards) const;
+  /// The same point from a time farther from all events.
+  std::shared_ptr<MapPoint> begun_anew(const MapPoint& point) const;
+  /// The point near a start on the plane through it across the direction of a point beside.
+  std::shared_ptr<MapPoint> solve(const MapStart& start, const MapPoint& beside) const;
+  PointOnCurve between(const CurvePoint& a, const CurvePoint& b, double share, bool turns) const override;
+  /// What contacts do at a share of the way between two points.
+  std::optional<ContactPattern> pattern_between(const MapPoint& a, const MapPoint& b, double share) const;
+
+  double arc_scale(const CurvePoint& at) const { return std::max(vibration(), at.vibration); }
+  /// About so many floating-point operations since this was asked for the last time.
+  double take_operations() const;
+
+ private:
+  struct Period;
+  struct Closed;
+
+  std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
+  std::optional<MapSlopes> slopes_at(const MapStart& start, double tolerance) const;
+  std::optional<Closed> closed(MapStart start, const Eigen::VectorXd& held, std::optional<MapSlopes> slopes,
+                               double tolerance) const;
+  std::shared_ptr<MapPoint> solved(const MapStart& start, const Eigen::VectorXd& held,
+                                   const std::optional<MapSlopes>& slopes) const;
+  std::shared_ptr<MapPoint> point_of(Closed found, const Eigen::VectorXd& held) const;
+  bool set_direction(MapPoint& point, const Eigen::VectorXd& held) const;
+  std::pair<MapStart, Eigen::VectorXd> on_chord(const MapPoint& a, const MapPoint& b, double share) const;
+  /// Of the plane across a change of states and parameter, with displacements and the parameter by their
+  /// scales; `weights` are displacements by states.
+  Eigen::VectorXd plane_across(const Eigen::VectorXd& change, const Eigen::VectorXd& weights) const;
+
+  mutable double tolerance_ = 1e-10, operations_ = 0.0;
+};
+
+}  // namespace wavebalance::solvers::detail
