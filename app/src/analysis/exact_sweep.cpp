@@ -51,13 +51,36 @@ struct Measure {
   }
 };
 
+/// Whether a contact direction belongs to a contact with friction, which has phases in all its states.
+bool has_friction(const PhaseMotion& motion, int row) {
+  return std::any_of(
+      motion.friction.begin(), motion.friction.end(), [&](const solvers::FrictionAlong& along) {
+        return row >= along.row && row < along.row + along.constants.normal_rows + along.constants.tangents;
+      });
+}
+
 solvers::PointStability stability_of(const ExactPoint& point) {
   solvers::PointStability stability;
   stability.status =
       point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
   stability.unstable = point.unstable;
-  stability.contacts = static_cast<int>(point.motion.phases.size());
+  stability.contacts = static_cast<int>(std::count_if(
+      point.motion.phases.begin(), point.motion.phases.end(),
+      [&](const solvers::ContactPhase& phase) { return !has_friction(point.motion, phase.contact); }));
   return stability;
+}
+
+/// The means over contacts and the work of all of them.
+FrictionShares friction_of(const PhaseMotion& motion) {
+  FrictionShares shares;
+  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(motion)) {
+    const double count = double(motion.friction.size());
+    shares.work += cycle.work;
+    shares.stick += cycle.stick_share / count;
+    shares.slip += cycle.slip_share / count;
+    shares.open += cycle.open_share / count;
+  }
+  return shares;
 }
 
 SweepPhases::Point phases_of(const PhaseMotion& motion) {
@@ -109,6 +132,10 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
               time_fractions(scene.analysis.output_points)},
              scene.analysis.stability, sweep);
   for (const ExactPoint& point : curve.points) sweep.exact_motions.push_back(point.motion);
+  if (has_friction(scene)) {
+    std::vector<FrictionShares>& shares = sweep.friction.emplace_back();
+    for (const ExactPoint& point : curve.points) shares.push_back(friction_of(point.motion));
+  }
   if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
   return sweep;
 }

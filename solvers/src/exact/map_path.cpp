@@ -268,7 +268,10 @@ std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::Ve
 
 std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
   const PhasesProblem problem = family().at(value);
-  const FlowStart from = flow_start(problem, motion.displacement(times()), motion.force(times()));
+  // In the middle a contact may be about to touch.
+  constexpr double share_of_calm = 0.375;
+  const FlowStart from =
+      flow_start(problem, motion.displacement(times()), motion.force(times()), share_of_calm);
   ContactFlow flow(begun_at(problem, from.begin), {});
   flow.start_near(from.harmonics, from.displacement, from.force);
   auto point = solved({from.begin, value, flow.state(), flow.contact_states()},

@@ -49,17 +49,17 @@ Calm longest_calm(const std::vector<std::vector<int>>& states) {
   return longest;
 }
 
-// The time well within that time at which the contacts move fastest: they begin to touch where they stop.
-Index time_within(const Calm& calm, const Eigen::MatrixXd& displacement) {
-  const Index count = displacement.cols(), margin = calm.length < count ? calm.length / 4 : 0;
-  Index best = calm.begin % count;
+// The time at which the contacts move fastest: they begin to touch where they stop.
+Index fastest_time(const Eigen::MatrixXd& displacement) {
+  const Index count = displacement.cols();
+  Index best = 0;
   double fastest = -1.0;
-  for (Index k = calm.begin + margin; k < calm.begin + calm.length - margin; ++k) {
+  for (Index k = 0; k < count; ++k) {
     const double moved =
         (displacement.col((k + 1) % count) - displacement.col((k + count - 1) % count)).norm();
     if (moved <= fastest) continue;
     fastest = moved;
-    best = k % count;
+    best = k;
   }
   return best;
 }
@@ -85,10 +85,14 @@ Eigen::MatrixXcd harmonics_of(const Eigen::MatrixXd& samples) {
 }  // namespace
 
 FlowStart flow_start(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
-                     const Eigen::MatrixXd& force) {
+                     const Eigen::MatrixXd& force, double share_of_calm) {
   const auto machines =
       machines_of(problem.laws, problem.dynamics, displacement.cwiseAbs().maxCoeff(), problem.frequency);
-  const Index first = time_within(longest_calm(states_along(machines, displacement, force)), displacement);
+  const Calm calm = longest_calm(states_along(machines, displacement, force));
+  const Index count = displacement.cols(),
+              first = calm.length == count
+                          ? fastest_time(displacement)
+                          : (calm.begin + Index(share_of_calm * double(calm.length))) % count;
   return {double(first) / double(displacement.cols()),
           harmonics_of(from_column(force - problem.dynamics.holding() * displacement, first)),
           displacement.col(first), force.col(first)};

@@ -209,7 +209,8 @@ PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const 
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {
-    ResponsePhases found = response_phases(condensed_, response, phases_problem_here(), options.phases);
+    ResponsePhases found =
+        response_phases(condensed_, response, phases_problem_here(), options.phases, exact_motion);
     if (found.motion.parts != nullptr) return found.motion;
   }
   SettlingOptions settling;
