@@ -9,6 +9,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/solvers/flow/exact_motion.hpp"
 
 namespace wavebalance::app {
 namespace {

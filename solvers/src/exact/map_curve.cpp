@@ -21,6 +21,7 @@ struct Expected {
 
 /// Two motions that are one to nine digits of a step, between which a contact changes what it does.
 struct Change {
+  double value;  ///< of the parameter
   std::shared_ptr<const MapPoint> before, behind;
 };
 
@@ -36,25 +37,9 @@ class MapTracer : public CurveTracer {
     const std::shared_ptr<MapPoint> next = corrected();
     if (!next) return retry();
     failures_ = 0;
-    if (next->pattern.rests_behind(last().pattern)) return rest_before(*next);
     step_ = std::min(options().largest_step, step_ * growth_);
     if (!within(next->value)) return end_before(*next);
     go_to(next);
-  }
-
-  // A slider that comes to rest keeps the position that it has there.
-  void rest_before(const MapPoint& next) {
-    rest_ = change_between(
-        last(), next, [&](const ContactPattern& pattern) { return !pattern.rests_behind(last().pattern); });
-    if (!rest_) return retry();
-    const std::shared_ptr<const MapPoint> behind = rest_->behind;
-    if (within(behind->value))
-      go_to(behind);
-    else
-      end_before(*behind);
-    rest_.reset();
-    points().erase(points().begin(), points().end() - 1);
-    step_ = std::min(step_, options().first_step);
   }
 
   // Another beginning of the period, where contacts change what they do at that of the last point.
@@ -138,20 +123,13 @@ class MapTracer : public CurveTracer {
   }
 
   void append_changes(const CurvePoint& next, std::vector<PlacedEvent>& events) override {
-    const auto& b = static_cast<const MapPoint&>(next);
-    if (rest_ && rest_->behind.get() == &b) {
-      append_changes(last(), *rest_->before, events);
-      append_change(rest_->before->pattern, *rest_, events);
-    } else {
-      append_changes(last(), b, events);
-    }
+    append_changes(last(), static_cast<const MapPoint&>(next), events);
   }
 
   void append_changes(const MapPoint& a, const MapPoint& b, std::vector<PlacedEvent>& events) {
     constexpr std::size_t most = 16;  // of a step
     if (a.pattern == b.pattern || path_.cancelled()) return;
-    const auto change =
-        change_between(a, b, [&](const ContactPattern& pattern) { return pattern == a.pattern; });
+    const auto change = change_between(a, b);
     if (!change) return;
     append_change(a.pattern, *change, events);
     if (events.size() < most) append_changes(*change->behind, b, events);
@@ -160,36 +138,36 @@ class MapTracer : public CurveTracer {
   static void append_change(const ContactPattern& before, const Change& change,
                             std::vector<PlacedEvent>& events) {
     // A motion in which all contacts stick is smooth up to the first slip.
-    const bool slips = before.slips(), changes = slips != change.behind->pattern.slips();
+    const bool slips = before.slips, changes = slips != change.behind->pattern.slips;
     const CurvePoint& at = changes && slips ? *change.behind : *change.before;
     if (!changes && before.passages == change.behind->pattern.passages) return;
     const auto type = changes ? SpecialPointType::slip : SpecialPointType::grazing;
-    events.push_back({at.place, {type, at.value, {missing, missing}, at.motion}});
+    events.push_back({at.place, {type, change.value, {missing, missing}, at.motion}});
   }
 
   // Where what contacts do is no more what it was, between two points.
-  std::optional<Change> change_between(const MapPoint& a, const MapPoint& b,
-                                       const std::function<bool(const ContactPattern&)>& as_before) const {
+  std::optional<Change> change_between(const MapPoint& a, const MapPoint& b) const {
     constexpr double resolved = 1e-9;  // of the way
-    double low = 0.0, high = 1.0;
+    double low = 0.0, high = 1.0, value = a.value;
     while (high - low > resolved) {
       const double middle = 0.5 * (low + high);
-      const auto pattern = path_.pattern_between(a, b, middle);
-      if (!pattern) return std::nullopt;
-      (as_before(*pattern) ? low : high) = middle;
+      const auto found = path_.pattern_between(a, b, middle);
+      if (!found) return std::nullopt;
+      value = found->first;
+      (found->second == a.pattern ? low : high) = middle;
     }
-    // So near to it rounding may decide, what is told is on either side.
+    // So near to it rounding may decide: the motions that are told lie on either side.
     const auto nearest = [&](double share, double away, bool before) {
       std::shared_ptr<const MapPoint> point;
       do {
         share = std::clamp(share, 0.0, 1.0);
-        point = std::static_pointer_cast<const MapPoint>(path_.between(a, b, share, false));
+        point = std::static_pointer_cast<const MapPoint>(path_.between(a, b, share, a.slope * b.slope < 0.0));
         share += away;
         away *= 4.0;
-      } while (point && share > 0.0 && share < 1.0 && as_before(point->pattern) != before);
+      } while (point && share > 0.0 && share < 1.0 && (point->pattern == a.pattern) != before);
       return point;
     };
-    Change change{nearest(low, -resolved, true), nearest(high, resolved, false)};
+    Change change{value, nearest(low, -resolved, true), nearest(high, resolved, false)};
     if (!change.before || !change.behind) return std::nullopt;
     return change;
   }
@@ -203,7 +181,6 @@ class MapTracer : public CurveTracer {
   MapPath& path_;
   double growth_ = 1.5;
   int failures_ = 0;
-  std::optional<Change> rest_;  // of the step that is taken, which ends there
 };
 
 }  // namespace

@@ -14,8 +14,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held. States
-// that the period leaves as they are change by `right`.
+// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held.
 Eigen::VectorXd bordered_step(const MapSlopes& slopes, const Eigen::VectorXd& held,
                               const Eigen::VectorXd& right, double held_right) {
   const std::vector<Index> free = free_states(slopes.map);
@@ -24,16 +23,17 @@ Eigen::VectorXd bordered_step(const MapSlopes& slopes, const Eigen::VectorXd& he
   Eigen::VectorXd all(count + 1);
   matrix.topLeftCorner(count, count) =
       Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(slopes.map(free, free));
+  matrix(count, count) = held[states];
+  for (const Index i : slopes.rest) matrix(count, count) += held[i] * slopes.by_parameter[i];
   for (Index i = 0; i < count; ++i) {
     matrix(i, count) = -slopes.by_parameter[free[std::size_t(i)]];
     matrix(count, i) = held[free[std::size_t(i)]];
     all[i] = right[free[std::size_t(i)]];
   }
-  matrix(count, count) = held[states];
   all[count] = held_right;
   const Eigen::VectorXd found = Lu<double>(matrix).solve(all);
-  Eigen::VectorXd step(states + 1);
-  step.head(states) = right;
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(states + 1);
+  for (const Index i : slopes.rest) step[i] = slopes.by_parameter[i] * found[count];
   for (Index i = 0; i < count; ++i) step[free[std::size_t(i)]] = found[i];
   step[states] = found[count];
   return step;
@@ -44,8 +44,7 @@ void learn(MapSlopes& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd
            const Eigen::VectorXd& plane) {
   const Eigen::VectorXd share = plane / plane.dot(step);
   const Index states = left.size();
-  for (Index i = 0; i < states; ++i) {
-    if (left[i] == 0.0) continue;  // a state without a meaning, or one that the period leaves as it is
+  for (const Index i : free_states(slopes.map)) {
     slopes.map.row(i) += left[i] * share.head(states).transpose();
     slopes.by_parameter[i] += left[i] * share[states];
   }
@@ -58,20 +57,23 @@ MapStart moved(MapStart start, const Eigen::VectorXd& step, double part = 1.0) {
   return start;
 }
 
+// Slip for a shorter time is not told from rest: it begins with the root of the distance from where it does.
 ContactPattern pattern_of(const ContactFlow& flow) {
+  constexpr double shortest = 1e-4;  // periods
   ContactPattern pattern;
   for (std::size_t c = 0; c < flow.machines().size(); ++c) {
     const LawMachine& law = *flow.machines()[c].law;
     int passages = 0;
-    bool open = law.kind(flow.panels().back().states[c]) == ContactState::open, slides = false;
+    double slips = 0.0;
+    bool open = law.kind(flow.panels().back().states[c]) == ContactState::open;
     for (const FlowPanel& panel : flow.panels()) {
       const ContactState kind = law.kind(panel.states[c]);
       passages += (kind == ContactState::open) != open;
       open = kind == ContactState::open;
-      slides = slides || kind != ContactState::stick;
+      if (law.memories() > 0 && kind != ContactState::stick) slips += panel.end - panel.begin;
     }
     pattern.passages.push_back(passages);
-    if (law.memories() > 0) pattern.slides.push_back(slides);
+    pattern.slips = pattern.slips || slips > shortest * flow.period();
   }
   return pattern;
 }
@@ -113,7 +115,8 @@ double MapPath::take_operations() const { return std::exchange(operations_, 0.0)
 std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tolerance, bool with_map,
                                                int points) const {
   if (!(start.value > 0.0)) return std::nullopt;
-  ContactFlow flow(begun_at(family().at(start.value), start.begin), {.tolerance = tolerance});
+  ContactFlow flow(begun_at(family().at(start.value), start.begin),
+                   {.tolerance = tolerance, .margins = true});
   flow.start(start.state, start.contacts);
   const Index states = start.state.size(), rows = family().dynamics().contacts();
   if (with_map) flow.perturb(Eigen::MatrixXd::Identity(states, states));
@@ -134,6 +137,26 @@ std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tol
   return Period{std::move(flow), change, std::move(displacement), distance, returns};
 }
 
+namespace {
+
+std::vector<Index> at_rest(const Eigen::MatrixXd& map) {
+  std::vector<Index> result;
+  for (Index i = 0; i < map.rows(); ++i)
+    if (map(i, i) == 1.0 && map.row(i).cwiseAbs().sum() == 1.0) result.push_back(i);
+  return result;
+}
+
+// m, by which sliders at rest lie in front of the middle.
+Eigen::VectorXd off_center(const ContactFlow& flow, const std::vector<Index>& rest) {
+  const Eigen::VectorXd all = flow.off_center();
+  const Index memories = flow.state().size() - all.size();
+  Eigen::VectorXd result(Index(rest.size()));
+  for (std::size_t i = 0; i < rest.size(); ++i) result[Index(i)] = all[rest[i] - memories];
+  return result;
+}
+
+}  // namespace
+
 std::optional<MapSlopes> MapPath::slopes_at(const MapStart& start, double tolerance) const {
   constexpr double apart = 3e-6;  // of the parameter
   const auto own = period(start, tolerance, true);
@@ -143,23 +166,71 @@ std::optional<MapSlopes> MapPath::slopes_at(const MapStart& start, double tolera
   below.value *= 1.0 - apart;
   const auto up = period(above, tolerance, false), down = period(below, tolerance, false);
   if (!up || !down) return std::nullopt;
-  return MapSlopes{own->flow.perturbation(), (up->change - down->change) / (above.value - below.value)};
+  MapSlopes slopes{
+      own->flow.perturbation(), (up->change - down->change) / (above.value - below.value), {}, {}, {}};
+  slopes.multipliers = multipliers_of(slopes.map);
+  slopes.rest = at_rest(slopes.map);
+  for (const Index i : slopes.rest) slopes.by_parameter[i] = 0.0;
+  add_middles(start, *own, tolerance, slopes);
+  return slopes;
+}
+
+// By differences, along motions that come back.
+void MapPath::add_middles(const MapStart& start, const Period& own, double tolerance,
+                          MapSlopes& slopes) const {
+  constexpr double apart = 1e-6;  // of the vibration, and of the parameter
+  const std::vector<Index> free = free_states(slopes.map);
+  const auto count = Index(free.size()), states = start.state.size(), rest = Index(slopes.rest.size());
+  if (rest == 0) return;
+  Eigen::MatrixXd moves(count, rest + 1);
+  for (Index j = 0; j < rest; ++j) moves.col(j) = slopes.map.col(slopes.rest[std::size_t(j)])(free);
+  moves.col(rest) = slopes.by_parameter(free);
+  if (count > 0)
+    moves = Lu<double>(Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(slopes.map(free, free)))
+                .solve(Eigen::MatrixXd(moves));
+  Eigen::MatrixXd by_moves = Eigen::MatrixXd::Zero(rest, rest + 1);
+  by_moves.leftCols(rest).setIdentity();
+  for (Index j = 0; j <= rest; ++j) {
+    const double part = apart * (j == rest ? start.value : vibration());
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(states + 1);
+    step(free) = moves.col(j);
+    step[j == rest ? states : slopes.rest[std::size_t(j)]] = 1.0;
+    const auto ahead = period(moved(start, step, part), tolerance, false),
+               behind = period(moved(start, step, -part), tolerance, false);
+    const auto as_here = [&](const std::optional<Period>& there) {
+      return there && there->flow.events().size() == own.flow.events().size();
+    };
+    if (as_here(ahead) && as_here(behind))
+      by_moves.col(j) =
+          (off_center(ahead->flow, slopes.rest) - off_center(behind->flow, slopes.rest)) / (2.0 * part);
+  }
+  slopes.middles = by_moves.leftCols(rest);
+  const Eigen::VectorXd follow = -Lu<double>(slopes.middles).solve(Eigen::VectorXd(by_moves.col(rest)));
+  for (Index j = 0; j < rest; ++j) {
+    slopes.by_parameter(free) += follow[j] * slopes.map.col(slopes.rest[std::size_t(j)])(free);
+    slopes.by_parameter[slopes.rest[std::size_t(j)]] = follow[j];
+  }
 }
 
 // Newton's method with a plane held. Its matrix takes what each step tells about it [C. G. Broyden, Math.
 // Comp. 19, 1965] as long as a step leaves a third at most; a step by a matrix of its own that leads farther
 // away is halved.
-std::optional<MapPath::Closed> MapPath::closed(MapStart start, const Eigen::VectorXd& held,
-                                               std::optional<MapSlopes> slopes, double tolerance) const {
+std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const Eigen::VectorXd& held,
+                                                           std::optional<MapSlopes> slopes,
+                                                           double tolerance) const {
   constexpr double rounding = 1e-13, small = 1e-8, helps = 0.3, shortest = 1.0 / 32.0;
-  constexpr int most_passed = 4;
+  constexpr double settling = 0.9;
+  constexpr int most_unsettled = 4;
   auto now = period(start, tolerance, false);
   if (!now || !now->returns) return std::nullopt;
   bool own = false;
-  int passed = 0;
-  for (int i = 0; i <= options().phases.max_iterations; ++i) {
-    if (now->distance < rounding)
+  int unsettled = 0;
+  for (int i = 0;; ++i) {
+    // Where a slider is about to slip, steps to either side take more of them.
+    const bool last = i == options().phases.max_iterations;
+    if (now->distance < (last ? small : rounding))
       return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
+    if (last) return std::nullopt;
     if (!slopes) {
       slopes = slopes_at(start, tolerance);
       if (!slopes) return std::nullopt;
@@ -172,14 +243,18 @@ std::optional<MapPath::Closed> MapPath::closed(MapStart start, const Eigen::Vect
     const auto leads = [&] { return next && next->returns && next->distance < now->distance; };
     for (; part >= shortest && !leads(); part *= own ? 0.5 : 0.0)
       next = period(moved(start, step, part), tolerance, false);
-    if (!leads() && own && now->distance < small)  // as far as rounding lets it
-      return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
-    if (!leads() && own) {  // a slider may have to find its place
-      if (++passed > most_passed) return std::nullopt;
-      start.state += now->change;
-      now = period(start, tolerance, false);
-      if (!now || !now->returns) return std::nullopt;
-      slopes.reset();
+    if (!leads() && own) {
+      // A slider finds the place at which it rests as periods pass.
+      MapStart passed = start;
+      passed.state += now->change;
+      auto later = period(passed, tolerance, false);
+      const bool settles = later && later->returns && later->distance < settling * now->distance;
+      if (!settles && now->distance < small)  // as far as rounding lets it
+        return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
+      if (!later || !later->returns || (!settles && ++unsettled > most_unsettled)) return std::nullopt;
+      start = std::move(passed);
+      now = std::move(later);
+      if (!settles) slopes.reset();
       continue;
     }
     const bool slow = !leads() || next->distance > helps * now->distance;
@@ -190,6 +265,30 @@ std::optional<MapPath::Closed> MapPath::closed(MapStart start, const Eigen::Vect
     }
     own = false;
     if (slow) slopes.reset();
+  }
+}
+
+// With the sliders at rest in the middle, by a secant method.
+std::optional<MapPath::Closed> MapPath::closed(MapStart start, const Eigen::VectorXd& held,
+                                               std::optional<MapSlopes> slopes, double tolerance) const {
+  constexpr double near = 1e-11, nearly = 1e-8;  // of the vibration
+  constexpr int most = 12;
+  Eigen::VectorXd last, shift;
+  for (int i = 0; i < most; ++i) {
+    auto found = closed_as_it_rests(start, held, slopes, tolerance);
+    const double allowed = (i + 1 < most ? near : nearly) * vibration();
+    if (!found || found->flow.off_center().lpNorm<Eigen::Infinity>() <= allowed) return found;
+    slopes = found->slopes;
+    if (!slopes || slopes->rest != at_rest(slopes->map)) slopes = slopes_at(found->start, tolerance);
+    if (!slopes || slopes->rest.empty()) return found;
+    const Eigen::VectorXd off = off_center(found->flow, slopes->rest);
+    if (shift.size() == off.size())
+      slopes->middles += (off - last + slopes->middles * shift) * -shift.transpose() / shift.squaredNorm();
+    last = off;
+    shift = Lu<double>(slopes->middles).solve(off);
+    if (!shift.allFinite()) return std::nullopt;
+    start = std::move(found->start);
+    for (std::size_t j = 0; j < slopes->rest.size(); ++j) start.state[slopes->rest[j]] -= shift[Index(j)];
   }
   return std::nullopt;
 }
@@ -238,7 +337,7 @@ std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd&
   point->slopes = *slopes;
   point->weights = found.flow.displacements_by_state();
   if (!set_direction(*point, held)) return nullptr;
-  set_multipliers(point->motion, multipliers_of(slopes->map));
+  set_multipliers(point->motion, slopes->multipliers);
   point->motion.residual = found.distance;
   point->motion.iterations = found.iterations;
   point->motion.unknowns = int(found.start.state.size()) + 1;
@@ -295,35 +394,35 @@ std::shared_ptr<MapPoint> MapPath::solve(const MapStart& start, const MapPoint& 
   return solved(start, plane_across(beside.direction, beside.weights), beside.slopes);
 }
 
-// At a share of the chord, and the plane across it. Sliders at rest in `a` stay where they are.
-std::pair<MapStart, Eigen::VectorXd> MapPath::on_chord(const MapPoint& a, const MapPoint& b,
-                                                       double share) const {
-  const std::vector<Index> free = free_states(a.slopes.map);
-  const Index states = a.start.state.size();
-  Eigen::VectorXd chord = Eigen::VectorXd::Zero(states + 1);
-  chord(free) = (b.start.state - a.start.state)(free);
-  chord[states] = b.value - a.value;
+// At a share of the chord, and the plane across it or, where the curve does not turn, of that parameter.
+std::pair<MapStart, Eigen::VectorXd> MapPath::on_chord(const MapPoint& a, const MapPoint& b, double share,
+                                                       bool turns) const {
+  Eigen::VectorXd chord(a.start.state.size() + 1);
+  chord << b.start.state - a.start.state, b.value - a.value;
   MapStart start = share < 0.5 ? a.start : b.start;
   start.state = a.start.state;
   start.value = a.value;
-  return {moved(std::move(start), chord, share), plane_across(chord, a.weights)};
+  start = moved(std::move(start), chord, share);
+  if (turns) return {std::move(start), plane_across(chord, a.weights)};
+  return {std::move(start), std::copysign(1.0, b.value - a.value) * along_parameter(a.start.state.size())};
 }
 
-PointOnCurve MapPath::between(const CurvePoint& from, const CurvePoint& to, double share, bool) const {
+PointOnCurve MapPath::between(const CurvePoint& from, const CurvePoint& to, double share, bool turns) const {
   const auto &a = static_cast<const MapPoint&>(from), &b = static_cast<const MapPoint&>(to);
-  const auto [start, plane] = on_chord(a, b, share);
+  const auto [start, plane] = on_chord(a, b, share, turns);
   auto point = solved(start, plane, (share < 0.5 ? a : b).slopes);
   if (!point) return nullptr;
   point->place = a.place + share * (b.place - a.place);
   return point;
 }
 
-std::optional<ContactPattern> MapPath::pattern_between(const MapPoint& a, const MapPoint& b,
-                                                       double share) const {
-  const auto [start, plane] = on_chord(a, b, share);
+std::optional<std::pair<double, ContactPattern>> MapPath::pattern_between(const MapPoint& a,
+                                                                          const MapPoint& b,
+                                                                          double share) const {
+  const auto [start, plane] = on_chord(a, b, share, a.slope * b.slope < 0.0);
   const auto found = closed(start, plane, (share < 0.5 ? a : b).slopes, tolerance_);
   if (!found) return std::nullopt;
-  return pattern_of(found->flow);
+  return std::pair(found->start.value, pattern_of(found->flow));
 }
 
 }  // namespace wavebalance::solvers::detail

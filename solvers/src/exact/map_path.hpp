@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -11,10 +10,14 @@
 
 namespace wavebalance::solvers::detail {
 
-/// How the state after a period depends on that at its beginning and on the parameter.
+/// How the state after a period depends on that at its beginning and on the parameter. A slider that stays at
+/// rest, whose position the motion does not determine, is moved to the middle of those in which it does.
 struct MapSlopes {
   Eigen::MatrixXd map;
   Eigen::VectorXd by_parameter;
+  Eigen::VectorXcd multipliers;
+  std::vector<Eigen::Index> rest;  ///< numbers of the states that are positions of sliders which stay at rest
+  Eigen::MatrixXd middles;         ///< how their distances from the middle change by these positions
 };
 
 /// A state from which a period may begin, `begin` periods after time 0.
@@ -28,14 +31,8 @@ struct MapStart {
 /// What changes along a curve where a contact begins to touch, to open or to slip.
 struct ContactPattern {
   std::vector<int> passages;  ///< of each contact, between open and not open, in a period
-  std::vector<bool> slides;   ///< of each contact with friction, whether it slips or opens
+  bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
-
-  bool slips() const { return std::find(slides.begin(), slides.end(), true) != slides.end(); }
-  /// Whether a slider has come to rest, which slid in `before`.
-  bool rests_behind(const ContactPattern& before) const {
-    return !std::equal(before.slides.begin(), before.slides.end(), slides.begin(), std::less_equal<bool>());
-  }
 };
 
 /// A motion of a curve by the map of a period of the flow, and how the curve goes on from it.
@@ -69,8 +66,9 @@ class MapPath : public CurvePath {
   /// The point near a start on the plane through it across the direction of a point beside.
   std::shared_ptr<MapPoint> solve(const MapStart& start, const MapPoint& beside) const;
   PointOnCurve between(const CurvePoint& a, const CurvePoint& b, double share, bool turns) const override;
-  /// What contacts do at a share of the way between two points.
-  std::optional<ContactPattern> pattern_between(const MapPoint& a, const MapPoint& b, double share) const;
+  /// The parameter at a share of the way between two points, and what contacts do there.
+  std::optional<std::pair<double, ContactPattern>> pattern_between(const MapPoint& a, const MapPoint& b,
+                                                                   double share) const;
 
   double arc_scale(const CurvePoint& at) const { return std::max(vibration(), at.vibration); }
   /// About so many floating-point operations since this was asked for the last time.
@@ -81,14 +79,18 @@ class MapPath : public CurvePath {
   struct Closed;
 
   std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
+  void add_middles(const MapStart& start, const Period& own, double tolerance, MapSlopes& slopes) const;
   std::optional<MapSlopes> slopes_at(const MapStart& start, double tolerance) const;
+  std::optional<Closed> closed_as_it_rests(MapStart start, const Eigen::VectorXd& held,
+                                           std::optional<MapSlopes> slopes, double tolerance) const;
   std::optional<Closed> closed(MapStart start, const Eigen::VectorXd& held, std::optional<MapSlopes> slopes,
                                double tolerance) const;
   std::shared_ptr<MapPoint> solved(const MapStart& start, const Eigen::VectorXd& held,
                                    const std::optional<MapSlopes>& slopes) const;
   std::shared_ptr<MapPoint> point_of(Closed found, const Eigen::VectorXd& held) const;
   bool set_direction(MapPoint& point, const Eigen::VectorXd& held) const;
-  std::pair<MapStart, Eigen::VectorXd> on_chord(const MapPoint& a, const MapPoint& b, double share) const;
+  std::pair<MapStart, Eigen::VectorXd> on_chord(const MapPoint& a, const MapPoint& b, double share,
+                                                bool turns) const;
   /// Of the plane across a change of states and parameter, with displacements and the parameter by their
   /// scales; `weights` are displacements by states.
   Eigen::VectorXd plane_across(const Eigen::VectorXd& change, const Eigen::VectorXd& weights) const;

@@ -273,6 +273,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);
   keep(*panel, end);
+  if (options_.margins) keep_margins(*panel, end);
   idle_ = end > -1.0 + 1e-12 ? 0 : idle_ + 1;
   if (idle_ > most_idle) return FlowStatus::endless_events;
   const detail::PoleWaves waves(poles_, nodes_, half, Eigen::VectorXd::Constant(1, end));
@@ -290,6 +291,7 @@ FlowStatus ContactFlow::Engine::advance_period(int points,
                                                const std::function<void(const FlowSample&)>& sample) {
   events_.clear();
   panels_.clear();
+  margins_.clear();
   rests_ = sampled_ = steps_ = 0;
   while (time_ < poles_.period())
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
@@ -317,6 +319,7 @@ Eigen::VectorXd ContactFlow::displacements_by_state() const { return engine_->di
 FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
   return engine_->advance_period(points, sample);
 }
+Eigen::VectorXd ContactFlow::off_center() const { return engine_->off_center(); }
 Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
 const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }
 const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines(); }

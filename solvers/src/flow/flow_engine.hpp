@@ -30,6 +30,7 @@ class ContactFlow::Engine {
   const std::vector<FlowPanel>& panels() const { return panels_; }
   Eigen::VectorXd displacements_by_state() const;
   int rests() const { return rests_; }
+  Eigen::VectorXd off_center() const;
   double period() const { return poles_.period(); }
 
  private:
@@ -88,6 +89,7 @@ class ContactFlow::Engine {
   double scale_of(const Dual& guard, int rows) const;
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
+  void keep_margins(const Solved& panel, double end);
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
   void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
@@ -104,6 +106,11 @@ class ContactFlow::Engine {
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
   double length_ = 0.0, time_ = 0.0, force_size_ = 0.0;
+  /// The least value of a guard in the last period, and its slope by the memory.
+  struct Margin {
+    double least, by_memory;
+  };
+  std::map<std::pair<Index, int>, Margin> margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;

@@ -56,8 +56,8 @@ double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
   return sum;
 }
 
-ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel,
-                                                                    const Dense& dense, const Guard& guard) {
+ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel, const Dense& dense,
+                                                                    const Guard& guard) {
   const Index c = guard.contact;
   const int state = now_.state[std::size_t(c)];
   const LawMachine& law = contacts_.law(c);
@@ -118,8 +118,8 @@ std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guar
 
 // Guards that vanish at the beginning, behind an event, count by their first clear value. Nothing where that
 // is after `until`.
-std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Dense& dense,
-                                                  const Guard& guard, double until) {
+std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Dense& dense, const Guard& guard,
+                                                  double until) {
   const GuardSamples samples = sample_guard(panel, dense, guard);
   const std::vector<double>& g = samples.value;
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
@@ -167,6 +167,54 @@ std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Sol
     }
   }
   return best;
+}
+
+// The least values of the guards by which sliders at rest would leave it: between the dense points of the
+// part that is kept where their rate vanishes.
+void ContactFlow::Engine::keep_margins(const Solved& panel, double end) {
+  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.force), {}};
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const LawMachine& law = contacts_.law(c);
+    const int state = now_.state[std::size_t(c)];
+    if (!law.remembers(state)) continue;
+    dense.local.clear();
+    for (Index k = 0; k < dense_.at.size(); ++k)
+      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k, now_.memory);
+    for (int exit = 0; exit < int(law.exits(state).size()); ++exit) {
+      const Guard guard{c, exit};
+      const Dual first = law.guard(state, exit, dense.local.front().signals());
+      const GuardSamples samples = sample_guard(panel, dense, guard);
+      Margin& margin = margins_.try_emplace({c, exit}, Margin{samples.value[0], 0.0}).first->second;
+      margin.by_memory = first.slope[std::size_t(4 * law.rows())];
+      for (std::size_t k = 0; k < samples.value.size() && dense_.at[Index(k)] <= end; ++k) {
+        margin.least = std::min(margin.least, samples.value[k]);
+        if (k == 0 || !(samples.rate[k - 1] < 0.0 && samples.rate[k] > 0.0)) continue;
+        const auto lowest = detail::root([&](double x) { return dense_.interpolated(samples.rate, x); },
+                                         {dense_.at[Index(k) - 1], samples.rate[k - 1]},
+                                         {dense_.at[Index(k)], samples.rate[k]}, 1e-9);
+        if (lowest) margin.least = std::min(margin.least, dense_.interpolated(samples.value, *lowest));
+      }
+    }
+  }
+}
+
+// A slider by which the guards of its two exits are equally near to zero lies in the middle.
+Eigen::VectorXd ContactFlow::Engine::off_center() const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(contacts_.memories());
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const bool moved = std::any_of(events_.begin(), events_.end(),
+                                   [&](const FlowEvent& event) { return event.contact == int(c); });
+    if (moved || !contacts_.law(c).remembers(now_.state[std::size_t(c)])) continue;
+    double up = 0.0, down = 0.0, stiffness = 0.0;
+    for (auto it = margins_.lower_bound({c, 0}); it != margins_.end() && it->first.first == c; ++it) {
+      const Margin& margin = it->second;
+      if (margin.by_memory > 0.0) up = margin.least;
+      if (margin.by_memory < 0.0) down = margin.least;
+      stiffness += std::abs(margin.by_memory);
+    }
+    if (stiffness > 0.0) result[contacts_.memory_begin(c)] = (up - down) / stiffness;
+  }
+  return result;
 }
 
 }  // namespace wavebalance::solvers

@@ -28,6 +28,7 @@ struct FlowOptions {
   /// Below this share of the fastest impact of a contact one has no rebound, so that contact with restitution
   /// comes to rest after finitely many.
   double rest_velocity = 1e-6;
+  bool margins = false;  ///< whether off_center() is known
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -98,6 +99,9 @@ class ContactFlow {
   Eigen::VectorXd displacements_by_state() const;
   /// Impacts without rebound since they were below rest_velocity, in the last period.
   int rests() const;
+  /// m, by memories: how far a slider that stuck in all of the last period lies in front of the middle of the
+  /// positions in which it would have; 0 of others.
+  Eigen::VectorXd off_center() const;
   double period() const;  ///< s
 
   /// Takes perturbations of state() along from here on: columns.

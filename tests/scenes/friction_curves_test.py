@@ -1,0 +1,87 @@
+"""Exact curves of friction, alone and beside stops, and what records say of them."""
+
+import csv
+import math
+
+import pytest
+
+MIXTURE = """
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+stiffness_damping = 0.02
+[[contact.pairs]]
+dofs = [1]
+law = "coulomb"
+friction = 0.4
+normal_load = 1.0
+tangential_stiffness = 2.0
+[[contact.pairs]]
+dofs = [2]
+law = "linear"
+stiffness = 4.0
+gap = 0.5
+[forcing]
+load_dofs = [2]
+amplitude = 0.3
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 63
+quadrature_points = 512
+[analysis]
+type = "frequency_sweep"
+exact = true
+frequency_from = 0.1
+frequency_to = 0.3
+"""
+
+
+@pytest.fixture
+def two_masses(matrix):
+    matrix("m.mtx", [[1.0, 0.0], [0.0, 1.0]])
+    matrix("k.mtx", [[2.0, -1.0], [-1.0, 2.0]])
+
+
+def rows_of(record):
+    with open(record.folder / "sweep.csv", encoding="utf-8") as table:
+        return list(csv.DictReader(table))
+
+
+def test_an_exact_curve_with_friction_slips_up_to_its_closed_form(run, scenes):
+    """The slider holds beyond the frequency where |k + k_t - w^2 + i c w| = k_t F / limit."""
+    record = run(scenes / "friction" / "slider.toml", "--analysis", "frequency_sweep",
+                 set=("analysis.exact=true", "analysis.frequency_from=0.25", "analysis.frequency_to=0.35"))
+    summary = record.summary
+    assert summary["status"] == "reached_end", record.errors
+    middle, damping = 2.0, 0.05
+    square = middle - damping ** 2 / 2 + math.sqrt((middle - damping ** 2 / 2) ** 2 - middle ** 2 + 2.0 ** 2)
+    assert [point["type"] for point in summary["special_points"]] == ["slip"]
+    slip = summary["special_points"][0]["frequency_Hz"]
+    assert slip == pytest.approx(math.sqrt(square) / (2.0 * math.pi), rel=1e-7)
+    for row in rows_of(record):
+        sticks = float(row["stick_fraction"]) == 1.0
+        assert sticks == (float(row["frequency_Hz"]) > slip * (1.0 - 1e-7))
+        assert (float(row["friction_work_J"]) > 1e-9) != sticks or abs(float(row["frequency_Hz"]) - slip) < 1e-6
+        assert row["contacts"] == "0" and row["phases_status"] == "converged"
+    assert "Contacts slip for up to" in record.page and "Contact takes" not in record.page
+
+
+def test_an_exact_curve_of_friction_beside_a_stop_has_the_peak_of_exact_motions(run, two_masses):
+    record = run(MIXTURE)
+    summary = record.summary
+    assert summary["status"] == "reached_end", record.errors
+    assert {"grazing", "slip"} <= {point["type"] for point in summary["special_points"]}
+    peak = max(rows_of(record), key=lambda row: float(row["vibration_m"]))
+    alone = MIXTURE.split("[time]")[0] + f"frequency = {peak['frequency_Hz']}\n"
+    motion = run(alone + '[time]\nmethod = "phases"\n[analysis]\ntype = "forced_response"\n').summary
+    assert motion["status"] == "converged"
+    assert motion["vibration_m"] == pytest.approx(float(peak["vibration_m"]), rel=1e-6)
+
+
+def test_two_tangents_have_no_exact_curve_and_say_so(command, two_masses, tmp_path):
+    (tmp_path / "scene.toml").write_text(MIXTURE.replace("dofs = [1]\nlaw", "dofs = [1]\nsecond_tangent = [2]\nlaw"))
+    checked = command("check", "scene.toml")
+    assert checked.code == 2
+    assert "two tangents" in checked.errors and "analysis.exact" in checked.errors
