@@ -87,8 +87,9 @@ isola_starts = 1"""))
     assert point["type"] == "neimark_sacker"
     assert point["frequency_Hz"] == pytest.approx(0.27943606, rel=1e-6)  # that of the curve followed from above
     parts = {part["isola"]: part for part in record.summary["unstable_parts"]}
-    assert parts[1]["end_Hz"] - parts[1]["begin_Hz"] == pytest.approx(0.04)
-    assert "Along isola 1 motions are unstable at 0.27 to 0.31 Hz." in record.page
+    assert parts[1]["end_Hz"] == pytest.approx(point["frequency_Hz"])
+    assert parts[2]["end_Hz"] - parts[2]["begin_Hz"] == pytest.approx(0.04)
+    assert "Along isola 2 motions are unstable at 0.27 to 0.31 Hz." in record.page
 
 
 STOPS = """contact_dofs = [1]

@@ -14,42 +14,6 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held.
-Eigen::VectorXd bordered_step(const MapSlopes& slopes, const Eigen::VectorXd& held,
-                              const Eigen::VectorXd& right, double held_right) {
-  const std::vector<Index> free = free_states(slopes.map);
-  const auto count = Index(free.size()), states = slopes.map.rows();
-  Eigen::MatrixXd matrix(count + 1, count + 1);
-  Eigen::VectorXd all(count + 1);
-  matrix.topLeftCorner(count, count) =
-      Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(slopes.map(free, free));
-  matrix(count, count) = held[states];
-  for (const Index i : slopes.rest) matrix(count, count) += held[i] * slopes.by_parameter[i];
-  for (Index i = 0; i < count; ++i) {
-    matrix(i, count) = -slopes.by_parameter[free[std::size_t(i)]];
-    matrix(count, i) = held[free[std::size_t(i)]];
-    all[i] = right[free[std::size_t(i)]];
-  }
-  all[count] = held_right;
-  const Eigen::VectorXd found = Lu<double>(matrix).solve(all);
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(states + 1);
-  for (const Index i : slopes.rest) step[i] = slopes.by_parameter[i] * found[count];
-  for (Index i = 0; i < count; ++i) step[free[std::size_t(i)]] = found[i];
-  step[states] = found[count];
-  return step;
-}
-
-// What a step has left becomes the change that the matrix had for it.
-void learn(MapSlopes& slopes, const Eigen::VectorXd& left, const Eigen::VectorXd& step,
-           const Eigen::VectorXd& plane) {
-  const Eigen::VectorXd share = plane / plane.dot(step);
-  const Index states = left.size();
-  for (const Index i : free_states(slopes.map)) {
-    slopes.map.row(i) += left[i] * share.head(states).transpose();
-    slopes.by_parameter[i] += left[i] * share[states];
-  }
-}
-
 MapStart moved(MapStart start, const Eigen::VectorXd& step, double part = 1.0) {
   const Index states = start.state.size();
   start.state += part * step.head(states);
@@ -137,26 +101,6 @@ std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tol
   return Period{std::move(flow), change, std::move(displacement), distance, returns};
 }
 
-namespace {
-
-std::vector<Index> at_rest(const Eigen::MatrixXd& map) {
-  std::vector<Index> result;
-  for (Index i = 0; i < map.rows(); ++i)
-    if (map(i, i) == 1.0 && map.row(i).cwiseAbs().sum() == 1.0) result.push_back(i);
-  return result;
-}
-
-// m, by which sliders at rest lie in front of the middle.
-Eigen::VectorXd off_center(const ContactFlow& flow, const std::vector<Index>& rest) {
-  const Eigen::VectorXd all = flow.off_center();
-  const Index memories = flow.state().size() - all.size();
-  Eigen::VectorXd result(Index(rest.size()));
-  for (std::size_t i = 0; i < rest.size(); ++i) result[Index(i)] = all[rest[i] - memories];
-  return result;
-}
-
-}  // namespace
-
 std::optional<MapSlopes> MapPath::slopes_at(const MapStart& start, double tolerance) const {
   constexpr double apart = 3e-6;  // of the parameter
   const auto own = period(start, tolerance, true);
@@ -236,7 +180,7 @@ std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const
       if (!slopes) return std::nullopt;
       own = true;
     }
-    const Eigen::VectorXd step = bordered_step(*slopes, held, now->change, 0.0);
+    const Eigen::VectorXd step = slopes->step(held, now->change, 0.0);
     if (!step.allFinite()) return std::nullopt;
     std::optional<Period> next;
     double part = 1.0;
@@ -260,7 +204,7 @@ std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const
     const bool slow = !leads() || next->distance > helps * now->distance;
     if (leads()) {
       start = moved(std::move(start), step, own ? 2.0 * part : 1.0);
-      if (!slow) learn(*slopes, next->change, step, plane_across(step, next->flow.displacements_by_state()));
+      if (!slow) slopes->learn(next->change, step, plane_across(step, next->flow.displacements_by_state()));
       now = std::move(next);
     }
     own = false;
@@ -303,7 +247,7 @@ Eigen::VectorXd MapPath::plane_across(const Eigen::VectorXd& change, const Eigen
 bool MapPath::set_direction(MapPoint& point, const Eigen::VectorXd& held) const {
   constexpr double apart = 1e-4;  // arc length
   const Index states = point.start.state.size();
-  const Eigen::VectorXd tangent = bordered_step(point.slopes, held, Eigen::VectorXd::Zero(states), 1.0);
+  const Eigen::VectorXd tangent = point.slopes.step(held, Eigen::VectorXd::Zero(states), 1.0);
   if (!tangent.allFinite()) return false;
   const double scale = arc_scale(point),
                rough = std::hypot(tangent.head(states).cwiseProduct(point.weights).norm() / scale,

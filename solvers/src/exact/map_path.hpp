@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "exact/curve_path.hpp"
-#include "wavebalance/solvers/flow/contact_flow.hpp"
+#include "exact/map_slopes.hpp"
 
 namespace wavebalance::solvers::detail {
-
-/// How the state after a period depends on that at its beginning and on the parameter. A slider that stays at
-/// rest, whose position the motion does not determine, is moved to the middle of those in which it does.
-struct MapSlopes {
-  Eigen::MatrixXd map;
-  Eigen::VectorXd by_parameter;
-  Eigen::VectorXcd multipliers;
-  std::vector<Eigen::Index> rest;  ///< numbers of the states that are positions of sliders which stay at rest
-  Eigen::MatrixXd middles;         ///< how their distances from the middle change by these positions
-};
 
 /// A state from which a period may begin, `begin` periods after time 0.
 struct MapStart {

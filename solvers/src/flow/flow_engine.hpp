@@ -84,8 +84,7 @@ class ContactFlow::Engine {
                                 detail::Sample a, detail::Sample b) const;
   std::optional<double> touch(const Solved& panel, const Guard& guard, const GuardSamples& samples,
                               std::size_t k) const;
-  std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard,
-                               double until);
+  std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard, double until);
   double scale_of(const Dual& guard, int rows) const;
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
@@ -110,7 +109,8 @@ class ContactFlow::Engine {
   struct Margin {
     double least, by_memory;
   };
-  std::map<std::pair<Index, int>, Margin> margins_;  // by contact and exit, while it does not change its state
+  std::map<std::pair<Index, int>, Margin>
+      margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;

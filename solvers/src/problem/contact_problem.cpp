@@ -209,8 +209,10 @@ PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const 
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {
-    ResponsePhases found =
-        response_phases(condensed_, response, phases_problem_here(), options.phases, exact_motion);
+    // Where phases are not found from a balance they often are from what the structure settles to, and their
+    // curves are faster than those of the flow.
+    ResponsePhases found = response_phases(condensed_, response, phases_problem_here(), options.phases,
+                                           laws_.act_over_period() ? flow_motion : contact_phases);
     if (found.motion.parts != nullptr) return found.motion;
   }
   SettlingOptions settling;

@@ -1,0 +1,32 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "wavebalance/solvers/flow/contact_flow.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// How the state after a period depends on that at its beginning and on the parameter. The position of a
+/// slider that stays at rest, which the motion does not determine, follows the middle of those in which it
+/// does.
+struct MapSlopes {
+  Eigen::MatrixXd map;
+  Eigen::VectorXd by_parameter;
+  Eigen::VectorXcd multipliers;
+  std::vector<Eigen::Index> rest;  ///< numbers of the states that are positions of sliders which stay at rest
+  Eigen::MatrixXd middles;         ///< how their distances from the middle change by these positions
+
+  /// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held.
+  Eigen::VectorXd step(const Eigen::VectorXd& held, const Eigen::VectorXd& right, double held_right) const;
+  /// What a step has left becomes the change that the matrix had for it [C. G. Broyden, Math. Comp. 19,
+  /// 1965]; `plane`: that across the step.
+  void learn(const Eigen::VectorXd& left, const Eigen::VectorXd& step, const Eigen::VectorXd& plane);
+};
+
+/// Numbers of the states that a map leaves as they are: positions of sliders which stay at rest.
+std::vector<Eigen::Index> at_rest(const Eigen::MatrixXd& map);
+
+/// m, by which such sliders lie in front of the middle after the last period.
+Eigen::VectorXd off_center(const ContactFlow& flow, const std::vector<Eigen::Index>& rest);
+
+}  // namespace wavebalance::solvers::detail
