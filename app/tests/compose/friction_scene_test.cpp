@@ -279,7 +279,6 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
            Case{"lift_off.toml", "contact.normal_stiffness=0", "normal_stiffness", "> 0"},
            Case{"lift_off.toml", "contact.law=linear", "contact.friction", ""},
            Case{"slider.toml", "analysis.type=motions", "analysis.type", "forced_response"},
-           Case{"bolted_beam.toml", "analysis.exact=true", "analysis.exact", "false"},
            Case{"slider.toml", "contact.tangential_stiffness=inf", "contact.tangential_stiffness", "> 0"},
        }) {
     const SceneError::Details details = error(one.scene, {one.setting});

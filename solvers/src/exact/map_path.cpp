@@ -65,6 +65,13 @@ struct MapPath::Period {
   bool returns;
 };
 
+/// A start and its period.
+struct MapPath::Step {
+  MapStart start;
+  Period period;
+  bool whole;
+};
+
 /// A start that comes back.
 struct MapPath::Closed {
   MapStart start;
@@ -148,6 +155,8 @@ void MapPath::add_middles(const MapStart& start, const Period& own, double toler
       by_moves.col(j) =
           (off_center(ahead->flow, slopes.rest) - off_center(behind->flow, slopes.rest)) / (2.0 * part);
   }
+  for (Index i = 0; i < rest; ++i)
+    if (by_moves.row(i).isZero(0.0)) by_moves(i, i) = 1.0;  // rigid friction stays where it is
   slopes.middles = by_moves.leftCols(rest);
   const Eigen::VectorXd follow = -Lu<double>(slopes.middles).solve(Eigen::VectorXd(by_moves.col(rest)));
   for (Index j = 0; j < rest; ++j) {
@@ -156,60 +165,66 @@ void MapPath::add_middles(const MapStart& start, const Period& own, double toler
   }
 }
 
-// Newton's method with a plane held. Its matrix takes what each step tells about it [C. G. Broyden, Math.
-// Comp. 19, 1965] as long as a step leaves a third at most; a step by a matrix of its own that leads farther
-// away is halved.
+// As much of a step as leads nearer to what comes back.
+std::optional<MapPath::Step> MapPath::part_of(const Eigen::VectorXd& step, const MapStart& start,
+                                              double distance, double shortest, double tolerance) const {
+  for (double part = 1.0; part >= shortest; part *= 0.5) {
+    MapStart there = moved(start, step, part);
+    auto next = period(there, tolerance, false);
+    if (next && next->returns && next->distance < distance)
+      return Step{std::move(there), std::move(*next), part == 1.0};
+  }
+  return std::nullopt;
+}
+
+// One period later, by which a slider finds the place at which it rests. Where that does not settle it may be
+// done a few times.
+std::optional<MapPath::Step> MapPath::passed(const MapStart& start, const Period& now, double tolerance,
+                                             int& unsettled) const {
+  constexpr double settling = 0.9, small = 1e-8;
+  constexpr int most = 4;
+  MapStart there = start;
+  there.state += now.change;
+  auto next = period(there, tolerance, false);
+  if (!next || !next->returns) return std::nullopt;
+  const bool settles = next->distance < settling * now.distance;
+  if (!settles && (now.distance < small || ++unsettled > most)) return std::nullopt;
+  return Step{std::move(there), std::move(*next), true};
+}
+
+// Newton's method with a plane held. Its matrix takes what each step tells about it as long as a step leaves
+// a third at most; a step by a matrix of its own that leads farther away is halved.
 std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const Eigen::VectorXd& held,
                                                            std::optional<MapSlopes> slopes,
                                                            double tolerance) const {
   constexpr double rounding = 1e-13, small = 1e-8, helps = 0.3, shortest = 1.0 / 32.0;
-  constexpr double settling = 0.9;
-  constexpr int most_unsettled = 4;
   auto now = period(start, tolerance, false);
   if (!now || !now->returns) return std::nullopt;
-  bool own = false;
-  int unsettled = 0;
-  for (int i = 0;; ++i) {
-    // Where a slider is about to slip, steps to either side take more of them.
-    const bool last = i == options().phases.max_iterations;
-    if (now->distance < (last ? small : rounding))
-      return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
-    if (last) return std::nullopt;
-    if (!slopes) {
-      slopes = slopes_at(start, tolerance);
-      if (!slopes) return std::nullopt;
-      own = true;
-    }
+  int unsettled = 0, i = 0;
+  for (bool stalls = false; now->distance >= rounding && !stalls; ++i) {
+    // Where a slider is about to slip, steps to either side take more than these.
+    if (i == options().phases.max_iterations) break;
+    const bool own = !slopes;
+    if (own) slopes = slopes_at(start, tolerance);
+    if (!slopes) return std::nullopt;
     const Eigen::VectorXd step = slopes->step(held, now->change, 0.0);
     if (!step.allFinite()) return std::nullopt;
-    std::optional<Period> next;
-    double part = 1.0;
-    const auto leads = [&] { return next && next->returns && next->distance < now->distance; };
-    for (; part >= shortest && !leads(); part *= own ? 0.5 : 0.0)
-      next = period(moved(start, step, part), tolerance, false);
-    if (!leads() && own) {
-      // A slider finds the place at which it rests as periods pass.
-      MapStart passed = start;
-      passed.state += now->change;
-      auto later = period(passed, tolerance, false);
-      const bool settles = later && later->returns && later->distance < settling * now->distance;
-      if (!settles && now->distance < small)  // as far as rounding lets it
-        return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
-      if (!later || !later->returns || (!settles && ++unsettled > most_unsettled)) return std::nullopt;
-      start = std::move(passed);
-      now = std::move(later);
-      if (!settles) slopes.reset();
-      continue;
-    }
-    const bool slow = !leads() || next->distance > helps * now->distance;
-    if (leads()) {
-      start = moved(std::move(start), step, own ? 2.0 * part : 1.0);
-      if (!slow) slopes->learn(next->change, step, plane_across(step, next->flow.displacements_by_state()));
-      now = std::move(next);
-    }
-    own = false;
-    if (slow) slopes.reset();
+    auto next = part_of(step, start, now->distance, own ? shortest : 1.0, tolerance);
+    const bool helpful = next && next->whole && next->period.distance <= helps * now->distance;
+    if (helpful)
+      slopes->learn(next->period.change, step,
+                    plane_across(step, next->period.flow.displacements_by_state()));
+    else if (next || !own)
+      slopes.reset();
+    else
+      next = passed(start, *now, tolerance, unsettled);
+    stalls = !next && own;
+    if (!next) continue;
+    start = std::move(next->start);
+    now = std::move(next->period);
   }
+  if (now->distance >= small) return std::nullopt;
+  return Closed{std::move(start), std::move(now->flow), now->distance, i, std::move(slopes)};
 }
 
 // With the sliders at rest in the middle, by a secant method.

@@ -66,11 +66,16 @@ class MapPath : public CurvePath {
 
  private:
   struct Period;
+  struct Step;
   struct Closed;
 
   std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
   void add_middles(const MapStart& start, const Period& own, double tolerance, MapSlopes& slopes) const;
   std::optional<MapSlopes> slopes_at(const MapStart& start, double tolerance) const;
+  std::optional<Step> part_of(const Eigen::VectorXd& step, const MapStart& start, double distance,
+                              double shortest, double tolerance) const;
+  std::optional<Step> passed(const MapStart& start, const Period& now, double tolerance,
+                             int& unsettled) const;
   std::optional<Closed> closed_as_it_rests(MapStart start, const Eigen::VectorXd& held,
                                            std::optional<MapSlopes> slopes, double tolerance) const;
   std::optional<Closed> closed(MapStart start, const Eigen::VectorXd& held, std::optional<MapSlopes> slopes,
