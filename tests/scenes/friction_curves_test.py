@@ -80,6 +80,22 @@ def test_an_exact_curve_of_friction_beside_a_stop_has_the_peak_of_exact_motions(
     assert motion["vibration_m"] == pytest.approx(float(peak["vibration_m"]), rel=1e-6)
 
 
+def test_an_exact_curve_goes_on_where_a_stop_with_a_dashpot_lets_go(run, two_masses):
+    """Its force vanishes before the stop opens."""
+    friction, stop = MIXTURE.split("[[contact.pairs]]")[1:]
+    scene = MIXTURE.replace("[[contact.pairs]]" + friction, "").replace(stop.split("[forcing]")[0], """
+dofs = [2]
+law = "kelvin_voigt"
+stiffness = 8.0
+damping = 0.8
+gap = 0.4
+""")
+    summary = run(scene).summary
+    assert summary["status"] == "reached_end"
+    assert [point["type"] for point in summary["special_points"]].count("grazing") >= 2
+    assert summary["phases_status"] == "converged"
+
+
 def test_two_tangents_have_no_exact_curve_and_say_so(command, two_masses, tmp_path):
     (tmp_path / "scene.toml").write_text(MIXTURE.replace("dofs = [1]\nlaw", "dofs = [1]\nsecond_tangent = [2]\nlaw"))
     checked = command("check", "scene.toml")

@@ -188,6 +188,11 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
     PhaseTracer(model, curve, std::move(*start)).run();
   else
     curve.start = PhasesStatus::not_found;
+  // Phases of forces of the velocity often end where a force vanishes, where the equations of phases have no
+  // switch.
+  if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity())
+    if (ExactCurve other = detail::map_curve(family, first, options); other.status != SweepStatus::lost)
+      return other;
   return curve;
 }
 

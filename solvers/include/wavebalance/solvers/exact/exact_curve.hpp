@@ -76,9 +76,14 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 /// Special points are zeros along the curve: of the parameter's slope (fold), of a multiplier's modulus less
 /// 1 (period doubling, Neimark-Sacker, branch), of the distance from a breakpoint (grazing).
 ///
+/// With friction, of a first motion by the flow, and of laws of the velocity where the curve by phases is
+/// lost, the curve is followed by the map of a period of the flow from event to event instead, with the same
+/// results. A slider that sticks all the time is then in the middle of the positions in which it does.
+///
 /// Throws std::invalid_argument for options out of range and a first motion that is not known. `lost` where
-/// rigid contact begins or ends, and where phases change by forces that vanish. O(n^3 + n^2 poles) for each
-/// Newton step of n unknowns, O(s^3) for the multipliers of s states.
+/// rigid contact begins or ends. O(n^3 + n^2 poles) for each Newton step of n unknowns, O(s^3) for the
+/// multipliers of s states; by the map some twenty periods of the flow for each point, one of them with all
+/// perturbations.
 ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
 
 /// The curve through a motion at a value within the interval, from one of its ends to the other, or once
