@@ -273,7 +273,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);
   keep(*panel, end);
-  if (options_.margins) keep_margins(*panel, end);
+  if (options_.margins) keep_margins(end);
   idle_ = end > -1.0 + 1e-12 ? 0 : idle_ + 1;
   if (idle_ > most_idle) return FlowStatus::endless_events;
   const detail::PoleWaves waves(poles_, nodes_, half, Eigen::VectorXd::Constant(1, end));

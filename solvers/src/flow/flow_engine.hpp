@@ -64,7 +64,7 @@ class ContactFlow::Engine {
   /// A guard and its rate by x at the dense points; below `clear` its values are rounding.
   struct GuardSamples {
     std::vector<double> value, rate;
-    double clear = 0.0;
+    double clear = 0.0, by_memory = 0.0;
   };
 
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
@@ -88,7 +88,7 @@ class ContactFlow::Engine {
   double scale_of(const Dual& guard, int rows) const;
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
-  void keep_margins(const Solved& panel, double end);
+  void keep_margins(double end);
   void take_samples(const Solved& panel, double end, int points,
                     const std::function<void(const FlowSample&)>& sample);
   void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
@@ -109,8 +109,8 @@ class ContactFlow::Engine {
   struct Margin {
     double least, by_memory;
   };
-  std::map<std::pair<Index, int>, Margin>
-      margins_;  // by contact and exit, while it does not change its state
+  std::map<std::pair<Index, int>, GuardSamples> at_rest_;  // of the present panel, where sliders rest
+  std::map<std::pair<Index, int>, Margin> margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;

@@ -70,6 +70,7 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
     samples.rate.push_back(panel.shape->half() *
                            detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense.signals, first + k));
     size = std::max({size, std::abs(value.value), k == 0 ? scale_of(value, law.rows()) : 0.0});
+    if (k == 0 && law.remembers(state)) samples.by_memory = value.slope[std::size_t(4 * law.rows())];
   }
   constexpr double clear = 1e-11;
   samples.clear = clear * size;
@@ -121,6 +122,8 @@ std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guar
 std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Dense& dense, const Guard& guard,
                                                   double until) {
   const GuardSamples samples = sample_guard(panel, dense, guard);
+  if (options_.margins && contacts_.law(guard.contact).remembers(now_.state[std::size_t(guard.contact)]))
+    at_rest_[{guard.contact, guard.exit}] = samples;
   const std::vector<double>& g = samples.value;
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
@@ -154,6 +157,7 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Den
 
 std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel, double until) {
   Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.force), {}};
+  at_rest_.clear();
   std::optional<Hit> best;
   for (Index c = 0; c < contacts_.count(); ++c) {
     dense.local.clear();
@@ -171,29 +175,16 @@ std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Sol
 
 // The least values of the guards by which sliders at rest would leave it: between the dense points of the
 // part that is kept where their rate vanishes.
-void ContactFlow::Engine::keep_margins(const Solved& panel, double end) {
-  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.force), {}};
-  for (Index c = 0; c < contacts_.count(); ++c) {
-    const LawMachine& law = contacts_.law(c);
-    const int state = now_.state[std::size_t(c)];
-    if (!law.remembers(state)) continue;
-    dense.local.clear();
-    for (Index k = 0; k < dense_.at.size(); ++k)
-      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k, now_.memory);
-    for (int exit = 0; exit < int(law.exits(state).size()); ++exit) {
-      const Guard guard{c, exit};
-      const Dual first = law.guard(state, exit, dense.local.front().signals());
-      const GuardSamples samples = sample_guard(panel, dense, guard);
-      Margin& margin = margins_.try_emplace({c, exit}, Margin{samples.value[0], 0.0}).first->second;
-      margin.by_memory = first.slope[std::size_t(4 * law.rows())];
-      for (std::size_t k = 0; k < samples.value.size() && dense_.at[Index(k)] <= end; ++k) {
-        margin.least = std::min(margin.least, samples.value[k]);
-        if (k == 0 || !(samples.rate[k - 1] < 0.0 && samples.rate[k] > 0.0)) continue;
-        const auto lowest = detail::root([&](double x) { return dense_.interpolated(samples.rate, x); },
-                                         {dense_.at[Index(k) - 1], samples.rate[k - 1]},
-                                         {dense_.at[Index(k)], samples.rate[k]}, 1e-9);
-        if (lowest) margin.least = std::min(margin.least, dense_.interpolated(samples.value, *lowest));
-      }
+void ContactFlow::Engine::keep_margins(double end) {
+  for (const auto& [guard, samples] : at_rest_) {
+    Margin& margin = margins_.try_emplace(guard, Margin{samples.value[0], samples.by_memory}).first->second;
+    for (std::size_t k = 0; k < samples.value.size() && dense_.at[Index(k)] <= end; ++k) {
+      margin.least = std::min(margin.least, samples.value[k]);
+      if (k == 0 || !(samples.rate[k - 1] < 0.0 && samples.rate[k] > 0.0)) continue;
+      const auto lowest = detail::root([&](double x) { return dense_.interpolated(samples.rate, x); },
+                                       {dense_.at[Index(k) - 1], samples.rate[k - 1]},
+                                       {dense_.at[Index(k)], samples.rate[k]}, 1e-9);
+      if (lowest) margin.least = std::min(margin.least, dense_.interpolated(samples.value, *lowest));
     }
   }
 }
