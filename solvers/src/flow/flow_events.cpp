@@ -176,8 +176,10 @@ std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Sol
 // The least values of the guards by which sliders at rest would leave it: between the dense points of the
 // part that is kept where their rate vanishes.
 void ContactFlow::Engine::keep_margins(double end) {
-  for (const auto& [guard, samples] : at_rest_) {
-    Margin& margin = margins_.try_emplace(guard, Margin{samples.value[0], samples.by_memory}).first->second;
+  for (const auto& entry : at_rest_) {
+    const GuardSamples& samples = entry.second;
+    Margin& margin =
+        margins_.try_emplace(entry.first, Margin{samples.value[0], samples.by_memory}).first->second;
     for (std::size_t k = 0; k < samples.value.size() && dense_.at[Index(k)] <= end; ++k) {
       margin.least = std::min(margin.least, samples.value[k]);
       if (k == 0 || !(samples.rate[k - 1] < 0.0 && samples.rate[k] > 0.0)) continue;
