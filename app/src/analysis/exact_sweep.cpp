@@ -74,13 +74,8 @@ solvers::PointStability stability_of(const ExactPoint& point) {
 /// The means over contacts and the work of all of them.
 FrictionShares friction_of(const PhaseMotion& motion) {
   FrictionShares shares;
-  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(motion)) {
-    const double count = double(motion.friction.size());
-    shares.work += cycle.work;
-    shares.stick += cycle.stick_share / count;
-    shares.slip += cycle.slip_share / count;
-    shares.open += cycle.open_share / count;
-  }
+  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(motion))
+    shares.add({cycle.work, cycle.stick_share, cycle.slip_share, cycle.open_share}, motion.friction.size());
   return shares;
 }
 

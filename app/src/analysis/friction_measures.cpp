@@ -72,13 +72,8 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
   FrictionShares shares;
-  const double count = double(contacts.size());
-  for (const FrictionMeasures& one : contacts) {
-    shares.work += one.period.work;
-    shares.stick += one.stick_fraction / count;
-    shares.slip += one.slip_fraction / count;
-    shares.open += one.open_fraction / count;
-  }
+  for (const FrictionMeasures& one : contacts)
+    shares.add({one.period.work, one.stick_fraction, one.slip_fraction, one.open_fraction}, contacts.size());
   return shares;
 }
 
@@ -102,10 +97,10 @@ std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::Fr
       const std::span<const double> rows(point.unknown.data() + row * points,
                                          static_cast<std::size_t>(law.rows()) * points);
       const contact::FrictionPeriod period = law.over_period(static_cast<int>(points), rows, false);
-      shares.work += period.work;
-      shares.stick += share_of(period, contact::FrictionState::stick) / double(laws.size());
-      shares.slip += share_of(period, contact::FrictionState::slip) / double(laws.size());
-      shares.open += share_of(period, contact::FrictionState::open) / double(laws.size());
+      shares.add(
+          {period.work, share_of(period, contact::FrictionState::stick),
+           share_of(period, contact::FrictionState::slip), share_of(period, contact::FrictionState::open)},
+          laws.size());
     }
     along.push_back(shares);
   }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// What the commands are given, which their reports quote.
+/// The arguments of the commands, which reports quote.
 namespace wavebalance::app {
 
 struct RunArguments {

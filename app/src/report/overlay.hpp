@@ -37,7 +37,7 @@ struct Overlay {
 /// Whether motions over their period are laid over each other, and no curves over the frequency.
 bool is_over_time(const Overlay& overlay);
 
-/// Reads sweep.csv, backbone.csv or response.csv of each folder; motions are those of the contact that leads
+/// Reads sweep.csv, backbone.csv or response.csv of each folder; motions are of the leading contact
 /// in the first. Throws IoError for a folder without results,
 /// and std::invalid_argument if one is of another structure than the first, which names the key: mass,
 /// stiffness and places of contact must agree; damping, reduction, load, law and gap may differ.

@@ -190,9 +190,11 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
     curve.start = PhasesStatus::not_found;
   // Phases of forces of the velocity often end where a force vanishes, where the equations of phases have no
   // switch.
-  if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity())
-    if (ExactCurve other = detail::map_curve(family, first, options); other.status != SweepStatus::lost)
-      return other;
+  if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity()) {
+    ExactCurve other = detail::map_curve(family, first, options);
+    if (!other.points.empty() && other.status != SweepStatus::lost) return other;
+    if (other.status == SweepStatus::cancelled) curve.status = other.status;
+  }
   return curve;
 }
 

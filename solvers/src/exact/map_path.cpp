@@ -126,21 +126,18 @@ std::optional<MapSlopes> MapPath::slopes_at(const MapStart& start, double tolera
   return slopes;
 }
 
-// By differences, along motions that come back.
-void MapPath::add_middles(const MapStart& start, const Period& own, double tolerance,
-                          MapSlopes& slopes) const {
+// How far sliders at rest get from the middle by such moves, by differences.
+Eigen::MatrixXd MapPath::off_center_by_moves(const MapStart& start, const Period& own, double tolerance,
+                                             const MapSlopes& slopes) const {
   constexpr double apart = 1e-6;  // of the vibration, and of the parameter
   const std::vector<Index> free = free_states(slopes.map);
-  const auto count = Index(free.size()), states = start.state.size(), rest = Index(slopes.rest.size());
-  if (rest == 0) return;
-  Eigen::MatrixXd moves(count, rest + 1);
-  for (Index j = 0; j < rest; ++j) moves.col(j) = slopes.map.col(slopes.rest[std::size_t(j)])(free);
-  moves.col(rest) = slopes.by_parameter(free);
-  if (count > 0)
-    moves = Lu<double>(Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(slopes.map(free, free)))
-                .solve(Eigen::MatrixXd(moves));
-  Eigen::MatrixXd by_moves = Eigen::MatrixXd::Zero(rest, rest + 1);
-  by_moves.leftCols(rest).setIdentity();
+  const Index states = start.state.size(), rest = Index(slopes.rest.size());
+  const Eigen::MatrixXd moves = slopes.moves_that_return(free);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rest, rest + 1);
+  result.leftCols(rest).setIdentity();
+  const auto as_here = [&](const std::optional<Period>& there) {
+    return there && there->flow.events().size() == own.flow.events().size();
+  };
   for (Index j = 0; j <= rest; ++j) {
     const double part = apart * (j == rest ? start.value : vibration());
     Eigen::VectorXd step = Eigen::VectorXd::Zero(states + 1);
@@ -148,15 +145,21 @@ void MapPath::add_middles(const MapStart& start, const Period& own, double toler
     step[j == rest ? states : slopes.rest[std::size_t(j)]] = 1.0;
     const auto ahead = period(moved(start, step, part), tolerance, false),
                behind = period(moved(start, step, -part), tolerance, false);
-    const auto as_here = [&](const std::optional<Period>& there) {
-      return there && there->flow.events().size() == own.flow.events().size();
-    };
     if (as_here(ahead) && as_here(behind))
-      by_moves.col(j) =
+      result.col(j) =
           (off_center(ahead->flow, slopes.rest) - off_center(behind->flow, slopes.rest)) / (2.0 * part);
   }
   for (Index i = 0; i < rest; ++i)
-    if (by_moves.row(i).isZero(0.0)) by_moves(i, i) = 1.0;  // rigid friction stays where it is
+    if (result.row(i).isZero(0.0)) result(i, i) = 1.0;  // rigid friction stays where it is
+  return result;
+}
+
+void MapPath::add_middles(const MapStart& start, const Period& own, double tolerance,
+                          MapSlopes& slopes) const {
+  const std::vector<Index> free = free_states(slopes.map);
+  const auto rest = Index(slopes.rest.size());
+  if (rest == 0) return;
+  const Eigen::MatrixXd by_moves = off_center_by_moves(start, own, tolerance, slopes);
   slopes.middles = by_moves.leftCols(rest);
   const Eigen::VectorXd follow = -Lu<double>(slopes.middles).solve(Eigen::VectorXd(by_moves.col(rest)));
   for (Index j = 0; j < rest; ++j) {

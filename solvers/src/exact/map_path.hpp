@@ -70,6 +70,8 @@ class MapPath : public CurvePath {
   struct Closed;
 
   std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
+  Eigen::MatrixXd off_center_by_moves(const MapStart& start, const Period& own, double tolerance,
+                                      const MapSlopes& slopes) const;
   void add_middles(const MapStart& start, const Period& own, double tolerance, MapSlopes& slopes) const;
   std::optional<MapSlopes> slopes_at(const MapStart& start, double tolerance) const;
   std::optional<Step> part_of(const Eigen::VectorXd& step, const MapStart& start, double distance,

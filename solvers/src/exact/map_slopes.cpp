@@ -40,6 +40,15 @@ void MapSlopes::learn(const Eigen::VectorXd& left, const Eigen::VectorXd& step,
   }
 }
 
+Eigen::MatrixXd MapSlopes::moves_that_return(const std::vector<Index>& free) const {
+  const auto count = Index(free.size()), sliders = Index(rest.size());
+  Eigen::MatrixXd inputs(count, sliders + 1);
+  for (Index j = 0; j < sliders; ++j) inputs.col(j) = map.col(rest[std::size_t(j)])(free);
+  inputs.col(sliders) = by_parameter(free);
+  if (count == 0) return inputs;
+  return Lu<double>(Eigen::MatrixXd::Identity(count, count) - Eigen::MatrixXd(map(free, free))).solve(inputs);
+}
+
 std::vector<Index> at_rest(const Eigen::MatrixXd& map) {
   std::vector<Index> result;
   for (Index i = 0; i < map.rows(); ++i)

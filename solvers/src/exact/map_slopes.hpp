@@ -21,6 +21,9 @@ struct MapSlopes {
   /// What a step has left becomes the change that the matrix had for it [C. G. Broyden, Math. Comp. 19,
   /// 1965]; `plane`: that across the step.
   void learn(const Eigen::VectorXd& left, const Eigen::VectorXd& step, const Eigen::VectorXd& plane);
+  /// How the free states follow positions of sliders at rest and, in the last column, the parameter, so that
+  /// they come back.
+  Eigen::MatrixXd moves_that_return(const std::vector<Eigen::Index>& free) const;
 };
 
 /// Numbers of the states that a map leaves as they are: positions of sliders which stay at rest.

@@ -110,7 +110,8 @@ class ContactFlow::Engine {
     double least, by_memory;
   };
   std::map<std::pair<Index, int>, GuardSamples> at_rest_;  // of the present panel, where sliders rest
-  std::map<std::pair<Index, int>, Margin> margins_;  // by contact and exit, while it does not change its state
+  std::map<std::pair<Index, int>, Margin>
+      margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
   detail::ContactStates now_;

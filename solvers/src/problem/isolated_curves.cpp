@@ -102,8 +102,7 @@ class IsolatedCurvesSearch {
     motions_there_.clear();
     const std::optional<detail::StateBox> box = detail::box_of_motions(problem_, frequency);
     if (box)
-      for (const Motion& resonance : box->resonances())
-        consider(frequency, -1, resonance, 0.0, false);
+      for (const Motion& resonance : box->resonances()) consider(frequency, -1, resonance, 0.0, false);
     const int random = box ? options_.random_starts : 0;
     for (int start = 0; start <= random && !result_.cancelled; ++start) {
       SettlingOptions how = options_.settling;

@@ -52,9 +52,9 @@ class StateBox {
 /// twice the resonant vibrations that the laws move there. Such is one of a single mode, or of the shape that
 /// the structure has with one contact as the spring that tunes it, whose frequency, with the stiffness that
 /// the contacts have in the first harmonic, is that of a harmonic of the load, and of which the damping takes
-/// no more than the work of the load: resonances() are these, with the two phases in which the damping takes what
-/// the load gives. Nothing where the structure has no modes to compute. O((modes +
-/// contacts) contacts) evaluations of the laws.
+/// no more than the work of the load: resonances() are these, with the two phases in which the damping takes
+/// what the load gives. Nothing where the structure has no modes to compute. O((modes + contacts) contacts)
+/// evaluations of the laws.
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency);
 
 }  // namespace wavebalance::solvers::detail

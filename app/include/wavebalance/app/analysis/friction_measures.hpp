@@ -29,6 +29,14 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 struct FrictionShares {
   double work = 0.0;                           ///< J
   double stick = 0.0, slip = 0.0, open = 0.0;  ///< of the period
+
+  /// One contact of so many.
+  void add(const FrictionShares& contact, std::size_t count) {
+    work += contact.work;
+    stick += contact.stick / double(count);
+    slip += contact.slip / double(count);
+    open += contact.open / double(count);
+  }
 };
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);

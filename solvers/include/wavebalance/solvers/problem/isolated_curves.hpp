@@ -42,8 +42,8 @@ struct IsolatedCurves {
 
 /// Seeks curves of responses beside `known`, which frequency_sweep() followed with keep_unknowns on the same
 /// problem. At each frequency the structure settles from rest and from random states, of the box of
-/// coexisting_motions(). Newton's method solves for the responses near resonant vibrations that the laws move
-/// there, and solves for the response near the motion that it settles to, near
+/// coexisting_motions(). Newton's method solves for responses near resonant vibrations that the laws move to
+/// that frequency, near the motions that the structure settles to, near
 /// unstable ones that it comes close to (SettledMotion::returns), and where its operations run out near its
 /// last period. A response is on a curve where one of responses_at() there differs from it, also later by
 /// what the load takes to repeat, by at most a hundredth of what vibrates. One that is on no curve is
