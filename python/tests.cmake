@@ -22,6 +22,13 @@ else()
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(scenes_${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/scenes ${test})
   endforeach()
+  # The cases of others, which are data, and what they are compared with.
+  if(WAVEBALANCE_BUILD_REPRODUCE)
+    foreach(name cases_test references_test)
+      set(folder ${PROJECT_SOURCE_DIR}/reproduce/cases_of_others/tests)
+      wavebalance_add_python_test(cases_of_others_${name} LABEL reference COMMAND -m pytest -q -p no:cacheprovider --rootdir ${folder} ${folder}/${name}.py)
+    endforeach()
+  endif()
   # What every page shows in a browser; skipped where chromium is absent.
   file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/pages/*_test.py)
   foreach(test IN LISTS tests)

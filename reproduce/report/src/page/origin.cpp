@@ -25,7 +25,7 @@ std::string argument(const std::string& text) {
 
 std::string run_command(const std::string& scene, const std::vector<std::string>& overrides) {
   std::string text = "wavebalance run " + scene;
-  for (const auto& one : overrides) text += " --set " + argument(one);
+  for (const auto& one : overrides) text += (one.starts_with("--") ? " " : " --set ") + argument(one);
   return text + " --output DIR\n";
 }
 

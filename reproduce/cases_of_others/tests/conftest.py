@@ -1,0 +1,23 @@
+"""What the tests of the cases share."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+
+@pytest.fixture
+def solve(tmp_path):
+    """Runs a scene of the cases with arguments; returns the run."""
+    import os
+
+    import cases
+    counter = iter(range(100))
+
+    def run(scene, *arguments):
+        words = [word for one in arguments for word in ([one] if one.startswith("--") else ["--set", one])]
+        return cases.Run(os.environ["WAVEBALANCE_COMMAND"], scene, words, tmp_path / str(next(counter)))
+
+    return run
