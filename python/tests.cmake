@@ -24,7 +24,7 @@ else()
   endforeach()
   # The cases of others, which are data, and what they are compared with.
   if(WAVEBALANCE_BUILD_REPRODUCE)
-    foreach(name cases_test references_test)
+    foreach(name cases_test flows_test references_test)
       set(folder ${PROJECT_SOURCE_DIR}/reproduce/cases_of_others/tests)
       wavebalance_add_python_test(cases_of_others_${name} LABEL reference COMMAND -m pytest -q -p no:cacheprovider --rootdir ${folder} ${folder}/${name}.py)
     endforeach()

@@ -74,6 +74,9 @@ class Flow:
             time += step
             state, step = after, min(2 * step, self.step) if not crossed else self.step / 1024
             if crossed:
+                if len(events) > 100 * periods + 100:
+                    raise RuntimeError("events follow one another without end")
+                path.append((phase + time / self.period, name, state))
                 state, name, derivative = self.crossing(name, guard, target, jump, state, derivative, events, phase + time / self.period)
             path.append((phase + time / self.period, name, state))
         return state[:size], name, derivative, events, path
@@ -97,10 +100,20 @@ class Flow:
         for _ in range(30):
             ran = self.run(state, name, periods, phase)
             rest = ran[0] - state
-            if np.linalg.norm(rest) < 1e-12 * (1 + np.linalg.norm(state)):
-                break
+            if np.linalg.norm(rest) < 1e-11 * (1 + np.linalg.norm(state)):
+                return state, ran
             state = state - np.linalg.lstsq(ran[2] - np.eye(len(state)), rest, rcond=1e-12)[0]
-        return state, ran
+        raise RuntimeError(f"no periodic motion near the start, which returns within {np.linalg.norm(rest):.1e}")
+
+    def largest(self, path, row=0):
+        """The largest displacement of a mass along a path, where its velocity passes zero."""
+        size = (len(path[0][2]) - 3) // 2
+        guard = np.eye(len(path[0][2]))[size + row]
+        found = [state[row] for _, _, state in path]
+        for (begin, _, state), (end, name, after) in zip(path, path[1:]):
+            if guard @ state > 0 > guard @ after and end > begin:
+                found.append(self.advanced(name, state, self.event(name, state, (end - begin) * self.period, guard))[row])
+        return max(found)
 
     def settled(self, start, name, periods):
         """The motion after many periods, and one more period of it."""
