@@ -39,10 +39,10 @@ FUNCTIONS = {"abs": abs, "max": max, "min": min, "sum": sum, "len": len, "sqrt":
 
 
 class Run:
-    """The results of one call of the command."""
+    """The results of one call of the command; without arguments also the picture's curves."""
 
     def __init__(self, command, scene, arguments, folder):
-        words = [command, "run", SCENES / scene, *arguments, "--quiet", "--output", folder]
+        words = [command, "run", SCENES / scene, *arguments, *(["--no-report"] if arguments else []), "--quiet", "--output", folder]
         ended = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False)
         if ended.returncode != 0:
             raise NotSolved(f"{scene} {' '.join(arguments)}: exit code {ended.returncode} {ended.stderr.strip()}")
@@ -154,22 +154,23 @@ class Case:
         return rows
 
     def point_rows(self):
-        """A row for each known special point, with the nearest of its type, and one for each further point of the curve."""
-        rows = []
+        """A row for each known special point, with the nearest of its type, and one for each further point of the curves."""
+        rows, free = [], {}
         for asked in self.text.get("points", []):
-            free = [dict(one) for one in self.run(asked.get("run", "main")).summary["special_points"]]
-            for kind, known in ((key, asked[key]) for key in asked if isinstance(asked[key], list)):
-                for given in (evaluated(one, FUNCTIONS) if isinstance(one, str) else one for one in known):
-                    alike = [one for one in free if one["type"] == kind]
-                    best = min(alike, key=lambda one: abs(one["frequency_Hz"] / self.in_hertz - given), default=None)
-                    if best:
-                        free.remove(best)
-                    rows.append(Row(f"{kind_name(kind)} ({self.unit})", best["frequency_Hz"] / self.in_hertz if best else math.nan, given,
-                                    asked["tolerance"], asked["source"], 10))
-            if not asked.get("others", True):
-                continue
-            rows += [Row(f"{kind_name(one['type'])} ({self.unit})", one["frequency_Hz"] / self.in_hertz, digits=10) for one in free]
-        return rows
+            run = asked.get("run", "main")
+            left = free.setdefault(run, list(self.run(run).summary["special_points"]))
+            for kind, given in ((key, one) for key in asked if isinstance(asked[key], list) for one in asked[key]):
+                known = evaluated(given, FUNCTIONS) if isinstance(given, str) else given
+                alike = [one for one in left if one["type"] == kind]
+                best = min(alike, key=lambda one: abs(one["frequency_Hz"] / self.in_hertz - known), default=None)
+                if best:
+                    left.remove(best)
+                rows.append(self.point_row(kind, best, known, asked["tolerance"], asked["source"]))
+        return rows + [self.point_row(one["type"], one) for left in free.values() for one in left]
+
+    def point_row(self, kind, found, *known):
+        """The row of a special point, or of none."""
+        return Row(f"{kind_name(kind)} ({self.unit})", found["frequency_Hz"] / self.in_hertz if found else math.nan, *known, digits=10)
 
     def count_checks(self):
         """Whether all motions of the curve between two frequencies, on its first way there, have that many unstable multipliers."""

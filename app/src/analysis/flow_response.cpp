@@ -13,9 +13,11 @@ namespace {
 
 using solvers::FlowMotion;
 
-// The Fourier coefficients of uniform samples of the forces and of the impulses between them, N, C x count.
-Eigen::MatrixXcd force_harmonics(const FlowMotion& found, double frequency, int count) {
-  const Eigen::MatrixXd& force = found.stepping.contacts.force;
+// The Fourier coefficients of uniform samples of the forces less those of the holding springs, and of the impulses
+// between them, N, C x count.
+Eigen::MatrixXcd force_harmonics(const FlowMotion& found, double holding, double frequency, int count) {
+  const Eigen::MatrixXd force =
+      found.stepping.contacts.force - holding * found.stepping.contacts.displacement;
   const auto points = double(force.cols());
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(force.rows(), count);
   for (int n = 0; n < std::min(count, int(force.cols()) / 2); ++n) {
@@ -44,7 +46,7 @@ Eigen::MatrixXd displacement_at(const Eigen::MatrixXd& samples, const Eigen::Vec
 void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found,
                     int points, Response& result) {
   const double frequency = problem.frequency();
-  const solvers::ContactSource source{[&](int count) { return force_harmonics(found, frequency, count); },
+  const solvers::ContactSource source{[&](int count) { return force_harmonics(found, holding, frequency, count); },
                                       [&](const Eigen::VectorXd& times) {
                                         return displacement_at(found.stepping.contacts.displacement, times);
                                       },

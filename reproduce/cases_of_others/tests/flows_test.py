@@ -33,9 +33,10 @@ def test_impacts_of_the_spool():
 def test_motions_of_the_impact_damper(index):
     flow = flows.impact_damper(places("impact_damper")[index])
     state, (_, _, transition, events, path) = flow.periodic(flow.run([0, 0, 0.2, 0.5], "fly", 30)[0], "fly")
-    first, second, speed, multiplier = (values[index] for values in known("impact_damper", "instant of the first", "instant of the second", "speed", "modulus"))
+    first, second, speed, largest, multiplier = (values[index] for values in known("impact_damper", "instant of the first", "instant of the second", "speed", "largest", "modulus"))
     assert [event[0] for event in events] == pytest.approx([first, second], abs=1e-9)
     assert [abs(event[3][3] - event[3][2]) for event in events] == pytest.approx([speed, speed], abs=1e-9)
+    assert flow.largest(path) == pytest.approx(largest, rel=1e-8)
     assert max(abs(np.linalg.eigvals(transition))) == pytest.approx(multiplier, abs=1e-8)
 
 
