@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -110,6 +111,33 @@ void take_phases(std::vector<FrictionMeasures>& contacts, const Response& respon
     }
 }
 
+// Between events contacts keep their states, so that the shares of these are exact.
+void take_events(std::vector<FrictionMeasures>& contacts, const Response& response, double frequency) {
+  if (!response.flow || !response.moves || response.attractor_periods != 1) return;
+  const solvers::FlowMotion& flow = *response.flow;
+  for (std::size_t c = 0; c < flow.machines.size(); ++c) {
+    std::array<double, 4> shares{};
+    const auto share = [&](int state) -> double& {
+      return shares[std::size_t(flow.machines[c].law->kind(state))];
+    };
+    double since = 0.0;
+    int state = flow.states[c];
+    for (const solvers::FlowEvent& event : flow.events) {
+      if (event.contact != int(c)) continue;
+      share(state) += event.time * frequency - since;
+      since = event.time * frequency;
+      state = event.to;
+    }
+    share(state) += 1.0 - since;
+    for (FrictionMeasures& one : contacts) {
+      if (one.row != flow.machines[c].row) continue;
+      one.stick_fraction = shares[std::size_t(solvers::ContactState::stick)];
+      one.slip_fraction = shares[std::size_t(solvers::ContactState::slip)];
+      one.open_fraction = shares[std::size_t(solvers::ContactState::open)];
+    }
+  }
+}
+
 }  // namespace
 
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
@@ -118,6 +146,7 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
       friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
   const bool exact = is_by_phases(response);  // beside which samples say nothing
   if (exact) take_phases(contacts, response);
+  take_events(contacts, response, frequency);
   double work = 0.0, wear = 0.0;
   bool wears = false;
   for (const FrictionMeasures& one : contacts) {

@@ -53,16 +53,18 @@ def test_motions_of_the_friction_oscillator(index):
     flow = flows.dry(places("pwsdde_friction")[index], 1.0, 1.5, damping=0.1)
     state, name, *_ = flow.run([0, 0], "stick", 25)
     _, (_, _, _, _, path) = flow.periodic(state, name)
-    largest = known("pwsdde_friction", "largest")[0][index]
+    largest, stick = (values[index] for values in known("pwsdde_friction", "largest", "share"))
     assert flow.largest(path) == pytest.approx(largest, rel=1e-9)
+    assert flows.shares(path).get("stick", 0.0) == pytest.approx(stick, abs=1e-9)
 
 
 def test_motion_of_the_two_masses():
     flow = flows.two_masses()
     state, name, *_ = flow.run([0, 1, 0, 0], "stick", 50)
     _, (_, _, transition, _, path) = flow.periodic(state, name)
-    largest, multiplier = known("siconos_two_masses", "largest", "modulus")
+    largest, stick, multiplier = known("siconos_two_masses", "largest", "share", "modulus")
     assert flow.largest(path) == pytest.approx(largest, rel=1e-10)
+    assert flows.shares(path)["stick"] == pytest.approx(stick, abs=1e-8)
     assert max(abs(np.linalg.eigvals(transition))) == pytest.approx(multiplier, abs=1e-8)
 
 
