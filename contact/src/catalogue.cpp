@@ -10,8 +10,9 @@ namespace {
 template <class Law>
 LawEntry entry_of() {
   constexpr bool reads_velocity = requires(const Law& law) { law.force(0.0, 0.0); };
-  constexpr bool acts_over_period = requires(const Law& law) { law.rows(); };
-  return {Law::description(), reads_velocity, acts_over_period,
+  constexpr bool has_rows = requires(const Law& law) { law.rows(); };
+  constexpr bool has_penetration = requires(const Law& law) { law.penetration({}, {}); };
+  return {Law::description(), reads_velocity, has_rows && !has_penetration, has_penetration,
           [](const LawValues& values) -> AnyLaw { return Law::of(values); }};
 }
 

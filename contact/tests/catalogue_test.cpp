@@ -108,13 +108,18 @@ TEST_F(Catalogue, MakesEveryLawFromValuesInItsRangesAndTheLawIsWhatTheRowSays) {
       std::visit(
           [&](const auto& law) {
             constexpr bool moving = requires { law.force(0.0, 0.0); };
-            constexpr bool over_period = requires { law.rows(); };
+            constexpr bool in_plane = requires { law.penetration({}, {}); };
+            constexpr bool has_rows = requires { law.rows(); };
+            constexpr bool over_period = has_rows && !in_plane;
             EXPECT_EQ(moving, entry.reads_velocity) << entry.name;
+            EXPECT_EQ(in_plane, entry.acts_in_plane) << entry.name;
             EXPECT_EQ(over_period, entry.acts_over_period) << entry.name;
             if constexpr (over_period) {
               EXPECT_EQ(law.friction(), value_inside(entry.find("friction")->range)) << entry.name;
               EXPECT_EQ(law.normal_stiffness(), all ? 0.75 : 0.0) << entry.name;
               return;
+            } else if constexpr (in_plane) {
+              EXPECT_EQ(law.gap(), 0.75) << entry.name;
             } else {
               if (entry.has_gap()) {
                 EXPECT_EQ(law.gap(), 0.75) << entry.name;

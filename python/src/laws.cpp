@@ -181,6 +181,7 @@ void add_laws(py::module_& module) {
       .def_property_readonly("gap", &Law::gap)
       .def_property_readonly("unilateral", &Law::unilateral)
       .def_property_readonly("is_rigid", &Law::is_rigid)
+      .def_property_readonly("rows", &Law::rows)
       .def_property_readonly("depends_on_velocity", &Law::depends_on_velocity)
       .def(
           "force",

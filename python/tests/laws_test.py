@@ -88,3 +88,27 @@ def test_a_rigid_law_with_restitution_is_a_scene_with_impacts():
         wb.Rigid(1.0, restitution=1.5)
     with pytest.raises(ValueError, match="no pair"):
         structure.scene(wb.Rigid(1.0, restitution=0.8), frequency=1.0, pair=wb.Pair())
+
+
+def jeffcott():
+    """A rotor of 1 kg on springs of 1 N/m, under a load of 0.363 N that turns."""
+    turning = [([0.0, 0.363], [0.0, -1j])]
+    return wb.Structure(np.eye(2), 0.1 * np.eye(2), np.eye(2), [0.363, 0.0], [0, 1], forces=turning)
+
+
+def test_a_ring_takes_two_directions_in_functions_and_in_scenes():
+    ring, frequency = wb.Ring(5.0, 1.0), 1.1 / (2.0 * np.pi)
+    assert ring.rows == 2
+    response = wb.forced_response(jeffcott(), ring, frequency, wb.Pair("fourier", 31))
+    assert np.hypot(*response.displacement) == pytest.approx(1.1151660291831718, abs=1e-9)
+    scene = jeffcott().scene(ring, frequency=frequency, pair=wb.Pair("fourier", 31))
+    assert wb.run(scene).summary["max_displacement_m"] == pytest.approx(1.115166, abs=1e-5)
+    with pytest.raises(ValueError, match="several rows"):
+        jeffcott().scene([ring, wb.Penalty(5.0)], frequency=frequency)
+
+
+def test_friction_with_a_normal_direction_is_a_scene():
+    law = wb.Coulomb(0.3, 10.0, normal_load=1.0, normal_stiffness=5.0)
+    record = wb.run(jeffcott().scene(law, frequency=0.1, pair=wb.Pair("fourier", 31)))
+    assert record.summary["contacts"] == 1
+    assert record.summary["contact_directions"] == 2

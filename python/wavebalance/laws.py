@@ -44,6 +44,8 @@ class Law(_core.Law):
         Whether the force beyond the gap is infinite.
     depends_on_velocity: bool
         Whether the force depends on the velocity, too.
+    rows: int
+        The number of contact directions that it acts along, consecutive rows of ``Structure.S``.
     """
 
     _row = ""  # of the catalogue of laws, which says their parameters and ranges
@@ -70,7 +72,7 @@ class Law(_core.Law):
 
     def scene_keys(self) -> dict[str, Any]:
         """The keys of ``[contact]`` that say this law in a scene. Raises ValueError where a scene has no such law."""
-        return dict(self._keys)
+        return {key: value for key, value in self._keys.items() if key != "tangents"}  # which its directions say
 
     def __reduce__(self) -> Any:
         values = {key: value for key, value in self._keys.items() if key != "law"}

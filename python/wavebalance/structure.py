@@ -16,6 +16,11 @@ from .laws import Law, LawLike, as_laws
 
 __all__ = ["Pair", "Structure"]
 
+_PAIR_DIRECTIONS = (  # keys of [[contact.pairs]]
+    ("dofs", "coefficients"),
+    ("tangent", "tangent_coefficients"),
+    ("second_tangent", "second_tangent_coefficients"),
+)
 Matrix = Any
 Force = tuple[npt.ArrayLike, npt.ArrayLike]
 
@@ -161,19 +166,28 @@ class Structure(_core.Structure):
 
     def _contact_keys(self, laws: LawLike) -> dict[str, Any]:
         given = as_laws(laws)
-        each = list(given) if isinstance(given, Sequence) else [given] * self.contacts
-        if len(each) != self.contacts or not all(isinstance(one, Law) for one in each):
-            raise ValueError(f"laws are {len(each)}; expected one law, or one for each of {self.contacts} contacts")
+        each = list(given) if isinstance(given, Sequence) else [given] * (self.contacts // given.rows)
+        rows = sum(one.rows for one in each if isinstance(one, Law))
+        if rows != self.contacts or not all(isinstance(one, Law) for one in each):
+            raise ValueError(
+                f"laws are {len(each)}; expected one law, or one for each of {self.contacts} contacts; a law of several rows "
+                "takes as many directions"
+            )
         first = each[0].scene_keys()
         # No contact and a rigid obstacle are those of all contacts of a scene.
         kept = {"none": (), "rigid": tuple(key for key in ("gap", "restitution") if key in first)}.get(first["law"])
         pairs = []
+        begin = 0
         for contact, law in enumerate(each):
-            row, keys = self.S[contact], law.scene_keys()
+            keys = law.scene_keys()
             if kept is not None and keys["law"] != first["law"]:
                 raise ValueError(f"laws[{contact}] is {law!r}; expected {first['law']!r} for all contacts, as for the first")
             own = keys if kept is None else {key: keys[key] for key in kept}
-            pairs.append({"dofs": [int(i) + 1 for i in row.indices], "coefficients": row.data.tolist(), **own})
+            pair: dict[str, Any] = {}
+            for names, row in zip(_PAIR_DIRECTIONS, self.S[begin : begin + law.rows]):
+                pair.update(zip(names, ([int(i) + 1 for i in row.indices], row.data.tolist())))
+            pairs.append({**pair, **own})
+            begin += law.rows
         return {**first, "pairs": pairs}
 
 

@@ -20,7 +20,7 @@ using solvers::ExactCurve, solvers::ExactEvent, solvers::ExactPoint, solvers::Ph
 struct Measure {
   solvers::SweepParameter parameter;
   double frequency;  ///< Hz, of an amplitude sweep
-  bool unilateral;
+  const solvers::ContactLaws& laws;
   Eigen::VectorXd times;
 
   solvers::SweepPoint operator()(double value, const PhaseMotion& motion) const {
@@ -36,7 +36,7 @@ struct Measure {
     point.vibration = vibration.half_peak_to_peak;
     point.rms_vibration = vibration.rms;
     point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
-    point.max_force = unilateral ? force.maxCoeff() : force.cwiseAbs().maxCoeff();
+    point.max_force = laws.largest_force(force);
     for (Eigen::Index c = 0; c < force.rows(); ++c)
       point.contact_fraction = std::max(point.contact_fraction, contact_share(motion, static_cast<int>(c)));
     point.residual = motion.residual;
@@ -52,22 +52,16 @@ struct Measure {
   }
 };
 
-/// Whether a contact direction belongs to a contact with friction, which has phases in all its states.
-bool has_friction(const PhaseMotion& motion, int row) {
-  return std::any_of(
-      motion.friction.begin(), motion.friction.end(), [&](const solvers::FrictionAlong& along) {
-        return row >= along.row && row < along.row + along.constants.normal_rows + along.constants.tangents;
-      });
-}
-
-solvers::PointStability stability_of(const ExactPoint& point) {
+solvers::PointStability stability_of(const ExactPoint& point, const solvers::ContactLaws& laws) {
   solvers::PointStability stability;
   stability.status =
       point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
   stability.unstable = point.unstable;
   stability.contacts = static_cast<int>(std::count_if(
       point.motion.phases.begin(), point.motion.phases.end(),
-      [&](const solvers::ContactPhase& phase) { return !has_friction(point.motion, phase.contact); }));
+      [&](const solvers::ContactPhase& phase) {  // contacts with friction have phases in all their states
+        return laws.begins(phase.contact) && !laws[phase.contact].friction();
+      }));
   return stability;
 }
 
@@ -105,7 +99,7 @@ void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability,
     sweep.curve.points.push_back(measure(point.value, point.motion));
     phases.points.push_back(phases_of(point.motion));
     if (!stability) continue;
-    sweep.stability.points.push_back(stability_of(point));
+    sweep.stability.points.push_back(stability_of(point, measure.laws));
     solvers::MotionStability& found = phases.points.back()->stability.emplace();
     found.unstable = point.unstable;
     found.status = point.unstable < 0 ? "not_known" : point.unstable == 0 ? "stable" : "unstable";
@@ -123,10 +117,10 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
   const auto parameter =
       over_amplitude ? solvers::SweepParameter::load_scale : solvers::SweepParameter::frequency;
   Sweep sweep;
-  copy_curve(curve,
-             {parameter, scene.forcing.frequency, problem.laws().unilateral(),
-              time_fractions(scene.analysis.output_points)},
-             scene.analysis.stability, sweep);
+  copy_curve(
+      curve,
+      {parameter, scene.forcing.frequency, problem.laws(), time_fractions(scene.analysis.output_points)},
+      scene.analysis.stability, sweep);
   for (const ExactPoint& point : curve.points) sweep.exact_motions.push_back(point.motion);
   if (has_friction(scene)) {
     std::vector<FrictionShares>& shares = sweep.friction.emplace_back();

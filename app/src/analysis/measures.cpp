@@ -46,12 +46,19 @@ double contact_fraction(const solvers::Motion& motion) {
   return (motion.force.array() > 0.0).cast<double>().mean();
 }
 
+double largest_contact_force(const Scene& scene, const solvers::Motion& contacts, int row) {
+  const SceneContact place = contact_places(scene).at(static_cast<std::size_t>(row));
+  if (!acts_in_plane(place.law)) return contacts.force.row(row).maxCoeff();
+  return contacts.force.middleRows(row - place.place, place.directions).colwise().norm().maxCoeff();
+}
+
 double contact_fraction(const Scene& scene, const solvers::Motion& contacts, int row) {
   const SceneContact place = contacts_of(scene).at(static_cast<std::size_t>(row));
   for (const FrictionMeasures& one : friction_measures(scene, contacts))
     if (one.number == place.number) return 1.0 - one.open_fraction;
   if (acts_everywhere(place.law)) return std::numeric_limits<double>::quiet_NaN();
-  return (contacts.force.row(row).array() != 0.0).cast<double>().mean();
+  const auto forces = contacts.force.middleRows(row - place.place, place.directions).array();
+  return (forces != 0.0).colwise().any().cast<double>().mean();
 }
 
 int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps) {

@@ -95,7 +95,7 @@ solvers::ContactLaws make_laws(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool one = std::all_of(contacts.begin(), contacts.end(),
                                [&](const SceneContact& other) { return other.same_law(contacts.front()); });
-  if (one && !has_friction(scene))
+  if (one && !has_friction(scene) && !names_plane(scene.contact))
     return contacts.empty() ? make_law(scene.contact) : law_of(contacts[0].law, contacts[0].values);
   std::vector<solvers::AnyContactLaw> laws;
   for (const SceneContact& contact : contacts)

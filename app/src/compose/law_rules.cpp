@@ -105,6 +105,18 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
   if (scene.analysis.exact) check_one_tangent(document, scene, "analysis.exact", "false");
 }
 
+/// A ring is solved by balances in the displacement form, and by events.
+void check_plane_analysis(const Document& document, const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
+                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting ||
+                     type == AnalysisType::time_stepping;
+  if (!taken)
+    fail_rule(document, {"analysis.type", "contact.law"},
+              "not with a ring; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
+              "\"shooting\" or \"time_stepping\"");
+}
+
 /// Rigid friction that is integrated in time begins at rest where the structure is.
 void check_sliders(const Document& document, const std::vector<SceneContact>& contacts) {
   for (const SceneContact& contact : contacts)
@@ -202,7 +214,32 @@ void check_independent(const Document& document, const ContactPair& pair, const 
               "is a direction of dofs and tangent; expected one that is independent of them");
 }
 
-/// Tangents belong to a law with friction, and a blade's is not radial.
+/// The two directions of a ring are perpendicular and of equal weight, so that it is round.
+void check_ring(const Document& document, const Scene& scene, const SceneContact& contact) {
+  constexpr double rounding = 1e-9;
+  if (!contact.pair)
+    fail_rule(document, {"contact.law"},
+              "acts along two directions of one contact; expected [[contact.pairs]] with dofs and tangent");
+  const ContactPair& pair = scene.contact.pairs[*contact.pair];
+  const std::string section = pair_section(*contact.pair);
+  if (pair.side != ObstacleSide::positive)
+    fail_rule(document, {section + ".side"}, "a ring is all around; expected \"positive\"");
+  if (pair.tangent.empty())
+    fail_rule(
+        document, {section + ".tangent"},
+        "missing: the second direction of the ring; expected the degrees of freedom of y beside dofs, of x");
+  const WeightedDofs x{pair.dofs, pair.coefficients}, y{pair.tangent, pair.tangent_coefficients};
+  if (std::abs(x * x - y * y) > rounding * (x * x))
+    fail_rule(
+        document, {section + ".tangent_coefficients", section + ".tangent"},
+        "the squares of the weights have another sum than those of coefficients, which makes the ring an "
+        "ellipse; expected equal sums");
+  if (std::abs(x.cosine(y)) > rounding)
+    fail_rule(document, {section + ".tangent"},
+              "is not perpendicular to the direction of dofs; expected one that is, since the ring is round");
+}
+
+/// Tangents belong to a law with friction or a ring, and a blade's is not radial.
 void check_tangents(const Document& document, const Scene& scene) {
   if (scene.contact.tangent == Direction::z)
     fail_rule(document, {"contact.tangent"},
@@ -210,8 +247,12 @@ void check_tangents(const Document& document, const Scene& scene) {
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
     if (has_friction(pair.law)) continue;
-    const std::string key = pair_section(i) + (pair.tangent.empty() ? ".second_tangent" : ".tangent");
-    if (!pair.tangent.empty() || !pair.second_tangent.empty())
+    const bool plane = acts_in_plane(pair.law);
+    const std::string key =
+        pair_section(i) + (pair.tangent.empty() || plane ? ".second_tangent" : ".tangent");
+    if (plane && !pair.second_tangent.empty())
+      fail_rule(document, {key}, "a ring has two directions, dofs and tangent; expected none");
+    if (!plane && (!pair.tangent.empty() || !pair.second_tangent.empty()))
       fail_rule(document, {key, "contact.law"},
                 "not with the law \"" + pair.law +
                     "\", which has no friction; expected none, or law = \"coulomb\"");
@@ -240,8 +281,11 @@ void check_laws(const Document& document, const Scene& scene) {
   check_tangents(document, scene);
   const std::vector<SceneContact> contacts = contacts_of(scene);
   if (has_friction(scene)) check_friction_analysis(document, scene);
-  for (const SceneContact& contact : contacts)
+  if (names_plane(scene.contact)) check_plane_analysis(document, scene);
+  for (const SceneContact& contact : contacts) {
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
+    if (acts_in_plane(contact.law)) check_ring(document, scene, contact);
+  }
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
     if (has_friction(scene.contact.pairs[i].law))
       check_independent(document, scene.contact.pairs[i], pair_section(i));

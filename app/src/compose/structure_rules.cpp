@@ -45,6 +45,11 @@ void check_free(const Document& document, const Scene& scene) {
         "not with friction, which is solved in time alone for a structure that is free to move; expected analysis.type = "
         "\"time_stepping\", or false and, in structure.stiffness, a soft spring to ground, of 1e-5 of "
         "contact.tangential_stiffness for example");
+  if (names_plane(scene.contact) && !integrates_in_time(scene.analysis.type))
+    fail_rule(
+        document, {"structure.free", "contact.law"},
+        "not with a ring, which is solved in time alone for a structure that is free to move; expected "
+        "analysis.type = \"time_stepping\", or false and a soft spring to ground in structure.stiffness");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"structure.free", "contact.law"},

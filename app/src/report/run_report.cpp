@@ -11,6 +11,7 @@
 #include "report/report_parts.hpp"
 #include "report/run_words.hpp"
 #include "results/rest_record.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -72,9 +73,12 @@ std::vector<std::string> rest_sentences(const Scene& scene, const Summary& summa
   const std::vector<double> forces = rest->numbers("contact_force_N");
   const std::int64_t closed = closed_contacts(scene, forces);
   if (closed == 0) return {"At rest under the static loads no contact is closed."};
+  const solvers::Motion at_rest{{}, {}, Eigen::Map<const Eigen::VectorXd>(forces.data(), std::ssize(forces))};
+  double largest = 0.0;
+  for (int row = 0; row < int(forces.size()); ++row)
+    largest = std::max(largest, largest_contact_force(scene, at_rest, row));
   return {fmt::format("At rest under the static loads {} of {} contacts {} closed, with at most {}.", closed,
-                      whole_contact_count(scene), closed == 1 ? "is" : "are",
-                      quantity(*std::max_element(forces.begin(), forces.end()), "N"))};
+                      whole_contact_count(scene), closed == 1 ? "is" : "are", quantity(largest, "N"))};
 }
 
 /// The pictures of the outputs, with what was measured of them; empty without any.

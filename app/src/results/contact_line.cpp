@@ -62,7 +62,7 @@ std::string acting_text(const std::vector<SceneContact>& contacts) {
 std::string gap_text(const std::vector<SceneContact>& contacts, const std::string& unit) {
   std::vector<double> gaps;
   for (const SceneContact& one : contacts)
-    if (has_gap(one.law)) gaps.push_back(one.gap);
+    if (has_gap(one.law) || acts_in_plane(one.law)) gaps.push_back(one.gap);
   if (gaps.empty()) return acting_text(contacts);
   const auto same = [&](const SceneContact& one) { return one.same_law(contacts.front()); };
   if (std::all_of(contacts.begin(), contacts.end(), same))

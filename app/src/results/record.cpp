@@ -135,9 +135,12 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   warn_of_scene(record, scene);
   const bool touches =
       response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
-  if (response.moves && scene.contact.law != no_law && !touches)
-    warn_of_open_contacts(record, model.gaps[response.contact] - response.leading().displacement.maxCoeff(),
-                          model.gaps[response.contact], displacement_unit(scene));
+  if (response.moves && scene.contact.law != no_law && !touches) {
+    const bool ring = names_plane(scene.contact);  // which is reached along any radius
+    const double gap = ring ? missing : model.gaps[response.contact];
+    warn_of_open_contacts(record, gap - response.leading().displacement.maxCoeff(), gap,
+                          displacement_unit(scene));
+  }
   if (!response.impacts) append_period(record, response.periods, response.motion_periods);
   if (response.periods > 1 && !response.impacts)
     record.summary.emplace_back(quantities::change_after_one_period,

@@ -34,9 +34,11 @@ std::string contact_text(const SceneContact& contact, const std::string& name, c
 }
 
 // A contact is closed where its first direction, its normal one where it has tangents, has a force. One with
-// friction under a constant normal load never opens.
-bool is_closed(const SceneContact& contact, double force) {
-  return contact.place == 0 && (force > 0.0 || (has_friction(contact.law) && contact.directions == 1));
+// friction under a constant normal load never opens, and one in a ring has a force of either sign along both.
+bool is_closed(const SceneContact& contact, const double* force) {
+  if (contact.place > 0) return false;
+  if (acts_in_plane(contact.law)) return force[0] != 0.0 || force[1] != 0.0;
+  return force[0] > 0.0 || (has_friction(contact.law) && contact.directions == 1);
 }
 
 }  // namespace
@@ -45,7 +47,7 @@ std::int64_t closed_contacts(const Scene& scene, const std::vector<double>& forc
   const std::vector<SceneContact> contacts = contacts_of(scene);
   std::int64_t closed = 0;
   for (std::size_t i = 0; i < contacts.size() && i < forces.size(); ++i)
-    closed += is_closed(contacts[i], forces[i]);
+    closed += is_closed(contacts[i], &forces[i]);
   return closed;
 }
 

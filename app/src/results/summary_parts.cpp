@@ -124,7 +124,8 @@ void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& 
       empty ? solvers::Vibration{missing, missing} : solvers::largest_vibration(u);
   summary.emplace_back(quantities::vibration, vibration.half_peak_to_peak);
   summary.emplace_back(quantities::rms_vibration, vibration.rms);
-  summary.emplace_back(quantities::max_contact_force, empty ? missing : leading.force.maxCoeff());
+  summary.emplace_back(quantities::max_contact_force,
+                       empty ? missing : largest_contact_force(scene, contacts, row));
   summary.emplace_back(quantities::contact_fraction,
                        empty ? missing : contact_fraction(scene, contacts, row));
 }
@@ -231,7 +232,8 @@ Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion) {
   if (motion.friction.empty()) {
     Table phases({"contact", "begin", "end"});
     for (const solvers::ContactPhase& phase : motion.phases)
-      phases.append_row({number_of(phase.contact), phase.begin, phase.end});
+      if (places.at(std::size_t(phase.contact)).place == 0)
+        phases.append_row({number_of(phase.contact), phase.begin, phase.end});
     return phases;
   }
   Table phases({"contact", "state", "begin", "end"});

@@ -16,8 +16,12 @@ void add_tangents(const ContactPair& pair, std::size_t index, const std::string&
   int place = 0;
   const auto add = [&](const std::vector<int>& dofs, const std::vector<double>& coefficients) {
     if (!dofs.empty())
-      contacts.push_back(
-          {.dofs = dofs, .coefficients = coefficients, .pair = index, .place = ++place, .name = name});
+      contacts.push_back({.dofs = dofs,
+                          .coefficients = coefficients,
+                          .pair = index,
+                          .place = ++place,
+                          .name = name,
+                          .law = pair.law});
   };
   add(pair.tangent, pair.tangent_coefficients);
   add(pair.second_tangent, pair.second_tangent_coefficients);
@@ -52,7 +56,8 @@ std::vector<SceneContact> unnumbered_places(const Scene& scene) {
     contacts.push_back({.dofs = {std::abs(dof)}, .coefficients = {dof > 0 ? 1.0 : -1.0}});
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
-    SceneContact one{.dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i, .name = pair.name};
+    SceneContact one{
+        .dofs = pair.dofs, .coefficients = pair.coefficients, .pair = i, .name = pair.name, .law = pair.law};
     if (pair.side != ObstacleSide::negative) contacts.push_back(one);
     if (pair.side != ObstacleSide::negative) add_tangents(pair, i, one.name, contacts);
     for (double& coefficient : one.coefficients) coefficient = -coefficient;
@@ -89,6 +94,7 @@ int whole_contact_count(const Scene& scene) {
 
 std::string direction_name(const SceneContact& contact) {
   if (contact.directions == 1) return "";
+  if (acts_in_plane(contact.law)) return contact.place == 0 ? "x" : "y";
   if (contact.place == 0) return "normal";
   return contact.directions == 2 ? "tangent" : "tangent " + std::to_string(contact.place);
 }
@@ -126,7 +132,7 @@ std::vector<SceneContact> contacts_of(const Scene& scene) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     SceneContact& one = contacts[i];
     const ContactPair* pair = one.pair ? &contact.pairs[*one.pair] : nullptr;
-    one.law = pair ? pair->law : contact.law;
+    if (!pair) one.law = contact.law;
     one.gap = pair ? pair->gap : contact.gaps.empty() ? contact.gap : contact.gaps[i];
     one.values = law_values(one.law, pair ? pair->values : contact.values, one.gap);
     if (has_friction(one.law)) one.values.insert_or_assign("tangents", double(tangents_of(scene, one)));
@@ -150,7 +156,7 @@ bool integrates_by_events(const Scene& scene) {
   if (!integrates_in_time(scene.analysis.type)) return false;
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool rebounds = has_impacts(scene.contact);
-  return has_friction(scene) || (rebounds && scene.structure.matrices.free) ||
+  return has_friction(scene) || names_plane(scene.contact) || (rebounds && scene.structure.matrices.free) ||
          (rebounds && std::any_of(contacts.begin(), contacts.end(),
                                   [](const SceneContact& one) { return !is_rigid(one.law); }));
 }

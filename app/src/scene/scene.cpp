@@ -33,24 +33,28 @@ std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   return std::nullopt;
 }
 
-bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap(); }
+bool has_gap(std::string_view law) { return contact::law_entry(law).has_gap() && !acts_in_plane(law); }
 bool is_damped(std::string_view law) { return contact::law_entry(law).reads_velocity; }
 bool acts_on_both_sides(std::string_view law) { return !contact::law_entry(law).beyond_gap_alone; }
 bool acts_everywhere(std::string_view law) {
   return law != no_law && !has_gap(law) && !has_friction(law) && acts_on_both_sides(law);
 }
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
-bool names_friction(const Contact& contact) {
-  return has_friction(contact.law) ||
-         std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                     [](const ContactPair& pair) { return has_friction(pair.law); });
+bool acts_in_plane(std::string_view law) { return contact::law_entry(law).acts_in_plane; }
+
+namespace {
+
+bool names(const Contact& contact, bool (*wanted)(std::string_view)) {
+  return wanted(contact.law) || std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                                            [&](const ContactPair& pair) { return wanted(pair.law); });
 }
 
-bool takes_energy(const Contact& contact) {
-  return names_friction(contact) || is_damped(contact.law) ||
-         std::any_of(contact.pairs.begin(), contact.pairs.end(),
-                     [](const ContactPair& pair) { return is_damped(pair.law); });
-}
+}  // namespace
+
+bool names_plane(const Contact& contact) { return names(contact, acts_in_plane); }
+bool names_friction(const Contact& contact) { return names(contact, has_friction); }
+
+bool takes_energy(const Contact& contact) { return names_friction(contact) || names(contact, is_damped); }
 
 bool names_rigid_friction(const Contact& contact) {
   const auto rigid = [](const auto& one) {

@@ -81,6 +81,17 @@ bool ContactLaws::unilateral() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
 }
 
+double ContactLaws::largest_force(const Eigen::MatrixXd& force) const {
+  if (unilateral()) return force.maxCoeff();
+  double largest = 0.0;
+  for (int c = 0; c < force.rows(); c += (*this)[c].rows()) {
+    const auto own = force.middleRows(c, (*this)[c].rows());
+    largest =
+        std::max(largest, (*this)[c].coupled() ? own.colwise().norm().maxCoeff() : own.cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
 bool ContactLaws::have_force_form() const {
   return std::all_of(laws_.begin(), laws_.end(),
                      [](const AnyContactLaw& law) { return law.has_force_form(); });

@@ -189,9 +189,10 @@ bool ArcLength::is_beyond_corner(const CurvePoint& candidate) const {
   return length <= longest_chord * step_ && inner(point_, way) > 0.0 && inner(candidate, way) > 0.0;
 }
 
-// A point of the curve from a corner on that lies straight along its tangent, and not straight back: with the
-// orientation of point_, or else `other`, ahead of it. A tangent is that of a piece which begins at the
-// corner where a point along it lies in this piece, which a few substitutions find.
+// A point of the curve from a corner on that lies straight along its tangent, and not straight back, where
+// the displacement turns, too: with the orientation of point_, or else `other`, ahead of it. A tangent is
+// that of a piece which begins at the corner where a point along it lies in this piece, which a few
+// substitutions find.
 std::optional<CurvePoint> ArcLength::point_from_corner(double length, bool backwards,
                                                        std::optional<CurvePoint>& other) {
   constexpr int substitutions = 6;
@@ -207,7 +208,9 @@ std::optional<CurvePoint> ArcLength::point_from_corner(double length, bool backw
     if (!correct(way, length, nullptr, candidate, corrections)) continue;
     const CurvePoint chord_to = chord(point_, candidate);
     const double far = std::sqrt(inner(chord_to, chord_to));
-    const bool back = inner(point_, chord_to) < -straight * far;
+    const bool goes_on =
+        curve().weighted(point_.displacement_tangent).dot(chord_to.displacement_tangent) > 0.0;
+    const bool back = inner(point_, chord_to) < -straight * far && !goes_on;
     if (back || far > longest * length || inner(candidate, chord_to) < straight * far) continue;
     if (candidate.orientation * point_.orientation >= 0) return candidate;
     if (!other && inner(point_, candidate) > 0.0) other = std::move(candidate);

@@ -28,6 +28,7 @@ class CurveTracer {
   ExactCurve& curve() { return curve_; }
   /// The last ones with the same unknowns.
   std::deque<PointOnCurve>& points() { return points_; }
+  const std::deque<PointOnCurve>& points() const { return points_; }
   /// Notes the special points between the last point and the next.
   void note_events(const CurvePoint& next);
   bool within(double value) const;

@@ -31,6 +31,12 @@ class MapTracer : public CurveTracer {
       : CurveTracer(path, curve, std::move(first)), path_(path) {}
 
  private:
+  /// By arc length.
+  struct Secant {
+    Eigen::VectorXd displacement;
+    double value;
+  };
+
   void advance() override {
     constexpr double beside = 0.1;  // of the longest time without events
     if (last().nearest_event < beside * last().calm) begin_anew();
@@ -42,9 +48,66 @@ class MapTracer : public CurveTracer {
     go_to(next);
   }
 
+  // Where a contact of several rows opens or closes in all of the period at once, as a journal in a ring
+  // does, the curve has a corner, behind which displacements go on as they do on a secant before it. The
+  // parameter goes on or back.
+  bool pass_corner() {
+    constexpr double near = 1e-4, way = 1e-2, farthest = 5.0 * way;
+    if (step_ > near) return false;
+    const Secant secant = secant_before(10.0 * near);
+    const Eigen::VectorXd beyond = last().displacement + way * secant.displacement;
+    const double ahead = std::copysign(way * path_.parameter_scale(), secant.value);
+    for (const double change : {ahead, -ahead}) {
+      if (!within(last().value + change)) continue;
+      std::shared_ptr<MapPoint> next = path_.solve_kept(last().value + change, beyond);
+      if (!next || next->start.contacts == last().start.contacts) continue;
+      const Eigen::VectorXd moved = next->displacement - last().displacement;
+      if (moved.dot(secant.displacement) < 0.0 || path_.arc_length(last(), *next) > farthest) continue;
+      if (next->displacement_direction.dot(moved) < 0.0) next->turn_around();
+      go_round(secant, beyond, std::move(next));
+      step_ = 0.1 * way;
+      return true;
+    }
+    return false;
+  }
+
+  void go_round(const Secant& secant, const Eigen::VectorXd& beyond, std::shared_ptr<MapPoint> next) {
+    CurvePoint corner = last();
+    corner.value += way_to_corner(secant, beyond);
+    if (secant.value * next->slope < 0.0) note(SpecialPointType::fold, corner);
+    note(SpecialPointType::grazing, corner);
+    points().clear();
+    accept(std::move(next));
+  }
+
+  // The change of the parameter up to where the motions of either side meet: those behind a corner go on
+  // before it, where their contacts keep their states.
+  double way_to_corner(const Secant& secant, const Eigen::VectorXd& beyond) const {
+    const double value = last().value, small = 1e-3 * path_.parameter_scale();
+    const auto here = path_.kept(value, beyond), there = path_.kept(value + small, beyond);
+    if (!here || !there) return 0.0;
+    const Eigen::VectorXd meet =
+        (*there - *here) / small - secant.displacement / secant.value;  // by the parameter
+    return meet.dot(last().displacement - *here) / meet.squaredNorm();
+  }
+
+  // By arc length, from a point so far before the last one.
+  Secant secant_before(double far) {
+    CurvePoint before;
+    double arc = 0.0;
+    for (std::size_t i = curve().points.size() - 1; i > 0 && arc < far; --i) {
+      before.value = curve().points[i - 1].value;
+      before.displacement = path_.displacement_of(curve().points[i - 1].motion);
+      arc = path_.arc_length(before, last());
+    }
+    if (arc == 0.0) return {last().displacement_direction, last().slope};
+    return {(last().displacement - before.displacement) / arc, (last().value - before.value) / arc};
+  }
+
   // Another beginning of the period, where contacts change what they do at that of the last point.
   void retry() {
     constexpr int most = 4;
+    if (pass_corner()) return;
     shorten_step();
     if (++failures_ % most == 0) begin_anew();
   }
@@ -56,7 +119,7 @@ class MapTracer : public CurveTracer {
     points().push_back(std::move(anew));
   }
 
-  const MapPoint& last() { return static_cast<const MapPoint&>(*points().back()); }
+  const MapPoint& last() const { return static_cast<const MapPoint&>(*points().back()); }
 
   // The next point, if it lies where it is expected.
   std::shared_ptr<MapPoint> corrected() {

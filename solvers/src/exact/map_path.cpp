@@ -52,8 +52,6 @@ void set_calm(const ContactFlow& flow, MapPoint& point) {
     point.calm = std::max(point.calm, (flow.events()[i].time - flow.events()[i - 1].time) / whole);
 }
 
-Eigen::VectorXd along_parameter(Index states) { return Eigen::VectorXd::Unit(states + 1, states); }
-
 }  // namespace
 
 /// A period from a start.
@@ -72,22 +70,13 @@ struct MapPath::Step {
   bool whole;
 };
 
-/// A start that comes back.
-struct MapPath::Closed {
-  MapStart start;
-  ContactFlow flow;
-  double distance;
-  int iterations;
-  std::optional<MapSlopes> slopes;  // there or near
-};
-
 double MapPath::take_operations() const { return std::exchange(operations_, 0.0); }
 
 std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tolerance, bool with_map,
                                                int points) const {
   if (!(start.value > 0.0)) return std::nullopt;
   ContactFlow flow(begun_at(family().at(start.value), start.begin),
-                   {.tolerance = tolerance, .margins = true});
+                   {.tolerance = tolerance, .margins = true, .keeps_states = keeps_states_});
   flow.start(start.state, start.contacts);
   const Index states = start.state.size(), rows = family().dynamics().contacts();
   if (with_map) flow.perturb(Eigen::MatrixXd::Identity(states, states));
@@ -327,17 +316,20 @@ std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::Ve
   }
 }
 
-std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
+MapStart MapPath::start_near(double value, const Eigen::MatrixXd& displacement,
+                             const Eigen::MatrixXd& force) const {
   const PhasesProblem problem = family().at(value);
   // In the middle a contact may be about to touch.
   constexpr double share_of_calm = 0.375;
-  const FlowStart from =
-      flow_start(problem, motion.displacement(times()), motion.force(times()), share_of_calm);
+  const FlowStart from = flow_start(problem, displacement, force, share_of_calm);
   ContactFlow flow(begun_at(problem, from.begin), {});
   flow.start_near(from.harmonics, from.displacement, from.force);
-  auto point = solved({from.begin, value, flow.state(), flow.contact_states()},
-                      forwards * along_parameter(flow.state().size()), {});
-  return point;
+  return {from.begin, value, flow.state(), flow.contact_states()};
+}
+
+std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
+  const MapStart start = start_near(value, motion.displacement(times()), motion.force(times()));
+  return solved(start, forwards * along_parameter(start.state.size()), {});
 }
 
 std::shared_ptr<MapPoint> MapPath::begun_anew(const MapPoint& point) const {

@@ -7,6 +7,7 @@
 
 #include "exact/curve_path.hpp"
 #include "exact/map_slopes.hpp"
+#include "wavebalance/solvers/flow/contact_flow.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -24,6 +25,11 @@ struct ContactPattern {
   bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
 };
+
+/// Of states and the parameter, the direction of the parameter alone.
+inline Eigen::VectorXd along_parameter(Eigen::Index states) {
+  return Eigen::VectorXd::Unit(states + 1, states);
+}
 
 /// A motion of a curve by the map of a period of the flow, and how the curve goes on from it.
 struct MapPoint : CurvePoint {
@@ -55,11 +61,19 @@ class MapPath : public CurvePath {
   std::shared_ptr<MapPoint> begun_anew(const MapPoint& point) const;
   /// The point near a start on the plane through it across the direction of a point beside.
   std::shared_ptr<MapPoint> solve(const MapStart& start, const MapPoint& beside) const;
+  /// Displacements of all contacts, near these, that come back where contacts keep the states which they have
+  /// at the beginning, and the point there.
+  std::optional<Eigen::VectorXd> kept(double value, const Eigen::VectorXd& displacement) const;
+  std::shared_ptr<MapPoint> solve_kept(double value, const Eigen::VectorXd& displacement) const;
   PointOnCurve between(const CurvePoint& a, const CurvePoint& b, double share, bool turns) const override;
   /// The parameter at a share of the way between two points, and what contacts do there.
   std::optional<std::pair<double, ContactPattern>> pattern_between(const MapPoint& a, const MapPoint& b,
                                                                    double share) const;
 
+  /// CurvePoint::displacement of a motion.
+  Eigen::VectorXd displacement_of(const PhaseMotion& motion) const {
+    return motion.displacement(times()).reshaped();
+  }
   double arc_scale(const CurvePoint& at) const { return std::max(vibration(), at.vibration); }
   /// About so many floating-point operations since this was asked for the last time.
   double take_operations() const;
@@ -67,8 +81,17 @@ class MapPath : public CurvePath {
  private:
   struct Period;
   struct Step;
-  struct Closed;
+  /// A start that comes back.
+  struct Closed {
+    MapStart start;
+    ContactFlow flow;
+    double distance;
+    int iterations;
+    std::optional<MapSlopes> slopes;  // there or near
+  };
 
+  std::optional<Closed> closed_as_kept(double value, const Eigen::VectorXd& displacement) const;
+  MapStart start_near(double value, const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
   std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
   Eigen::MatrixXd off_center_by_moves(const MapStart& start, const Period& own, double tolerance,
                                       const MapSlopes& slopes) const;
@@ -93,6 +116,7 @@ class MapPath : public CurvePath {
   Eigen::VectorXd plane_across(const Eigen::VectorXd& change, const Eigen::VectorXd& weights) const;
 
   mutable double tolerance_ = 1e-10, operations_ = 0.0;
+  mutable bool keeps_states_ = false;  // FlowOptions::keeps_states
 };
 
 }  // namespace wavebalance::solvers::detail

@@ -268,7 +268,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const auto panel = steps_++ < options_.max_panels ? solve_next() : std::nullopt;
   if (!panel) return FlowStatus::step_failure;
   const double half = panel->shape->half(), until = (poles_.period() - time_) / half - 1.0;
-  const auto hit = first_hit(*panel, until);
+  const auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, until);
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);

@@ -24,7 +24,7 @@ PhasesStatus refusal_of(const PhasesProblem& problem) {
     const AnyContactLaw& law = problem.laws[row];
     const auto constants = law.friction();
     if (constants && constants->tangents > 1) return PhasesStatus::slip_in_a_plane;
-    if (!constants && law.acts_over_period()) return PhasesStatus::law_over_period;
+    if (!constants && !law.coupled() && law.acts_over_period()) return PhasesStatus::law_over_period;
     if (!constants && law.is_rigid() && inverse_mass_of(dynamics, row) > 0.0)
       return PhasesStatus::rigid_contact;
   }

@@ -60,7 +60,11 @@ Eigen::VectorXd system_energy(const LinearStructure& structure, const ContactLaw
     if (const auto friction = laws[c].friction())
       energy += energy_of_springs(*friction, memory.middleRows(c, laws[c].rows()));
     else
-      for (Eigen::Index l = 0; l < energy.size(); ++l) energy[l] += laws[c].potential(contacts(c, l));
+      for (Eigen::Index l = 0; l < energy.size(); ++l)
+        energy[l] +=
+            laws[c].coupled()
+                ? laws[c].coupled()->potential({contacts.col(l).data() + c, std::size_t(laws[c].rows())})
+                : laws[c].potential(contacts(c, l));
   }
   return energy;
 }

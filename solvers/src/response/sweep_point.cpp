@@ -28,8 +28,7 @@ SweepPoint sweep_point(ContactSystem& system, TrialEvaluator& evaluator, const C
   measured.load_scale = problem.load_scale();
   measured.max_displacement = -std::numeric_limits<double>::infinity();
   measured.min_displacement = std::numeric_limits<double>::infinity();
-  measured.max_force =
-      system.laws().unilateral() ? system.force().maxCoeff() : system.force().cwiseAbs().maxCoeff();
+  measured.max_force = system.laws().largest_force(by_contact(system.force(), problem.contacts()));
   measured.residual = point.residual;
   measured.grazing = point.grazing;
   measured.unknown = point.displacement;

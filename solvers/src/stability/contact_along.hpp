@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "linalg/bracket.hpp"
 #include "linalg/index.hpp"
@@ -107,6 +109,34 @@ struct ContactAlong {
     const double u = flexibility > 0.0 ? v - flexibility * law.resolvent(v, flexibility).force : v;
     // At the end of an interval rounding may leave u below the gap.
     return law.tangent(unilateral ? std::max(u, law.gap()) : u);
+  }
+};
+
+/// A law of several rows, evaluated along the computed motion.
+struct CoupledAlong {
+  AnyCoupledLaw law;
+  int row;  // its first
+  std::vector<ContactCurve> curves;
+
+  bool has(int contact) const { return contact >= row && contact < row + law.rows(); }
+  double penetration(double time) const {
+    Values slopes{};
+    return law.penetration(at(time), slopes);
+  }
+  bool acts(double time) const { return penetration(time) > 0.0; }
+  double slope(int force, int displacement, double time) const {
+    Values forces{};
+    std::array<double, 9> slopes{};
+    law.closed(at(time), forces, slopes);
+    return slopes[std::size_t((force - row) * law.rows() + displacement - row)];
+  }
+
+ private:
+  using Values = std::array<double, 3>;
+  Values at(double time) const {
+    Values u{};
+    for (std::size_t i = 0; i < curves.size(); ++i) u[i] = curves[i](time);
+    return u;
   }
 };
 

@@ -19,12 +19,13 @@ namespace {
 
 using detail::ContactAlong;
 using detail::ContactCurve;
+using detail::CoupledAlong;
 using detail::crossing;
 
-// Whether the curve rises above the level between samples about l that are all below it: the vertex of the
-// parabola through three samples says whether to look, the curve itself decides.
-bool passes_between_samples(const ContactCurve& curve, double level, Index l) {
-  const Eigen::VectorXd& samples = curve.samples();
+// Whether a curve, value(sample), rises above the level between samples about l that are all below it: the
+// vertex of the parabola through three samples says whether to look, the curve itself decides.
+template <class Value>
+bool passes_between_samples(const Eigen::VectorXd& samples, const Value& value, double level, Index l) {
   const Index count = samples.size();
   const double before = samples[(l + count - 1) % count], at = samples[l], after = samples[(l + 1) % count];
   if (at < before || at < after) return false;
@@ -32,8 +33,13 @@ bool passes_between_samples(const ContactCurve& curve, double level, Index l) {
   if (!(bend > 0.0) || at + slope * slope / bend < level) return false;
   constexpr int parts = 32;
   for (int part = -parts; part <= parts; ++part)
-    if (curve(curve.time_of(double(l) + double(part) / parts)) > level) return true;
+    if (value(double(l) + double(part) / parts) > level) return true;
   return false;
+}
+
+bool passes_between_samples(const ContactCurve& curve, double level, Index l) {
+  return passes_between_samples(
+      curve.samples(), [&](double sample) { return curve(curve.time_of(sample)); }, level, l);
 }
 
 using Intervals = std::vector<ContactInterval>;
@@ -100,9 +106,10 @@ Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
   return intervals;
 }
 
-// The time between samples l and l + 1 at which a law begins or ceases to act.
-double change_of_action(const ContactAlong& along, Index l) {
-  double low = along.curve.time_of(double(l)), high = along.curve.time_of(double(l + 1));
+// The time between samples l and l + 1 of a curve at which a law begins or ceases to act.
+template <class Along>
+double change_of_action(const Along& along, const ContactCurve& curve, Index l) {
+  double low = curve.time_of(double(l)), high = curve.time_of(double(l + 1));
   const bool before = along.acts(low);
   while (high - low > 1e-15) {
     const double middle = 0.5 * (low + high);
@@ -112,21 +119,20 @@ double change_of_action(const ContactAlong& along, Index l) {
   return high;
 }
 
-// The intervals in which a law that depends on the velocity acts; nothing where one of them holds no sample.
-std::optional<Intervals> intervals_of_action(const ContactAlong& along, int contact) {
-  const Index count = along.curve.samples().size();
+// The intervals in which a law acts; nothing where one of them holds no sample, passes(l) about sample l.
+template <class Along, class Passes>
+std::optional<Intervals> intervals_of_action(const Along& along, const ContactCurve& curve, int contact,
+                                             const Passes& passes) {
+  const Index count = curve.samples().size();
   std::vector<bool> acts(static_cast<std::size_t>(count));
-  for (Index l = 0; l < count; ++l)
-    acts[static_cast<std::size_t>(l)] = along.acts(along.curve.time_of(double(l)));
+  for (Index l = 0; l < count; ++l) acts[static_cast<std::size_t>(l)] = along.acts(curve.time_of(double(l)));
   std::vector<double> openings, closings;
   for (Index l = 0; l < count; ++l) {
     const bool here = acts[static_cast<std::size_t>(l)],
                next = acts[static_cast<std::size_t>((l + 1) % count)];
-    if (here != next) (next ? closings : openings).push_back(change_of_action(along, l));
+    if (here != next) (next ? closings : openings).push_back(change_of_action(along, curve, l));
     const bool before = acts[static_cast<std::size_t>((l + count - 1) % count)];
-    if (along.unilateral && !here && !before && !next &&
-        passes_between_samples(along.curve, along.law.gap(), l))
-      return std::nullopt;
+    if (!here && !before && !next && passes(l)) return std::nullopt;
   }
   Intervals intervals;
   if (closings.empty() && acts.front()) intervals.push_back({contact, 0.0, 1.0});
@@ -166,7 +172,10 @@ std::vector<double> cut_times(const ContactAlong& along) {
 }
 
 std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
-  auto intervals = along.has_velocity() ? intervals_of_action(along, contact)
+  const auto passes = [&](Index l) {
+    return along.unilateral && passes_between_samples(along.curve, along.law.gap(), l);
+  };
+  auto intervals = along.has_velocity() ? intervals_of_action(along, along.curve, contact, passes)
                    : along.unilateral   ? intervals_beyond_gap(along, contact)
                                         : intervals_between_kinks(along, contact);
   if (intervals)
@@ -202,8 +211,9 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
   PeriodicStiffness held;
   held.held = true;
   held.cuts = stiffness.cuts;
-  if (stiffness.damping) {
-    held.status = StabilityStatus::effort_limit;  // not of laws that depend on the velocity
+  if (stiffness.needs_map()) {
+    held.status =
+        StabilityStatus::effort_limit;  // not of laws that depend on the velocity or of several rows
     return held;
   }
   for (int c = 0; c < contacts; ++c) {
@@ -259,19 +269,52 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
 
 namespace {
 
+// The displacements of the rows of a law from row c on.
+std::vector<ContactCurve> curves_of(const AnyTimeBasis& trial, const ContactLaws& laws,
+                                    const ContactUnknowns& unknowns, int c) {
+  std::vector<ContactCurve> curves;
+  for (int row = c; row < c + laws[c].rows(); ++row)
+    curves.emplace_back(trial, unknowns.coefficients.col(row), unknowns.samples.col(row),
+                        unknowns.first_sample);
+  return curves;
+}
+
+using AllCoupled = std::vector<CoupledAlong>;
+
+AllCoupled coupled_along(const AnyTimeBasis& trial, const ContactLaws& laws,
+                         const ContactUnknowns& unknowns) {
+  AllCoupled all;
+  for (int c = 0; c < static_cast<int>(unknowns.samples.cols()); c += laws[c].rows())
+    if (const AnyCoupledLaw* law = laws[c].coupled())
+      all.push_back({*law, c, curves_of(trial, laws, unknowns, c)});
+  return all;
+}
+
+// Adds the intervals of a law of several rows to each of them; false where one of them holds no sample.
+bool add_intervals(const CoupledAlong& along, Intervals& intervals) {
+  const ContactCurve& curve = along.curves.front();
+  const auto value = [&](double sample) { return along.penetration(curve.time_of(sample)); };
+  Eigen::VectorXd samples(curve.samples().size());
+  for (Index l = 0; l < samples.size(); ++l) samples[l] = value(double(l));
+  const auto passes = [&](Index l) { return passes_between_samples(samples, value, 0.0, l); };
+  for (int contact = along.row; contact < along.row + along.law.rows(); ++contact) {
+    auto own = intervals_of_action(along, curve, contact, passes);
+    if (!own) return false;
+    std::sort(own->begin(), own->end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    intervals.insert(intervals.end(), own->begin(), own->end());
+  }
+  return true;
+}
+
 // Adds the contacts with friction; false where one has slip along two tangents or is another law over a
 // period.
 bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const ContactUnknowns& unknowns,
                   PeriodicStiffness& stiffness) {
   const int count = static_cast<int>(unknowns.samples.cols());
   for (int c = 0; c < count; c += laws[c].rows()) {
-    if (!laws[c].acts_over_period()) continue;
+    if (!laws[c].acts_over_period() || laws[c].coupled()) continue;
     if (!laws[c].friction()) return false;
-    std::vector<ContactCurve> curves;
-    for (int row = c; row < c + laws[c].rows(); ++row)
-      curves.emplace_back(trial, unknowns.coefficients.col(row), unknowns.samples.col(row),
-                          unknowns.first_sample);
-    auto along = friction_along(laws[c], c, curves);
+    auto along = friction_along(laws[c], c, curves_of(trial, laws, unknowns, c));
     if (!along) return false;
     stiffness.friction.push_back(std::move(*along));
   }
@@ -293,7 +336,10 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
           laws[c].is_rigid() ? StabilityStatus::no_finite_stiffness : StabilityStatus::unsupported_law;
       return stiffness;
     }
-  if (!add_friction(trial, laws, unknowns, stiffness)) {
+  const auto coupled = std::make_shared<AllCoupled>(coupled_along(trial, laws, unknowns));
+  const bool mixed = !coupled->empty() && laws.depend_on_velocity();
+  if (!add_friction(trial, laws, unknowns, stiffness) || mixed ||
+      (!coupled->empty() && !stiffness.friction.empty())) {
     stiffness.status = StabilityStatus::unsupported_law;
     return stiffness;
   }
@@ -304,6 +350,13 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
          ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample),
          unknowns.frequency});
     const ContactAlong& along = contacts->back();
+    const std::size_t before = stiffness.intervals.size();
+    for (const CoupledAlong& one : *coupled)
+      if (one.row == c && !add_intervals(one, stiffness.intervals)) {
+        stiffness.status = StabilityStatus::too_few_samples;
+        return stiffness;
+      }
+    elastic += static_cast<int>(stiffness.intervals.size() - before);
     if (along.law.acts_over_period()) continue;
     const auto intervals = find_intervals(along, c);
     if (!intervals) {
@@ -320,9 +373,17 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
     if (elastic > 0) stiffness.intervals.clear();
     return stiffness;
   }
-  stiffness.tangent = [contacts](int contact, double time) {
+  stiffness.tangent = [contacts, coupled](int contact, double time) {
+    for (const CoupledAlong& one : *coupled)
+      if (one.has(contact)) return one.slope(contact, contact, time);
     return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);
   };
+  if (!coupled->empty())
+    stiffness.coupling = [coupled](int force, int displacement, double time) {
+      for (const CoupledAlong& one : *coupled)
+        if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
+      return 0.0;
+    };
   if (laws.depend_on_velocity()) {
     stiffness.damping = [contacts](int contact, double time) {
       return (*contacts)[static_cast<std::size_t>(contact)].damping(time);

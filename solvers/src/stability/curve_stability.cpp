@@ -156,7 +156,10 @@ class Tracker {
   void measure(CurveSample& sample, Measure what) {
     const PeriodicResponse at = response(sample.point);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
-    sample.stability = {stiffness.status, not_counted, static_cast<int>(stiffness.intervals.size()), 0, 0};
+    const auto contacts =
+        std::count_if(stiffness.intervals.begin(), stiffness.intervals.end(),
+                      [&](const ContactInterval& interval) { return laws_.begins(interval.contact); });
+    sample.stability = {stiffness.status, not_counted, static_cast<int>(contacts), 0, 0};
     if (what == Measure::contacts) return;
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;

@@ -221,7 +221,7 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   }
   require_stability_arguments("floquet_exponents", dynamics, stiffness, frequency,
                               options.stability.harmonics);
-  if (stiffness.damping) return damped_exponents(dynamics, stiffness, frequency, options);
+  if (stiffness.needs_map()) return damped_exponents(dynamics, stiffness, frequency, options);
   result.status = options.starts.empty() ? require_countable(dynamics, stiffness, 2.0 * pi * frequency)
                                          : require_stiffness(dynamics, stiffness);
   if (result.status != StabilityStatus::converged) return result;

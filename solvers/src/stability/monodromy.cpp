@@ -152,9 +152,27 @@ class Propagator {
     if (stiffness_.damping) return damped_forces(piece, begin, length, maps, tangent, states);
     const Eigen::MatrixXd free = detail::product(maps.free, states);
     if (!tangent.allFinite()) return forces_of_rigid(tangent, maps.memory, free);
+    if (stiffness_.coupling) return coupled_forces(piece, begin, length, maps.memory, tangent, free);
     Eigen::MatrixXd matrix = maps.memory * tangent.asDiagonal();
     matrix.diagonal().array() += 1.0;
     return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(free);
+  }
+
+  // The same where laws have several rows.
+  Eigen::MatrixXd coupled_forces(const Piece& piece, double begin, double length,
+                                 const Eigen::MatrixXd& memory, const Eigen::VectorXd& tangent,
+                                 const Eigen::MatrixXd& free) const {
+    Eigen::MatrixXd slopes = tangent.asDiagonal();
+    const auto closed = Index(piece.closed.size());
+    for (Index i = 0; i < rule_.points.size(); ++i)
+      for (Index a = 0; a < closed; ++a)
+        for (Index b = 0; b < closed; ++b)
+          if (a != b)
+            slopes(i * closed + a, i * closed + b) = stiffness_.coupling(
+                piece.closed[std::size_t(a)], piece.closed[std::size_t(b)], begin + length * rule_.points[i]);
+    Eigen::MatrixXd matrix = detail::product(memory, slopes);
+    matrix.diagonal().array() += 1.0;
+    return detail::product(slopes, detail::Lu<double>(matrix).solve(free));
   }
 
   // The same with rigid contacts, infinite tangents, which hold the displacement: f / D + h * f = free

@@ -63,12 +63,13 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
   return multipliers;
 }
 
-// Why a law that depends on the velocity lets no multipliers be known. Those of a contact that deflects at
-// once would need the rate of its force.
+// Why a law that depends on the velocity, or of several rows, lets no multipliers be known. Those of a
+// contact that deflects at once would need the rate of its force.
 StabilityStatus status_of_damped(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                  const StabilityOptions& options) {
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
-  if (dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0) return StabilityStatus::coupled_massless;
+  if (stiffness.damping && dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0)
+    return StabilityStatus::coupled_massless;
   if (!has_monodromy(dynamics, options.max_states)) return StabilityStatus::too_many_states;
   return StabilityStatus::converged;
 }
@@ -190,7 +191,7 @@ std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dyn
   StabilityStatus status;
   if (!of_contacts.friction.empty()) return by_friction(dynamics, of_contacts, frequency, options, status);
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  if (stiffness.damping ||
+  if (stiffness.needs_map() ||
       status_before("multipliers", dynamics, stiffness, frequency, options) != StabilityStatus::converged)
     return std::nullopt;
   const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
@@ -205,9 +206,9 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
                                          const StabilityOptions& options) {
   if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).count;
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  if (stiffness.damping && dynamics.structurally_damped())
+  if (stiffness.needs_map() && dynamics.structurally_damped())
     return without_count(StabilityStatus::structural_damping);
-  if (stiffness.damping) {
+  if (stiffness.needs_map()) {
     const StabilityStatus status = status_of_damped(dynamics, stiffness, options);
     if (status != StabilityStatus::converged) return without_count(status);
     return counted_by_monodromy(dynamics, stiffness, frequency, options)
@@ -292,16 +293,16 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
   if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).signs;
   const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
   StabilitySigns signs;
-  if (stiffness.damping && dynamics.structurally_damped()) {
+  if (stiffness.needs_map() && dynamics.structurally_damped()) {
     signs.status = StabilityStatus::structural_damping;
     return signs;
   }
-  signs.status = stiffness.damping
+  signs.status = stiffness.needs_map()
                      ? status_of_damped(dynamics, stiffness, options)
                      : status_before("stability_signs", dynamics, stiffness, frequency, options);
   if (signs.status != StabilityStatus::converged) return signs;
   const Truncation truncation =
-      stiffness.damping ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
+      stiffness.needs_map() ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
   if (truncation.harmonics == 0)
     return signs_of(by_monodromy(dynamics, stiffness, frequency, options),
                     StabilityStatus::too_few_harmonics);

@@ -10,6 +10,7 @@
 #include "phases/phase_loads.hpp"
 #include "support/friction_table.hpp"
 #include "support/impact_table.hpp"
+#include "wavebalance/contact/clearance_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
@@ -149,6 +150,55 @@ TEST(ContactFlow, FindsATouchBetweenTwoOfItsPoints) {
     const double contact = std::abs(motion.events[1].time - motion.events[0].time) * scene.omega;
     EXPECT_NEAR(contact, 2.0 * std::sqrt(2e-6), 1e-5);
   }
+}
+
+// A ball in a sphere: a law of one's own of three rows.
+struct Sphere {
+  static int rows() { return 3; }
+  static double gap() { return 1.0; }
+  double penetration(std::span<const double> u, std::span<double> slopes) const {
+    double squared = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      squared += u[i] * u[i];
+      slopes[i] = u[i];
+    }
+    return 0.5 * (squared - 1.0);
+  }
+  void closed(std::span<const double> u, std::span<double> force, std::span<double> slopes) const {
+    const double r = std::hypot(u[0], u[1], u[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      force[i] = stiffness * (1.0 - 1.0 / r) * u[i];
+      for (std::size_t j = 0; j < 3; ++j)
+        slopes[3 * i + j] = stiffness * ((i == j ? 1.0 - 1.0 / r : 0.0) + u[i] * u[j] / (r * r * r));
+    }
+  }
+  double potential(std::span<const double> u) const {
+    return 0.5 * stiffness * std::pow(std::max(0.0, std::hypot(u[0], u[1], u[2]) - 1.0), 2);
+  }
+
+  double stiffness;
+};
+
+// Along one line it is a stop on either side, in whichever direction the line points.
+TEST(ContactFlow, TakesALawOfThreeRowsAsAStopAlongALine) {
+  constexpr double frequency = 0.15, load = 0.9;
+  const auto of = [&](int rows, ContactLaws laws) {
+    LinearStructure structure;
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows);
+    structure.mass = structure.stiffness = unit.sparseView();
+    structure.damping = Eigen::MatrixXd(0.1 * unit).sparseView();
+    structure.load = Eigen::VectorXd::Constant(rows, load / std::sqrt(double(rows)));
+    structure.contact_directions = unit.sparseView();
+    return Vibrating(structure, std::move(laws), frequency).motion(64);
+  };
+  const FlowMotion ball = of(3, Sphere{5.0}), line = of(1, contact::ClearanceLaw(5.0, 1.0));
+  ASSERT_EQ(ball.stepping.status, TimeSteppingStatus::converged);
+  ASSERT_EQ(ball.events.size(), 4u);
+  for (Index row = 0; row < 3; ++row)
+    EXPECT_LE((std::sqrt(3.0) * ball.stepping.contacts.displacement.row(row) -
+               line.stepping.contacts.displacement.row(0))
+                  .norm(),
+              1e-8);
 }
 
 // A ball that is pressed to the stop bounces with 0.5 until it rests, and leaves where the load pulls.

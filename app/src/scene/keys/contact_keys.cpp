@@ -69,6 +69,10 @@ std::vector<std::string_view> with_friction() {
   return law_names([](const contact::LawEntry& law) { return law.acts_over_period; });
 }
 
+std::vector<std::string_view> with_tangent() {
+  return law_names([](const contact::LawEntry& law) { return law.acts_over_period || law.acts_in_plane; });
+}
+
 }  // namespace
 
 void add_contact_keys(std::vector<SceneKey>& keys) {
@@ -111,19 +115,23 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
        derived("[1.0] for one of dofs, [1.0, -1.0] for two",
                [=](const Scene& scene) { return default_weights(part(scene).dofs); }));
   const auto add_tangent = [&](std::vector<int> ContactPair::*dofs, std::vector<double> ContactPair::*weights,
-                               std::string_view name, std::string_view weights_name, std::string_view help) {
+                               std::string_view name, std::string_view weights_name, std::string_view help,
+                               const std::vector<std::string_view>& laws) {
     pair(dofs, name, "", help, within(1, 100'000'000), named_dofs,
          derived("none", [](const Scene&) { return std::vector<std::int64_t>(); }));
     pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
          derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
-    for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = with_friction();
+    for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = laws;
   };
   add_tangent(
       &ContactPair::tangent, &ContactPair::tangent_coefficients, "tangent", "tangent_coefficients",
       "of a law with friction, the tangent beside the normal direction that dofs are then; without it dofs are "
-      "the tangent of a slider with a constant limit");
+      "the tangent of a slider with a constant limit; of a ring, the second direction in its plane, y beside "
+      "the x of dofs, of equal weight and perpendicular to it",
+      with_tangent());
   add_tangent(&ContactPair::second_tangent, &ContactPair::second_tangent_coefficients, "second_tangent",
-              "second_tangent_coefficients", "the other tangent of a contact that slips in a plane");
+              "second_tangent_coefficients", "the other tangent of a contact that slips in a plane",
+              with_friction());
   pair(&ContactPair::side, "side", "",
        "where the obstacle stands: the displacement may exceed gap, or -gap on the negative side, or both",
        derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));

@@ -16,6 +16,7 @@
 #include "wavebalance/contact/no_contact.hpp"
 #include "wavebalance/contact/polynomial_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/contact/ring_law.hpp"
 #include "wavebalance/contact/table_law.hpp"
 
 namespace wavebalance::contact {
@@ -34,12 +35,14 @@ using AnyLaw = std::variant<NoContact,        //
                             TableLaw,         //
                             HuntCrossleyLaw,  //
                             KelvinVoigtLaw,   //
-                            CoulombLaw>;
+                            CoulombLaw,       //
+                            RingLaw>;
 
 /// A row of the catalogue.
 struct LawEntry : LawDescription {
   bool reads_velocity = false;                    ///< whether the force depends on the velocity, too
   bool acts_over_period = false;                  ///< whether it follows from the motion over a whole period
+  bool acts_in_plane = false;                     ///< whether it acts along two directions together
   std::function<AnyLaw(const LawValues&)> maker;  ///< from complete values
 
   /// The law of these values. Throws LawFault as complete_values() does, also for values that are in range

@@ -25,6 +25,8 @@ double energy_norm(const Scene& scene, const solvers::Motion& motion);
 
 /// Share of the samples with a contact force.
 double contact_fraction(const solvers::Motion& motion);
+/// N, of the contact with this direction: the largest along it, or of two directions in a ring together.
+double largest_contact_force(const Scene& scene, const solvers::Motion& contacts, int row);
 /// The share of the period in which the contact of direction `row` is closed: of friction while it sticks or
 /// slips, also where its force is zero. NaN of a spring that acts everywhere, which is never open.
 double contact_fraction(const Scene& scene, const solvers::Motion& contacts, int row);

@@ -9,7 +9,7 @@
 namespace wavebalance::app {
 
 /// One direction of contact of a scene, whichever keys say it: where it is, and its law. A contact with
-/// friction has its normal direction, where there is one, and then its tangents.
+/// friction has its normal direction, where there is one, and then its tangents; one in a ring has two.
 struct SceneContact {
   std::vector<int> dofs = {};  ///< rows of matrices, from 1; empty at a bar's tip and along a blade's
   std::vector<double> coefficients = {};  ///< one for each of dofs, with the sign of the obstacle's side
@@ -32,14 +32,14 @@ struct SceneContact {
 /// positive one first. Throws std::invalid_argument for another number of gaps than one, or one each.
 std::vector<SceneContact> contacts_of(const Scene& scene);
 
-/// The same without laws and gaps.
+/// The same without the values of laws and gaps.
 std::vector<SceneContact> contact_places(const Scene& scene);
 /// Their number, which does not depend on laws and gaps.
 int contact_count(const Scene& scene);
 /// The number of contacts, of which one with a normal direction and tangents is one.
 int whole_contact_count(const Scene& scene);
 
-/// "normal", "tangent" or "tangent 2"; empty for the only direction of its contact.
+/// "normal", "tangent" or "tangent 2", in a ring "x" or "y"; empty for the only direction of its contact.
 std::string direction_name(const SceneContact& contact);
 /// Whether a contact has several.
 bool has_directions(const std::vector<SceneContact>& contacts);
@@ -55,8 +55,8 @@ double common_gap(const Scene& scene);
 bool has_damped_contact(const Scene& scene);
 /// Whether a contact has friction.
 bool has_friction(const Scene& scene);
-/// Whether time stepping goes from event to event: with friction, with other laws beside a rigid contact, and
-/// with impacts of a structure that is free to move.
+/// Whether time stepping goes from event to event: with friction, in a ring, with other laws beside a rigid
+/// contact, and with impacts of a structure that is free to move.
 bool integrates_by_events(const Scene& scene);
 
 /// The values of [contact] or of a pair that the law takes, its gap included.

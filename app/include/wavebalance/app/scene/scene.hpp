@@ -163,7 +163,7 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
-/// Whether the law of this name begins at its gap, contact.gap.
+/// Whether the law of this name begins where the displacement is its gap, contact.gap.
 bool has_gap(std::string_view law);
 /// Whether its force depends on the velocity.
 bool is_damped(std::string_view law);
@@ -175,7 +175,11 @@ bool acts_everywhere(std::string_view law);
 bool is_rigid(std::string_view law);
 /// Whether its force follows from the motion over a whole period: friction.
 bool has_friction(std::string_view law);
-/// Whether a law of [contact] or of a pair has it.
+/// Whether it acts along two directions together, beyond a gap along every radius: a ring.
+bool acts_in_plane(std::string_view law);
+/// Whether a law of [contact] or of a pair does.
+bool names_plane(const Contact& contact);
+/// Whether a law of [contact] or of a pair has friction that sticks or slips.
 bool names_friction(const Contact& contact);
 /// Whether a law of [contact] or of a pair takes energy from a motion: friction, or a force of the velocity.
 bool takes_energy(const Contact& contact);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "wavebalance/solvers/balance/coupled_law.hpp"
 #include "wavebalance/solvers/balance/period_law.hpp"
 
 namespace wavebalance::solvers {
@@ -105,7 +106,7 @@ struct ForceSlopes {
 ///
 /// A PeriodLaw has forces over a period only: what asks for its force at one displacement throws
 /// std::invalid_argument. It has no gap (0) and no kinks, and the form of the force where it
-/// OffersPeriodResolvent.
+/// OffersPeriodResolvent. A CoupledLaw is one, too, with its gap.
 class AnyContactLaw {
  public:
   /// No contact: force, tangent and potential are zero and the gap is infinite.
@@ -120,6 +121,11 @@ class AnyContactLaw {
   requires(!std::same_as<Law, AnyContactLaw> && !ContactLaw<Law> && PeriodLaw<Law>)
       AnyContactLaw(Law law)  // NOLINT: a law is meant to convert
       : model_(std::make_shared<PeriodModel<Law>>(std::move(law))) {}
+
+  template <class Law>
+  requires(!std::same_as<Law, AnyContactLaw> && !PeriodLaw<Law> && CoupledLaw<Law>)
+      AnyContactLaw(const Law& law)  // NOLINT: a law is meant to convert
+      : AnyContactLaw(AnyCoupledLaw(law)) {}
 
   /// The number of contact directions that it acts along; 1 but for a PeriodLaw.
   int rows() const { return model_->rows(); }
@@ -140,6 +146,8 @@ class AnyContactLaw {
     model_->start(v, flexibility, force);
   }
 
+  /// The law where it is a CoupledLaw, nullptr for others.
+  const AnyCoupledLaw* coupled() const { return model_->coupled(); }
   /// The constants of a law that IsElasticFriction, nothing for others.
   std::optional<FrictionConstants> friction() const { return model_->friction(); }
 
@@ -207,6 +215,7 @@ class AnyContactLaw {
     virtual void start(std::span<const double>, std::span<const double>, std::span<double>) const {
       refuse_steps();
     }
+    virtual const AnyCoupledLaw* coupled() const { return nullptr; }
     virtual std::optional<FrictionConstants> friction() const { return std::nullopt; }
     virtual std::optional<double> restitution() const { return std::nullopt; }
     virtual double force(double displacement) const = 0;
@@ -371,7 +380,13 @@ class AnyContactLaw {
     double force(double) const override { refuse_instant(); }
     double tangent(double) const override { refuse_instant(); }
     double potential(double) const override { refuse_instant(); }
-    double gap() const override { return 0.0; }
+    const AnyCoupledLaw* coupled() const override {
+      if constexpr (std::same_as<Law, AnyCoupledLaw>)
+        return &law_;
+      else
+        return nullptr;
+    }
+    double gap() const override { return coupled() ? coupled()->gap() : 0.0; }
     ForceSlope resolvent(double, double) const override { refuse_instant(); }
     bool unilateral() const override { return false; }
     bool monotone() const override { return false; }

@@ -35,6 +35,12 @@ class ContactLaws {
   const AnyContactLaw& operator[](int contact) const {
     return laws_.size() == 1 ? laws_.front() : laws_[law_of_row_[static_cast<std::size_t>(contact)]];
   }
+  /// Whether contact c >= 0 is the first row of its law.
+  bool begins(int contact) const {
+    const auto row = static_cast<std::size_t>(contact);
+    if (law_of_row_.size() == 1 || contact == 0) return true;
+    return law_of_row_[row] != law_of_row_[row - 1];
+  }
   /// Throws std::invalid_argument when the rows of the laws are neither one nor `contacts`.
   void require(int contacts) const;
   /// The gaps of `contacts` contacts, m.
@@ -52,6 +58,9 @@ class ContactLaws {
   Eigen::VectorXd restitution(int contacts) const;
   /// Whether all laws are unilateral.
   bool unilateral() const;
+  /// The largest of contact forces (N, contacts x points): of unilateral laws their largest, of others the
+  /// largest of their moduli, and of a CoupledLaw that of its rows together.
+  double largest_force(const Eigen::MatrixXd& force) const;
   /// Whether the force form may solve for all of them.
   bool have_force_form() const;
   /// Whether the force of one depends on the velocity.

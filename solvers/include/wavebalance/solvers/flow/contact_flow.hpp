@@ -29,6 +29,8 @@ struct FlowOptions {
   /// comes to rest after finitely many.
   double rest_velocity = 1e-6;
   bool margins = false;  ///< whether off_center() is known
+  /// Whether contacts stay in the states in which they begin, whatever ends these.
+  bool keeps_states = false;
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

@@ -26,8 +26,8 @@ enum class StabilityStatus {
   too_many_states,  ///< a law that depends on the velocity, at a structure with more states than max_states
   structural_damping,  ///< it has no equation in time, so that no perturbation grows or decays by it
   effort_limit,        ///< max_evaluations were not enough
-  /// friction beside a law that depends on the velocity or in a structure of more than max_states, slip along
-  /// two tangents, or another law over a period
+  /// friction or a CoupledLaw beside a law that depends on the velocity, both together, friction in a
+  /// structure of more than max_states, slip along two tangents, or another law over a period
   unsupported_law
 };
 
@@ -80,6 +80,9 @@ struct PeriodicStiffness {
   std::vector<StiffnessCut> cuts = {};
   /// The slope of the law, N/m, of a contact at a time (in periods) within one of its intervals.
   std::function<double(int contact, double time)> tangent;
+  /// The slope of the force of a contact by the displacement of another of the same law, N/m, likewise; empty
+  /// where no law is a CoupledLaw.
+  std::function<double(int force, int displacement, double time)> coupling = {};
   /// The slope by the velocity, N s/m, likewise; empty where no law depends on the velocity.
   std::function<double(int contact, double time)> damping = {};
   /// N s/m, where the force jumps as an interval begins or ends: the impulse on a perturbation over its
@@ -88,6 +91,8 @@ struct PeriodicStiffness {
   std::function<double(int contact, double time)> impulse = {};
   /// Contacts with friction, whose forces remember where they began to stick. They have no intervals.
   std::vector<FrictionAlong> friction = {};
+  /// Whether multipliers follow from the map of a period alone, and not from a determinant.
+  bool needs_map() const { return damping || coupling; }
   bool held = false;  ///< whether springs that hold a free structure were taken back from it
 };
 
@@ -101,6 +106,8 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 /// derivative a line. In the force form u is the displacement at which the law has the force, v - rho(v) /
 /// epsilon. A law that also acts below its gap has the intervals between its kinks, less those without slope.
 /// Up to 64 times a period at which a contact passes other breakpoints of its law are cuts.
+///
+/// A CoupledLaw has its intervals for each of its rows.
 ///
 /// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
 /// of trial functions or of the interpolant.
