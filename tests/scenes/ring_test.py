@@ -233,7 +233,7 @@ def test_a_partial_rub_is_that_of_an_integration_by_balance_exactly_and_in_time(
     balance = run(rotor(speed, load, more=more, options=few + "\nphases = false", **PARTIAL))
     assert np.abs(motion(balance) - motion(exact)).max() < 1e-4
     assert leading(balance.summary) == pytest.approx(leading(exact.summary), abs=1e-3)
-    assert "1 of 1 contacts is closed, with at most 77.01" in balance.page
+    assert "1 of 1 contacts is closed, with at most 77.02" in balance.page
 
 
 def test_a_journal_that_rests_on_its_ring_is_closed(command, rotor, tmp_path):
