@@ -13,8 +13,8 @@ namespace {
 
 using solvers::FlowMotion;
 
-// The Fourier coefficients of uniform samples of the forces less those of the holding springs, and of the impulses
-// between them, N, C x count.
+// The Fourier coefficients of uniform samples of the forces less those of the holding springs, and of the
+// impulses between them, N, C x count.
 Eigen::MatrixXcd force_harmonics(const FlowMotion& found, double holding, double frequency, int count) {
   const Eigen::MatrixXd force =
       found.stepping.contacts.force - holding * found.stepping.contacts.displacement;
@@ -46,11 +46,12 @@ Eigen::MatrixXd displacement_at(const Eigen::MatrixXd& samples, const Eigen::Vec
 void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found,
                     int points, Response& result) {
   const double frequency = problem.frequency();
-  const solvers::ContactSource source{[&](int count) { return force_harmonics(found, holding, frequency, count); },
-                                      [&](const Eigen::VectorXd& times) {
-                                        return displacement_at(found.stepping.contacts.displacement, times);
-                                      },
-                                      holding};
+  const solvers::ContactSource source{
+      [&](int count) { return force_harmonics(found, holding, frequency, count); },
+      [&](const Eigen::VectorXd& times) {
+        return displacement_at(found.stepping.contacts.displacement, times);
+      },
+      holding};
   solvers::StructurePhases whole = solvers::structure_motion_of(
       problem, source, points, {.tolerance = 1e-3, .max_harmonics = int(result.contacts.points()) / 2});
   result.structure = std::move(whole.motion);

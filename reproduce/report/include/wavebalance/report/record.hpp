@@ -89,8 +89,8 @@ struct DataFile {
   std::vector<std::string> notes;
 };
 
-/// A scene file that an artefact reads, and the overrides "section.key=value", or other options of the command
-/// as "--analysis=time_stepping", of every reading that has some.
+/// A scene file that an artefact reads, and the overrides "section.key=value", or other options of the
+/// command as "--analysis=time_stepping", of every reading that has some.
 struct SceneUse {
   std::string name;
   std::vector<std::vector<std::string>> overrides;
