@@ -124,3 +124,35 @@ def test_load_of_the_cam_is_that_of_its_arcs():
 def test_table_of_the_sample_is_its_formula():
     lines = [line.split(",") for line in (smooth.SCENES / "sample.csv").read_text().split()[1:]]
     assert [float(force) for _, force in lines] == pytest.approx([smooth.tip_force(float(place)) for place, _ in lines], rel=1e-5)
+
+
+def whirl(radius, speed, load, stiffness, friction):
+    """How much the load of a whirl around a ring of clearance 1 is from `load`."""
+    ring = stiffness * (1 - 1 / radius) * (1 + 1j * friction)
+    return abs(1 - speed**2 + 0.1j * speed + ring) * radius - load
+
+
+def test_whirls_in_rings_have_their_closed_forms():
+    at_11, force, at_10, at_09 = known("rotor_in_ring", "radius at 1.1", "force", "radius at 1 ", "radius at 0.9")
+    for radius, speed in ((at_11, 1.1), (at_10, 1.0), (at_09, 0.9)):
+        assert whirl(radius, speed, 0.3 * speed**2, 5.0, 0.0) == pytest.approx(0.0, abs=1e-9)
+    assert eval(force) == pytest.approx(5 * (at_11 - 1), rel=1e-9)
+    for radius, speed in zip(known("rotor_rub", "radius")[0], places("rotor_rub")):
+        assert whirl(radius, speed, 0.25, 10.0, 0.1) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_fold_of_the_rub_is_where_its_whirls_end():
+    radii = np.linspace(1.06, 1.11, 501)
+    speeds = [max((root.real for root in np.roots(quartic(radius)) if abs(root.imag) < 1e-9), default=0.0) for radius in radii]
+    best = int(np.argmax(speeds))
+    fit = np.polyfit(radii[best - 2:best + 3] - radii[best], speeds[best - 2:best + 3], 4)
+    turn = [root.real for root in np.roots(np.polyder(fit)) if abs(root.imag) < 1e-9 and abs(root) < 2e-4]
+    assert np.polyval(fit, turn[0]) == pytest.approx(text("rotor_rub")["points"][0]["fold"][0], abs=1e-8)
+
+
+def quartic(radius):
+    """The polynomial in the speed whose roots are those of whirl() of the rub at a radius, squared."""
+    pressure = 10 * (1 - 1 / radius)
+    stiffness = np.poly1d([-1, 0, 1 + pressure])
+    turning = np.poly1d([0.1, 0.1 * pressure])
+    return stiffness**2 + turning**2 - (0.25 / radius)**2
