@@ -264,9 +264,10 @@ def write(case, rows, checks, output, seconds):
     """Writes picture, data, table and record of a case."""
     name, main = case.name, case.run()
     picture = main.picture()
+    data = next(file for file in (f"{picture}.csv", "motion_1.csv") if (main.folder / file).exists())
     (output / "records").mkdir(parents=True, exist_ok=True)
     (output / "scenes").mkdir(exist_ok=True)
-    shutil.copy(main.folder / f"{picture}.csv", output / f"{name}.csv")
+    shutil.copy(main.folder / data, output / f"{name}.csv")
     shutil.copy(main.folder / f"{picture}.svg", output / f"{name}.svg")
     script = (main.folder / f"{picture}.figure.js").read_text().replace(f'["{picture}"]', f'["{name}"]', 1)
     (output / f"{name}.figure.js").write_text(script)

@@ -156,3 +156,15 @@ def quartic(radius):
     stiffness = np.poly1d([-1, 0, 1 + pressure])
     turning = np.poly1d([0.1, 0.1 * pressure])
     return stiffness**2 + turning**2 - (0.25 / radius)**2
+
+
+def test_motion_of_the_ball_has_its_closed_form():
+    gravity, period, kept, table = 9.81, 0.04, 0.5, 20.0
+    omega = 2 * pi / period
+    speed = gravity * period * (1 - kept) / (1 + kept) / 2  # of the table at the impact
+    phase = pi - np.arcsin(speed * omega / table)
+    # Of the map from impact to impact: its determinant is kept^2, and its trace has the table's acceleration at the impact.
+    trace = 1 + kept**2 + (1 + kept)**2 * table * np.cos(phase) / gravity
+    instant, _, multiplier = known("bouncing_ball", "instant", "relative", "leading")
+    assert phase / (2 * pi) == pytest.approx(instant, abs=1e-11)
+    assert min(np.roots([1, -trace, kept**2])) == pytest.approx(multiplier, abs=1e-8)
