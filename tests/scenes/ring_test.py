@@ -150,6 +150,35 @@ def test_stability_by_the_balance_alone_has_the_multipliers_of_the_turning_frame
     assert np.abs(exact - leading(record.summary)).min() < 1e-7
 
 
+# Each exponent of the rotor is one of two directions, and its modes are no modes of free vibration without damping.
+@pytest.mark.parametrize("phases", ["true", "false"])
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_an_isotropic_rotor_with_damping_at_its_disk_alone_has_the_multipliers_of_the_turning_frame(run, matrix, friction, phases):
+    speed, ring, gap, radius = 0.75, 5.0, 0.5, 0.56
+    mass, damping = np.diag([1.0, 0.5]), np.diag([DAMPING, 0.0])
+    stiffness = np.array([[2.0, -2.0], [-2.0, 3.0]])
+    share = ring * (1.0 - gap / radius)
+    dynamic = stiffness - speed**2 * mass + 1j * speed * damping + np.diag([0.0, share * (1.0 + 1j * friction)])
+    disk = -dynamic[1, 1] * radius / dynamic[1, 0]
+    load = abs(dynamic[0, 0] * disk + dynamic[0, 1] * radius)
+    turning, both = np.array([[0.0, -1.0], [1.0, 0.0]]), np.eye(2)
+    slopes = np.kron(np.diag([0.0, 1.0]), [[ring, -friction * share], [friction * ring, share]])
+    m, gyroscopic = np.kron(mass, both), np.kron(damping, both) + 2.0 * speed * np.kron(mass, turning)
+    k = np.kron(stiffness - speed**2 * mass, both) + speed * np.kron(damping, turning) + slopes
+    inverse = np.linalg.inv(m)
+    system = np.block([[np.zeros((4, 4)), np.eye(4)], [-inverse @ k, -inverse @ gyroscopic]])
+    exact = np.exp(np.linalg.eigvals(system) * 2.0 * np.pi / speed)
+    for name, one in (("m.mtx", mass), ("s.mtx", stiffness), ("d.mtx", damping)):
+        matrix(name, np.kron(one, both).tolist())
+    text = SCENE.format(ring=ring, more=f"friction = {friction}", frequency=f"frequency = {speed / (2.0 * np.pi)!r}", load=load,
+                        terms="", time=FOURIER, analysis="forced_response", options=f"phases = {phases}")
+    record = run(text.replace("gap = 1.0", f"gap = {gap}").replace("dofs = [1]\ntangent = [2]", "dofs = [3]\ntangent = [4]"))
+    assert record.code == 0, record.errors
+    assert np.hypot(*motion(record)) == pytest.approx(radius, abs=1e-9)
+    assert record.summary["unstable_multipliers"] == (np.abs(exact) > 1.0).sum()
+    assert np.abs(exact - leading(record.summary)).min() < 1e-7
+
+
 # Along an amplitude the rub begins at once all around, where the curve has a corner and turns.
 @pytest.mark.parametrize("exact", ["false", "true"])
 def test_a_curve_over_the_amplitude_has_all_three_motions_and_both_folds(run, rotor, exact):

@@ -83,12 +83,22 @@ Eigen::MatrixXcd left_modes(const FirstOrderForm& form, const Eigen::MatrixXcd& 
   return (form.inverse ? -1.0 : 1.0) * (real + Complex(0.0, 1.0) * imaginary);
 }
 
+// Whether two exponents are so near to each other that rounding chooses their modes among all combinations.
+bool has_equal(const Eigen::VectorXcd& exponents) {
+  constexpr double near = 1e-5;
+  for (Index i = 0; i < exponents.size(); ++i)
+    for (Index j = 0; j < i; ++j)
+      if (std::abs(exponents[i] - exponents[j]) <= near * std::abs(exponents[i])) return true;
+  return false;
+}
+
+// Modes of one exponent, as an isotropic rotor has, are no left modes of each other.
 ComplexModes complex_modes(const LinearStructure& structure) {
   const Index n = structure.size();
   const FirstOrderForm form = first_order_form(structure);
   const auto eigen = detail::general_eigen(form.matrix);
   if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
-  const bool unsymmetric = !structure.symmetric();
+  const bool unsymmetric = !structure.symmetric() || has_equal(eigen->values);
   ComplexModes modes{Eigen::VectorXcd(2 * n), eigen->vectors.topRows(n), {}};
   if (unsymmetric) {
     // The lower half of an eigenvector of the inverse form is a displacement, as the upper one of the other.
