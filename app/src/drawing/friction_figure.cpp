@@ -98,7 +98,10 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
   const double start = window.start();
   panel.x.lower = start;
   panel.x.upper = start + 1.0;
-  panel.add(swatch("stick", stick_colour, start)).add(swatch("slip", slip_colour, start));
+  for (const auto& [label, colour] : {std::pair{"stick", stick_colour}, std::pair{"slip", slip_colour}})
+    if (std::any_of(panel.rectangles.begin(), panel.rectangles.end(),
+                    [&](const Rectangle& one) { return one.fill == colour; }))
+      panel.add(swatch(label, colour, start));
 }
 
 }  // namespace

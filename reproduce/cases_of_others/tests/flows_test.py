@@ -141,6 +141,21 @@ def test_whirls_in_rings_have_their_closed_forms():
         assert whirl(radius, speed, 0.25, 10.0, 0.1) == pytest.approx(0.0, abs=1e-9)
 
 
+def multiplier(radius, speed, stiffness, friction):
+    """The modulus of the leading multiplier of a whirl, which is at rest in the frame that turns with it."""
+    law = stiffness * (1 + 1j * friction)
+    both, radial, turning = 1 - speed**2 + 0.1j * speed + law * (1 - 1 / radius), law / radius, 0.1 + 2j * speed
+    columns = [both + radial, 1j * both, turning, 1j * turning]
+    rates = np.vstack([np.eye(4)[2:], [[-one.real for one in columns], [-one.imag for one in columns]]])
+    return np.exp(max(np.linalg.eigvals(rates).real) * 2 * pi / speed)
+
+
+def test_multipliers_of_whirls_are_those_of_their_frame():
+    assert multiplier(known("rotor_in_ring", "radius at 1.1")[0], 1.1, 5.0, 0.0) == pytest.approx(known("rotor_in_ring", "modulus")[0], abs=1e-8)
+    for radius, speed, given in zip(known("rotor_rub", "radius")[0], places("rotor_rub"), known("rotor_rub", "modulus")[0]):
+        assert multiplier(radius, speed, 10.0, 0.1) == pytest.approx(given, abs=1e-8)
+
+
 def test_fold_of_the_rub_is_where_its_whirls_end():
     radii = np.linspace(1.06, 1.11, 501)
     speeds = [max((root.real for root in np.roots(quartic(radius)) if abs(root.imag) < 1e-9), default=0.0) for radius in radii]
