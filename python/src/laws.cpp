@@ -116,7 +116,8 @@ py::list law_catalogue() {
     py::list parameters;
     for (const contact::LawParameter& one : law.parameters)
       parameters.append(py::dict("name"_a = one.name, "unit"_a = one.unit, "help"_a = one.help,
-                                 "required"_a = one.required(), "default"_a = one.fallback));
+                                 "required"_a = one.required(), "default"_a = one.fallback,
+                                 "may_be_zero"_a = one.range.contains(0.0)));
     rows.append(py::dict("name"_a = law.name, "force"_a = law.force, "parameters"_a = parameters));
   }
   return rows;

@@ -99,6 +99,8 @@ def jeffcott():
 def test_a_ring_takes_two_directions_in_functions_and_in_scenes():
     ring, frequency = wb.Ring(5.0, 1.0), 1.1 / (2.0 * np.pi)
     assert ring.rows == 2
+    with pytest.raises(TypeError, match="gap"):
+        wb.Ring(5.0)
     response = wb.forced_response(jeffcott(), ring, frequency, wb.Pair("fourier", 31))
     assert np.hypot(*response.displacement) == pytest.approx(1.1151660291831718, abs=1e-9)
     scene = jeffcott().scene(ring, frequency=frequency, pair=wb.Pair("fourier", 31))

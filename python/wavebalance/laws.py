@@ -360,10 +360,11 @@ def as_laws(laws: LawLike) -> Any:
 
 
 def _signature_of(parameters: Sequence[dict[str, Any]]) -> inspect.Signature:
-    """Those without a default come first; the gap is 0 where none is given."""
+    """Those without a default come first; a gap that may be 0 is 0 where none is given."""
     both = inspect.Parameter.POSITIONAL_OR_KEYWORD
-    defaults = {one["name"]: 0.0 if one["name"] == "gap" else one["default"] for one in parameters}
-    needed = [one["name"] for one in parameters if one["required"] and one["name"] != "gap"]
+    gap = [one["name"] for one in parameters if one["name"] == "gap" and one["may_be_zero"]]
+    defaults = {one["name"]: 0.0 if one["name"] in gap else one["default"] for one in parameters}
+    needed = [one["name"] for one in parameters if one["required"] and one["name"] not in gap]
     return inspect.Signature(
         [inspect.Parameter(name, both) for name in needed]
         + [inspect.Parameter(name, both, default=value) for name, value in defaults.items() if name not in needed]
