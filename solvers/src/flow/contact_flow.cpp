@@ -193,7 +193,11 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
   if (at.empty()) return;
   const Eigen::VectorXd points_here = Eigen::Map<const Eigen::VectorXd>(at.data(), Index(at.size()));
   const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), points_here);
-  const detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
+  detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
+  // Less the forces of the holding springs that of an open contact would be rounding.
+  for (std::size_t c = 0; c < machines_.size(); ++c)
+    if (machines_[c].law->kind(now_.state[c]) == ContactState::open)
+      signals[force_kind].middleRows(machines_[c].row, machines_[c].law->rows()).setZero();
   for (Index k = 0; k < points_here.size(); ++k)
     sample({time_ + panel.shape->half() * (at[std::size_t(k)] + 1.0), signals[0].col(k), signals[1].col(k),
             signals[force_kind].col(k)});
