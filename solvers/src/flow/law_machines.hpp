@@ -1,9 +1,15 @@
 #pragma once
+#include <memory>
+
+#include "wavebalance/solvers/flow/law_machine.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers::detail {
 
 /// The velocity of a row by an impulse there, 1/kg; 0 where it has no mass and is displaced at once.
 double inverse_mass_of(const ContactDynamics& dynamics, int row);
+
+/// That of a law of several rows at one instant, open or closed.
+std::shared_ptr<const LawMachine> coupled_machine(AnyCoupledLaw law);
 
 }  // namespace wavebalance::solvers::detail

@@ -186,52 +186,6 @@ std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) 
 
 }  // namespace
 
-namespace {
-
-bool lies_in(const ContactInterval& interval, double time) {
-  return time - interval.begin - std::floor(time - interval.begin) < interval.length();
-}
-
-// The intervals of one contact and those between them, by begin.
-std::vector<ContactInterval> whole_period(int contact, std::vector<ContactInterval> own) {
-  if (own.empty()) return {{contact, 0.0, 1.0}};
-  const std::size_t count = own.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double open = own[i].end, close = i + 1 < count ? own[i + 1].begin : own[0].begin + 1.0;
-    if (close > open) own.push_back({contact, open - std::floor(open), close - std::floor(open)});
-  }
-  std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
-  return own;
-}
-
-}  // namespace
-
-PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contacts, double kappa) {
-  if (kappa == 0.0 || stiffness.held || stiffness.status != StabilityStatus::converged) return stiffness;
-  PeriodicStiffness held;
-  held.held = true;
-  held.cuts = stiffness.cuts;
-  if (stiffness.needs_map()) {
-    held.status =
-        StabilityStatus::effort_limit;  // not of laws that depend on the velocity or of several rows
-    return held;
-  }
-  for (int c = 0; c < contacts; ++c) {
-    std::vector<ContactInterval> own;
-    for (const ContactInterval& interval : stiffness.intervals)
-      if (interval.contact == c) own.push_back(interval);
-    for (const ContactInterval& interval : whole_period(c, std::move(own)))
-      held.intervals.push_back(interval);
-  }
-  held.tangent = [stiffness, kappa](int contact, double time) {
-    for (const ContactInterval& interval : stiffness.intervals)
-      if (interval.contact == contact && lies_in(interval, time))
-        return stiffness.tangent(contact, time) - kappa;
-    return -kappa;
-  };
-  return held;
-}
-
 std::string_view to_string(StabilityStatus status) {
   using enum StabilityStatus;
   return detail::name_in<StabilityStatus>({{converged, "converged"},
@@ -321,6 +275,55 @@ bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const Cont
   return stiffness.friction.empty() || !laws.depend_on_velocity();
 }
 
+using AllContacts = std::vector<ContactAlong>;
+
+// Adds the intervals of one contact and its cuts; nothing where one of them holds no sample, else their
+// number.
+std::optional<int> add_intervals(const ContactAlong& along, int contact, PeriodicStiffness& stiffness) {
+  const auto intervals = find_intervals(along, contact);
+  if (!intervals) return std::nullopt;
+  stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
+  if (!intervals->empty())
+    for (const double time : cut_times(along)) stiffness.cuts.push_back({contact, time});
+  return static_cast<int>(intervals->size());
+}
+
+void set_slopes(const std::shared_ptr<AllContacts>& contacts, const std::shared_ptr<AllCoupled>& coupled,
+                PeriodicStiffness& stiffness) {
+  stiffness.tangent = [contacts, coupled](int contact, double time) {
+    for (const CoupledAlong& one : *coupled)
+      if (one.has(contact)) return one.slope(contact, contact, time);
+    return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);
+  };
+  if (coupled->empty()) return;
+  stiffness.coupling = [coupled](int force, int displacement, double time) {
+    for (const CoupledAlong& one : *coupled)
+      if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
+    return 0.0;
+  };
+}
+
+// The slopes by the velocity, and where forces jump.
+void set_damping(const std::shared_ptr<AllContacts>& contacts, PeriodicStiffness& stiffness) {
+  stiffness.damping = [contacts](int contact, double time) {
+    return (*contacts)[static_cast<std::size_t>(contact)].damping(time);
+  };
+  stiffness.impulse = [contacts](int contact, double time) {
+    return (*contacts)[static_cast<std::size_t>(contact)].impulse(time);
+  };
+}
+
+// Why no stiffness is known, whatever the motion.
+StabilityStatus refusal_of(const ContactLaws& laws, const ContactUnknowns& unknowns) {
+  bool coupled = false;
+  for (int c = 0; c < static_cast<int>(unknowns.samples.cols()); ++c) {
+    coupled = coupled || laws[c].coupled();
+    if (laws[c].acts_over_period() && unknowns.flexibility.size() > 0)
+      return laws[c].is_rigid() ? StabilityStatus::no_finite_stiffness : StabilityStatus::unsupported_law;
+  }
+  return coupled && laws.depend_on_velocity() ? StabilityStatus::unsupported_law : StabilityStatus::converged;
+}
+
 }  // namespace
 
 PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws& laws,
@@ -328,70 +331,38 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   const int count = static_cast<int>(unknowns.samples.cols());
   laws.require(count);
   PeriodicStiffness stiffness;
-  int rigid = 0, elastic = 0;  // intervals of contact
-  const auto contacts = std::make_shared<std::vector<ContactAlong>>();
-  for (int c = 0; c < count; ++c)
-    if (laws[c].acts_over_period() && unknowns.flexibility.size() > 0) {
-      stiffness.status =
-          laws[c].is_rigid() ? StabilityStatus::no_finite_stiffness : StabilityStatus::unsupported_law;
-      return stiffness;
-    }
-  const auto coupled = std::make_shared<AllCoupled>(coupled_along(trial, laws, unknowns));
-  const bool mixed = !coupled->empty() && laws.depend_on_velocity();
-  if (!add_friction(trial, laws, unknowns, stiffness) || mixed ||
-      (!coupled->empty() && !stiffness.friction.empty())) {
-    stiffness.status = StabilityStatus::unsupported_law;
+  const auto ended = [&](StabilityStatus status) {
+    stiffness.status = status;
     return stiffness;
-  }
-  for (int c = 0; c < count; ++c) {
-    const double flexibility = unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0;
+  };
+  if (const StabilityStatus why = refusal_of(laws, unknowns); why != StabilityStatus::converged)
+    return ended(why);
+  const auto coupled = std::make_shared<AllCoupled>(coupled_along(trial, laws, unknowns));
+  const auto contacts = std::make_shared<AllContacts>();
+  if (!add_friction(trial, laws, unknowns, stiffness) || (!coupled->empty() && !stiffness.friction.empty()))
+    return ended(StabilityStatus::unsupported_law);
+  for (int c = 0; c < count; ++c)
     contacts->push_back(
-        {laws[c], laws[c].unilateral(), flexibility,
+        {laws[c], laws[c].unilateral(), unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0,
          ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample),
          unknowns.frequency});
-    const ContactAlong& along = contacts->back();
-    const std::size_t before = stiffness.intervals.size();
-    for (const CoupledAlong& one : *coupled)
-      if (one.row == c && !add_intervals(one, stiffness.intervals)) {
-        stiffness.status = StabilityStatus::too_few_samples;
-        return stiffness;
-      }
-    elastic += static_cast<int>(stiffness.intervals.size() - before);
-    if (along.law.acts_over_period()) continue;
-    const auto intervals = find_intervals(along, c);
-    if (!intervals) {
-      stiffness.status = StabilityStatus::too_few_samples;
-      return stiffness;
-    }
-    (along.law.is_rigid() ? rigid : elastic) += static_cast<int>(intervals->size());
-    stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
-    if (!intervals->empty())
-      for (const double time : cut_times(along)) stiffness.cuts.push_back({c, time});
+  int rigid = 0, elastic = 0;  // intervals of contact
+  for (int c = 0; c < count; ++c) {
+    if (laws[c].acts_over_period()) continue;
+    const auto added = add_intervals((*contacts)[static_cast<std::size_t>(c)], c, stiffness);
+    if (!added) return ended(StabilityStatus::too_few_samples);
+    (laws[c].is_rigid() ? rigid : elastic) += *added;
   }
+  for (const CoupledAlong& one : *coupled)
+    if (!add_intervals(one, stiffness.intervals)) return ended(StabilityStatus::too_few_samples);
   if (rigid > 0) {
-    stiffness.status = StabilityStatus::no_finite_stiffness;
-    if (elastic > 0) stiffness.intervals.clear();
-    return stiffness;
+    if (elastic > 0 || !coupled->empty()) stiffness.intervals.clear();
+    return ended(StabilityStatus::no_finite_stiffness);
   }
-  stiffness.tangent = [contacts, coupled](int contact, double time) {
-    for (const CoupledAlong& one : *coupled)
-      if (one.has(contact)) return one.slope(contact, contact, time);
-    return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);
-  };
-  if (!coupled->empty())
-    stiffness.coupling = [coupled](int force, int displacement, double time) {
-      for (const CoupledAlong& one : *coupled)
-        if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
-      return 0.0;
-    };
-  if (laws.depend_on_velocity()) {
-    stiffness.damping = [contacts](int contact, double time) {
-      return (*contacts)[static_cast<std::size_t>(contact)].damping(time);
-    };
-    stiffness.impulse = [contacts](int contact, double time) {
-      return (*contacts)[static_cast<std::size_t>(contact)].impulse(time);
-    };
-  }
+  std::stable_sort(stiffness.intervals.begin(), stiffness.intervals.end(),
+                   [](const auto& a, const auto& b) { return a.contact < b.contact; });
+  set_slopes(contacts, coupled, stiffness);
+  if (laws.depend_on_velocity()) set_damping(contacts, stiffness);
   return stiffness;
 }
 
