@@ -6,19 +6,28 @@ import math
 import pytest
 
 
-def scene(structure, contacts, forcing, frequency, analysis=""):
+def scene(structure, contacts, forcing, frequency, analysis="", kind="time_stepping"):
+    if kind != "time_stepping":  # these have no keys of time stepping
+        analysis = "\n".join(line for line in analysis.split("\n") if not line.startswith(("tolerance", "max_periods")))
     return (f'[structure]\ntype = "matrices"\nmass = "m.mtx"\nstiffness = "k.mtx"\n{structure}\n{contacts}\n'
-            f'[forcing]\nfrequency = {frequency!r}\n{forcing}\n[analysis]\ntype = "time_stepping"\n{analysis}\n')
+            f'[forcing]\nfrequency = {frequency!r}\n{forcing}\n[analysis]\ntype = "{kind}"\n{analysis}\n')
+
+
+def table(record, name):
+    with open(record.folder / name) as file:
+        return list(csv.DictReader(file))
 
 
 def events(record):
-    with open(record.folder / "events.csv") as file:
-        return [(float(row["time_fraction"]), int(row["contact"]), row["state"], float(row["velocity_before_m_per_s"]))
-                for row in csv.DictReader(file)]
+    return [(float(row["time_fraction"]), int(row["contact"]), row["state"]) for row in table(record, "events.csv")]
 
 
 def impacts(record):
-    return [(time, contact, speed) for time, contact, _, speed in events(record) if speed > 0.0]
+    return [(float(row["time_fraction"]), int(row["contact"]), float(row["velocity_before_m_per_s"]))
+            for row in table(record, "impacts.csv")]
+
+
+both = pytest.mark.parametrize("kind", ["time_stepping", "forced_response"])
 
 
 def test_a_slider_has_the_instants_and_the_multipliers_of_the_exact_motion(run, matrix):
@@ -36,32 +45,35 @@ def test_a_slider_has_the_instants_and_the_multipliers_of_the_exact_motion(run, 
     assert [(pytest.approx(time, abs=2e-9), state) for time, state in expected] == [(row[0], row[2]) for row in events(found)]
 
 
-def test_a_block_that_friction_alone_holds_slides_as_in_closed_form(run, matrix):
+@both
+def test_a_block_that_friction_alone_holds_slides_as_in_closed_form(run, matrix, kind):
     # 1 kg on a table with 10 cos(2 pi 2 t) m/s^2 and 3 N of rigid friction: half its travel is 0.0558537 m.
     matrix("m.mtx", [[1.0]])
     matrix("k.mtx", [[0.0]])
     block = '[contact]\nlaw = "coulomb"\nfriction = 0.3\nnormal_load = 10.0\n[[contact.pairs]]\ndofs = [1]'
     load = '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\namplitude = 10.0'
-    found = run(scene("free = true", block, load, 2.0, "output_points = 4096"))
+    found = run(scene("free = true", block, load, 2.0, "output_points = 4096", kind))
     assert found.code == 0, found.errors
     travel = found.summary["max_displacement_m"] - found.summary["min_displacement_m"]
     assert travel == pytest.approx(0.111707316, rel=1e-6)
 
 
-def test_a_free_ball_in_a_cavity_strikes_when_exact_flights_do(run, matrix):
+@both
+def test_a_free_ball_in_a_cavity_strikes_when_exact_flights_do(run, matrix, kind):
     matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
     matrix("k.mtx", [[1.0, 0.0], [0.0, 0.0]])
     matrix("c.mtx", [[0.02, 0.0], [0.0, 0.0]])
     cavity = '[contact]\nlaw = "rigid"\nrestitution = 0.6\ngap = 1.0\n[[contact.pairs]]\ndofs = [2, 1]\nside = "both"'
     found = run(scene('free = true\ndamping = "c.mtx"', cavity, "load_dofs = [1]\namplitude = 0.06", 1.0 / (2.0 * math.pi),
-                      "tolerance = 1e-8\nmax_periods = 3000"))
+                      "tolerance = 1e-8\nmax_periods = 3000", kind))
     assert found.code == 0, found.errors
     strikes = impacts(found)
     assert [time for time, _, _ in strikes] == pytest.approx([0.48027891, 0.98027891], abs=2e-8)
     assert [speed for _, _, speed in strikes] == pytest.approx([1.13388806] * 2, abs=2e-8)
 
 
-def test_a_valve_between_two_rigid_stops_with_dry_friction_strikes_when_simulations_do(run, matrix):
+@both
+def test_a_valve_between_two_rigid_stops_with_dry_friction_strikes_when_simulations_do(run, matrix, kind):
     # Between two rigid stops, with dry friction; instants and speeds by an event-driven simulation.
     matrix("m.mtx", [[3.3612e-4]])
     matrix("k.mtx", [[1488.58]])
@@ -81,11 +93,71 @@ law = "coulomb"
 friction = 1.0
 normal_load = 1.0"""
     load = "load_dofs = [1]\namplitude = 2.03365485\n[[forcing.terms]]\nharmonic = 0\namplitude = 0.60641"
-    found = run(scene("", valve, load, 250.0, "max_periods = 300"))
+    found = run(scene("", valve, load, 250.0, "max_periods = 300", kind))
     assert found.code == 0, found.errors
     first = sorted(impacts(found), key=lambda one: -one[2])[:4]
     assert [time for time, _, _ in first] == pytest.approx([0.5022997, 0.0345464, 0.5865897, 0.6032446], abs=2e-6)
     assert [speed for _, _, speed in first] == pytest.approx([2.3006885, 2.0876812, 0.2318148, 0.0109335], rel=1e-4)
+
+
+CAVITY = '[contact]\nlaw = "rigid"\nrestitution = 0.6\ngap = 1.0\n[[contact.pairs]]\ndofs = [2, 1]\nside = "both"'
+
+
+def test_the_curve_of_a_free_ball_ends_at_the_response_there(run, matrix):
+    matrix("m.mtx", [[1.0, 0.0], [0.0, 0.05]])
+    matrix("k.mtx", [[1.0, 0.0], [0.0, 0.0]])
+    matrix("c.mtx", [[0.02, 0.0], [0.0, 0.0]])
+    structure, load = 'free = true\ndamping = "c.mtx"', "load_dofs = [1]\namplitude = 0.06"
+    curve = run(scene(structure, CAVITY, load, 0.1, "frequency_from = 0.16\nfrequency_to = 0.165", "frequency_sweep")
+                .replace("frequency = 0.1\n", ""))
+    assert curve.code == 0, curve.errors
+    last = table(curve, "sweep.csv")[-1]
+    assert last["phases_status"] == "converged" and float(last["frequency_Hz"]) == pytest.approx(0.165, rel=1e-12)
+    there = run(scene(structure, CAVITY, load, 0.165, "", "forced_response")).summary
+    assert there["status"] == "converged" and there["stability"] == "stable"
+    assert float(last["max_displacement_m"]) == pytest.approx(there["max_displacement_m"], rel=1e-5)  # of samples
+    assert float(last["rms_displacement_m"]) == pytest.approx(there["rms_displacement_m"], rel=1e-7)
+
+
+def test_a_curve_of_a_block_that_nothing_holds_is_told_as_undetermined(run, matrix):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[0.0]])
+    block = '[contact]\nlaw = "coulomb"\nfriction = 0.3\nnormal_load = 10.0\n[[contact.pairs]]\ndofs = [1]'
+    load = '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\namplitude = 10.0'
+    found = run(scene("free = true", block, load, 2.0, "frequency_from = 2.0\nfrequency_to = 2.5", "frequency_sweep")
+                .replace("frequency = 2.0\n", ""))
+    assert found.code == 3 and found.summary["status"] == "no_start"
+    assert "undetermined" in found.errors and "soft spring" in found.errors
+
+
+def test_the_mass_of_a_contact_with_rigid_friction_is_kept_where_the_scene_says_so(run, matrix):
+    # Den Hartog, Trans. ASME 53, 1931: x^2 = V^2 - (0.3 U)^2 with V = 1 / (1 - r^2) and U = tan(pi / (2 r)) / r.
+    for name in ("m", "k"):
+        matrix(f"{name}.mtx", [[1.0]])
+    slider = '[contact]\nlaw = "coulomb"\nmass = "keep"\nfriction = 0.3\nnormal_load = 1.0\n[[contact.pairs]]\ndofs = [1]'
+    found = run(scene("", slider, "load_dofs = [1]\namplitude = 1.0", 0.75 / (2.0 * math.pi), "output_points = 4096", "forced_response"))
+    assert found.code == 0, found.errors
+    exact = math.sqrt((1.0 / (1.0 - 0.75**2)) ** 2 - (0.3 * math.tan(math.pi / 1.5) / 0.75) ** 2)
+    assert found.summary["max_displacement_m"] == pytest.approx(exact, rel=1e-6)  # of samples
+
+
+def test_impacts_that_follow_each_other_ever_faster_come_to_rest_in_a_response(run, matrix):
+    # The same motion in time from event to event.
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1.0]])
+    matrix("c.mtx", [[0.1]])
+    stop = '[contact]\nlaw = "rigid"\nrestitution = 0.3\ngap = 0.0\n[[contact.pairs]]\ndofs = [1]'
+    def solve(kind):
+        found = run(scene('damping = "c.mtx"', stop, "load_dofs = [1]\namplitude = 1.0", 0.5 / (2.0 * math.pi),
+                          "tolerance = 1e-9\noutput_points = 512", kind))
+        assert found.code == 0, found.errors
+        return found.summary
+
+    response, stepped = solve("forced_response"), solve("time_stepping")
+    assert response["status"] == "converged" and response["stability"] == "stable"
+    assert response["impacts"] > 8 and len(response["lasting_contacts"]) == 1
+    assert response["max_impact_velocity_m_per_s"] == pytest.approx(stepped["max_impact_velocity_m_per_s"], rel=1e-8)
+    assert response["rms_displacement_m"] == pytest.approx(stepped["rms_displacement_m"], rel=1e-7)
 
 
 def test_friction_along_two_tangents_is_refused_by_name(command, matrix, tmp_path):

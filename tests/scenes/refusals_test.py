@@ -85,14 +85,6 @@ def test_a_free_structure_that_is_accepted_by_check_is_solved_by_run(verdicts, l
             assert ran.code in (0, 3), (analysis, ran.errors)
 
 
-@pytest.mark.parametrize("law", ["coulomb", "rigid friction", "restitution"])
-def test_a_free_structure_with_friction_or_impacts_is_refused_with_the_way_out(verdicts, law):
-    checked, ran = verdicts("[contact]\n" + LAWS[law], "contact_dofs = [2]\nfree = true",
-                            set=["structure.stiffness=free.mtx"])
-    for record in (checked, ran):
-        refused(record, "structure.free", "spring to ground")
-
-
 @pytest.mark.parametrize("damping", ["", "loss_factor = 0.02"])
 def test_friction_is_solved_to_a_tolerance_whatever_the_damping(verdicts, damping):
     checked, ran = verdicts("[contact]\n" + LAWS["coulomb"], "contact_dofs = [2]\n" + damping, "forced_response",
@@ -112,12 +104,12 @@ def test_pairs_that_all_have_a_law_need_none_of_the_scene(verdicts):
     refused(checked, "contact.pairs[3].law: missing, where other pairs have one")
 
 
-def test_laws_beside_a_rigid_contact_are_refused_with_their_reason(verdicts):
-    rigid = "[contact]\n" + LAWS["restitution"] + "\n[[contact.pairs]]\ndofs = [2]\n[[contact.pairs]]\ndofs = [1]\n"
+def test_laws_beside_a_rigid_contact_without_a_law_of_impact_are_refused(verdicts):
+    rigid = "[contact]\nlaw = \"rigid\"\ngap = 1e-3\n[[contact.pairs]]\ndofs = [2]\n[[contact.pairs]]\ndofs = [1]\n"
     checked, _ = verdicts(rigid + LAWS["coulomb"], "", solve=False)
-    refused(checked, "contact.pairs[2].law", "friction beside a rigid contact is solved in time alone", '"kelvin_voigt"')
+    refused(checked, "contact.pairs[2].law", "friction beside a rigid contact needs a law of impact", "contact.restitution")
     checked, _ = verdicts(rigid + LAWS["linear"], "", solve=False)
-    refused(checked, "contact.pairs[2].law", "another law beside a rigid contact is solved in time alone")
+    refused(checked, "contact.pairs[2].law", "another law beside a rigid contact needs a law of impact")
 
 
 @pytest.mark.parametrize("tangents, key", [

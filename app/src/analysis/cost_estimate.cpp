@@ -50,7 +50,7 @@ bool is_sweep(const Analysis& analysis) {
 
 bool is_balance(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  return !integrates_in_time(type) && type != AnalysisType::nonlinear_mode && !has_impacts(scene.contact);
+  return !integrates_in_time(type) && type != AnalysisType::nonlinear_mode && !solves_by_impacts(scene);
 }
 
 double structure_bytes(const Scene& scene, const Sizes& sizes) {

@@ -4,6 +4,7 @@
 
 #include "analysis/curve_events.hpp"
 #include "analysis/exact_parts.hpp"
+#include "analysis/impact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -30,8 +31,11 @@ struct Measure {
     point.frequency = over_frequency ? value : frequency;
     point.load_scale = over_frequency ? 1.0 : value;
     point.max_displacement = u.maxCoeff();
+    for (const solvers::Impact& one : motion.impacts)  // where samples miss it
+      point.max_displacement = std::max(
+          point.max_displacement, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(one.contact));
     point.min_displacement = u.minCoeff();
-    point.max_abs_displacement = u.cwiseAbs().maxCoeff();
+    point.max_abs_displacement = std::max(point.max_displacement, -point.min_displacement);
     const solvers::Vibration vibration = solvers::largest_vibration(u);
     point.vibration = vibration.half_peak_to_peak;
     point.rms_vibration = vibration.rms;
@@ -136,7 +140,7 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
   const auto begin = std::chrono::steady_clock::now();
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
   const solvers::ExactCurveOptions options = exact_options<solvers::ExactCurveOptions>(scene, observer);
-  solvers::ContactProblem problem = compose_problem(scene, model);
+  solvers::ContactProblem problem = exact_problem(scene, model);
   solvers::ForcedResponseOptions how;
   how.observer = observer;
   how.stay_near_guess = !start.contacts.empty();

@@ -88,6 +88,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.attractor_periods = stepping.attractor_periods;
   result.unknowns = int(found.multipliers.size());
   result.contacts = stepping.contacts;
+  result.struck = found.impacts;
   result.moves = !result.contacts.empty() && stepping.status != solvers::TimeSteppingStatus::step_failure;
   result.contact = leading_contact(result.contacts, model.gaps);
   if (found.multipliers.size() > 0) result.stability = solvers::stability_of_multipliers(found.multipliers);

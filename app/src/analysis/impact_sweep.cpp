@@ -146,9 +146,8 @@ Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observ
                                 : problem.impact_sweep(options, &first);
   const ImpactMeasure measure{sweep.curve.parameter, scene.forcing.frequency,
                               time_fractions(scene.analysis.output_points)};
+  if (first.lasts()) return exact_sweep(scene, model, observer, {});
   if (!first.motion.converged()) sweep.start_status = to_string(first.motion.status);
-  if (!first.motion.lasting.empty())
-    sweep.start_status = "contact lasts, and curves are those of motions with impacts alone";
   sweep.periods = sweep.motion_periods = options.periods = first.load_periods;
   copy_impacts(curve, measure, first.load_periods, scene.analysis.stability, sweep.curve, sweep.stability,
                sweep.impacts.front());

@@ -16,9 +16,7 @@ FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& pr
                     const StructureModel& model) {
   constexpr double left_out = 1e-9;
   FoundMotion result;
-  const Eigen::VectorXd times = time_fractions(scene.analysis.output_points);
-  result.contacts = {found.motion.displacement(times), found.motion.velocity(times),
-                     found.motion.force(times)};
+  result.contacts = contacts_of(found.motion, scene.analysis.output_points);
   result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (scene.analysis.motion_points > 0)
     result.structure = problem.over_periods(found.periods)
@@ -43,17 +41,21 @@ FoundMotion sampled(solvers::CoexistingImpacts one, int starts, solvers::Contact
   constexpr int most_harmonics = 2048;
   FoundMotion result;
   solvers::ImpactResponse& response = one.response;
-  result.contacts = contacts_of(response.motion, scene.analysis.output_points);
+  const bool lasts = response.lasts();
+  const int points = scene.analysis.output_points;
+  result.contacts = lasts ? contacts_of(response.lasting, points) : contacts_of(response.motion, points);
   result.contact = leading_contact(scene, result.contacts, model.gaps);
-  if (scene.analysis.motion_points > 0)
-    result.structure =
-        problem.over_periods(response.load_periods)
-            .structure_motion(scene.forcing.frequency, response.motion, scene.analysis.motion_points,
-                              {.tolerance = left_out, .max_harmonics = most_harmonics})
-            .motion.displacement;
-  result.iterations = response.motion.iterations;
-  result.unknowns = 2 * static_cast<int>(response.motion.impacts.size());
-  result.residual = response.motion.residual;
+  if (scene.analysis.motion_points > 0) {
+    solvers::ContactProblem longer = problem.over_periods(response.load_periods);
+    const solvers::StructurePhasesOptions how{.tolerance = left_out, .max_harmonics = most_harmonics};
+    const auto whole = [&](const auto& motion) {
+      return longer.structure_motion(scene.forcing.frequency, motion, scene.analysis.motion_points, how);
+    };
+    result.structure = (lasts ? whole(response.lasting) : whole(response.motion)).motion.displacement;
+  }
+  result.iterations = lasts ? response.lasting.iterations : response.motion.iterations;
+  result.unknowns = lasts ? response.lasting.unknowns : 2 * static_cast<int>(response.motion.impacts.size());
+  result.residual = lasts ? response.lasting.residual : response.motion.residual;
   result.found.periods = response.load_periods;
   result.found.stability = solvers::stability_of_multipliers(response.multipliers);
   result.found.found_by = source_of(one);
@@ -63,7 +65,7 @@ FoundMotion sampled(solvers::CoexistingImpacts one, int starts, solvers::Contact
     result.found.share = share;
     result.found.share_error = std::sqrt(share * (1.0 - share) / starts);
   }
-  result.impacts = std::move(response.motion);
+  result.impacts = std::move(response);
   return result;
 }
 
@@ -113,8 +115,8 @@ Motions phase_motions(const Scene& scene, const StructureModel& model, const sol
 Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                            const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
-  Motions result = has_impacts(scene.contact) ? impact_motions(scene, model, observer)
-                                              : phase_motions(scene, model, observer);
+  Motions result = solves_by_impacts(scene) ? impact_motions(scene, model, observer)
+                                            : phase_motions(scene, model, observer);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/impact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -33,6 +34,7 @@ struct PhasesFound {
   std::string status = "no_start";
   std::string strategy;
   int start_functions = 0;
+  int load_periods = 1;
   std::optional<solvers::PhaseMotion> motion;
   std::optional<SettledBeside> settled;  ///< what the structure settles to, where that was the start
 
@@ -79,6 +81,27 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
   return found;
 }
 
+/// From the motion that the structure settles to from event to event, which may repeat after several periods
+/// of the load.
+PhasesFound by_events(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer) {
+  PhasesFound found;
+  if (problem.dynamics() == nullptr) {
+    found.status = "no_modes";
+    return found;
+  }
+  solvers::TimeSteppingOptions stepping;
+  stepping.observer = observer;
+  solvers::SettledExact all = problem.settled_exact(scene.forcing.frequency, stepping,
+                                                    {.tolerance = tolerance_of(scene), .observer = observer});
+  const solvers::Motion& last = all.settled.stepping.contacts;
+  if (!last.empty())
+    found.settled = {all.settled.stepping.attractor_periods, last.displacement.maxCoeff(),
+                     last.force.maxCoeff()};
+  note(found, std::move(all.motion), "from_settling", 0);
+  found.load_periods = all.load_periods;
+  return found;
+}
+
 /// From the motion that the structure settles to, where there is one: its sliders are where the first periods
 /// from rest have put them.
 void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Scene& scene,
@@ -98,12 +121,12 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
 
 void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result) {
-  constexpr double least_left_out = 1e-9;
+  constexpr double least_left_out = 1e-9, of_impacts = 1e-4;  // whose harmonics do not decay
   const double frequency = scene.forcing.frequency;
-  const Eigen::VectorXd times = time_fractions(scene.analysis.output_points);
-  result.contacts = {motion.displacement(times), motion.velocity(times), motion.force(times)};
+  result.contacts = contacts_of(motion, scene.analysis.output_points);
+  result.struck = motion.impacts;
   result.contact = leading_contact(scene, result.contacts, model.gaps);
-  if (is_rigid(scene.contact.law)) {
+  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact)) {
     const auto contact_major = [](const Eigen::MatrixXd& values) -> Eigen::VectorXd {
       return values.transpose().reshaped();
     };
@@ -112,25 +135,30 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
     result.rigid = {held.max_penetration, held.min_force, held.product};
   }
   if (options.structure_points > 0) {
-    solvers::StructurePhases whole =
-        problem.structure_motion(frequency, motion, options.structure_points,
-                                 {.tolerance = std::max(least_left_out, tolerance_of(scene))});
+    solvers::StructurePhases whole = problem.structure_motion(
+        frequency, motion, options.structure_points,
+        {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts, tolerance_of(scene))});
     result.structure = std::move(whole.motion);
     result.structure_harmonics = whole.harmonics;
     result.structure_left_out = whole.left_out;
   }
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
-  note_settled(problem, scene, options.observer, result);
+  if (!moves_by_events(scene)) note_settled(problem, scene, options.observer, result);
 }
 
 /// `settling`: whether to start from that motion where no balance leads to one.
 void solve_by_phases(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                      bool settling, Response& result) {
-  PhasesFound found = from_balances(scene, model, options.observer);
+  const bool events = moves_by_events(scene);
+  PhasesFound found;
+  if (!events) found = from_balances(scene, model, options.observer);
   solvers::ContactProblem problem =
-      compose_problem(balance_of(scene, std::max(phases_starts.front(), found.start_functions)), model);
+      compose_problem(balance_of(scene, std::max({phases_starts.front(), found.start_functions,
+                                                  events ? least_start_functions(scene) : 0})),
+                      model);
+  if (events) found = by_events(scene, problem, options.observer);
   const bool searched = found.status == "no_start" || found.motion.has_value();
-  if (settling && searched && (found.may_go_on() || found.depends_on_history()))
+  if (!events && settling && searched && (found.may_go_on() || found.depends_on_history()))
     try_settling(found, problem, scene, options.observer);
   result.status = found.status;
   result.strategy = found.strategy;
@@ -148,6 +176,8 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
     return;
   }
   result.residual = motion.residual;
+  result.periods = result.motion_periods = found.load_periods;
+  if (found.load_periods > 1) problem = problem.over_periods(found.load_periods);
   copy_motion(problem, motion, scene, model, options, result);
 }
 

@@ -163,9 +163,10 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
     throw std::invalid_argument(
         "--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
         "\" has no start; expected forced_response, frequency_sweep or amplitude_sweep");
-  if (has_impacts(scene.contact))
+  if (solves_by_impacts(scene) || moves_by_events(scene))
     throw std::invalid_argument(
-        "--start-from: not with contact.restitution, whose motions start from what the structure settles to");
+        "--start-from: not with impacts, or friction of bodies with mass that no balance has, whose motions start from "
+        "what the structure settles to");
   if (solves_by_phases(scene))
     throw std::invalid_argument(
         "--start-from: not with time.method = \"phases\", which starts from a coarse balance of its own; expected "

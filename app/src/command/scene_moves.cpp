@@ -251,7 +251,10 @@ Step exact_curve(const Scene& scene) {
   return set_to("analysis.exact", true);
 }
 
-Step curve_of_balance(const Scene&) { return set_to("analysis.exact", false); }
+Step curve_of_balance(const Scene& scene) {
+  if (moves_by_events(scene)) return std::nullopt;
+  return set_to("analysis.exact", false);
+}
 
 Step smaller_step(const Scene& scene) {
   Step step = changed("a smaller", "analysis.largest_step", 0.5 * scene.analysis.largest_step);

@@ -128,14 +128,15 @@ void check_sliders(const Document& document, const std::vector<SceneContact>& co
           "the structure is; expected none, or contact.tangential_stiffness");
 }
 
-/// Rigid friction is solved in the form of the force, at contacts without mass.
+/// Balances solve rigid friction in the form of the force, at contacts without mass.
 void check_rigid_friction(const Document& document, const Scene& scene) {
   if (!names_rigid_friction(scene.contact)) return;
-  if (integrates_in_time(scene.analysis.type)) return check_sliders(document, contacts_of(scene));
   const std::string rigid = "not with friction without contact.tangential_stiffness, which is rigid: ";
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     fail_rule(document, {"analysis.type", "contact.law"},
               rigid + "a mode begins with contacts that stick; expected contact.tangential_stiffness");
+  if (integrates_in_time(scene.analysis.type) || moves_by_events(scene))
+    return check_sliders(document, contacts_of(scene));
   if (!make_laws(scene).have_force_form())
     fail_rule(
         document, {"contact.tangential_stiffness", "contact.law"},
@@ -145,12 +146,6 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
   if (scene.contact.form == ContactForm::displacement)
     fail_rule(document, {"contact.form"},
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
-  if (scene.contact.mass == ContactMass::keep && !scene.structure.massless_tip)
-    fail_rule(
-        document, {"contact.mass"},
-        rigid +
-            "a contact with mass reverses at once, which a balance resolves slowly; expected \"redistribute\", "
-            "or contact.tangential_stiffness");
 }
 
 /// The directions of a contact with friction fit its law.
@@ -259,18 +254,16 @@ void check_tangents(const Document& document, const Scene& scene) {
   }
 }
 
-/// Beside a rigid contact other laws are integrated in time.
+/// Beside a rigid contact other laws are solved for from event to event.
 void check_mixture(const Document& document, const Scene& scene) {
-  if (!is_rigid(scene.contact.law) || integrates_in_time(scene.analysis.type)) return;
+  if (!is_rigid(scene.contact.law) || has_impacts(scene.contact)) return;
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const std::string& law = scene.contact.pairs[i].law;
     if (is_rigid(law)) continue;
-    fail_rule(
-        document, {pair_section(i) + ".law", "contact.law"},
-        std::string(has_friction(law) ? "friction" : "another law") +
-            " beside a rigid contact is solved in time alone; expected analysis.type = \"time_stepping\", or a "
-            "stiff \"linear\" or, for impacts that take energy, \"kelvin_voigt\" law in place of contact.law = "
-            "\"rigid\"");
+    fail_rule(document, {pair_section(i) + ".law", "contact.law"},
+              std::string(has_friction(law) ? "friction" : "another law") +
+                  " beside a rigid contact needs a law of impact; expected contact.restitution, or a stiff "
+                  "\"linear\" law in place of contact.law = \"rigid\"");
   }
 }
 

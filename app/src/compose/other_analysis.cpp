@@ -95,7 +95,7 @@ std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file,
 
 SceneChange as_response(const Scene& scene) {
   SceneChange change{.analysis = "forced_response", .unset = {"time.tolerance"}};
-  if (!has_impacts(scene.contact) && scene.time.trial.empty())
+  if (!solves_by_impacts(scene) && scene.time.trial.empty())
     change.set = {"time.trial=\"fourier\"", "time.weight=\"fourier\"", "time.functions=127"};
   return change;
 }

@@ -103,7 +103,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
 
 /// Settling and phases of contact are those of structures with an equation in time and not too many modes.
 void check_coexisting(const Document& document, const Scene& scene) {
-  if (scene.analysis.type != AnalysisType::motions || has_impacts(scene.contact)) return;
+  if (scene.analysis.type != AnalysisType::motions || solves_by_impacts(scene)) return;
   const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
   if (scene.structure.loss_factor > 0.0)
     fail_rule(
@@ -163,7 +163,7 @@ void check_exact(const Document& document, const Scene& scene) {
         "an exact curve finds its special points as it is followed; expected analysis.special_points = true");
   refuse(analysis.subharmonic > 1, "analysis.subharmonic");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor");
-  if (is_rigid(scene.contact.law))
+  if (is_rigid(scene.contact.law) && !moves_by_events(scene))
     fail_rule(
         document, {"analysis.exact", "contact.law"},
         "not with a rigid contact, whose beginnings and ends are not solved for along a curve; expected an "
@@ -219,7 +219,7 @@ void check_motions(const Document& document, const Scene& scene) {
 
 /// Each series has what its file and the functions can hold.
 void check_series(const Document& document, const Scene& scene) {
-  const bool phases = solves_by_phases(scene) || has_impacts(scene.contact);
+  const bool phases = solves_by_phases(scene) || solves_by_impacts(scene) || moves_by_events(scene);
   const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
   const int functions = phases ? phases_starts.back() : scene.time.functions;
   const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
@@ -279,16 +279,14 @@ void check_impacts(const Document& document, const Scene& scene) {
       "other");
   refuse(scene.structure.massless_tip, "structure.massless_tip",
          "a contact without mass has no impacts; expected false, or no contact.restitution");
-  refuse(
-      scene.structure.matrices.free && !integrates_in_time(scene.analysis.type), "structure.free",
-      "not with contact.restitution: impacts of a structure that is free to move are solved in time alone; expected "
-      "analysis.type = \"time_stepping\", or false and, in structure.stiffness, a spring to ground so soft that its "
-      "force is small beside the loads");
+  refuse(scene.analysis.type == AnalysisType::motions && moves_by_events(scene), "analysis.type",
+         "all motions of impacts are sought where all contacts have them and the structure is held; expected "
+         "another analysis");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
   refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",
          "not with contact.restitution: impacts take energy from a free motion; expected another analysis");
-  refuse(scene.analysis.exact, "analysis.exact",
+  refuse(scene.analysis.exact && !moves_by_events(scene), "analysis.exact",
          "not with contact.restitution, with which curves are exact as they are; expected false");
   refuse(!scene.analysis.motion_at.empty(), "analysis.motion_at",
          "not with contact.restitution; expected none, or analysis.type = \"forced_response\" at one place");
@@ -343,6 +341,18 @@ void check_products(const Document& document, const Scene& scene) {
           "the static displacement of the tip, amplitude x length / (youngs_modulus x area)");
 }
 
+/// The pair of a curve of exact motions whose scene names none: of the balance that it starts from.
+Time start_pair(const Scene& scene) {
+  int functions = 63;
+  for (const ForcingTerm& term : scene.forcing.terms)
+    if (term.samples.empty()) functions = std::max(functions, 2 * term.harmonic + 1);
+  Time time = scene.time;
+  time.trial = time.weight = "fourier";
+  time.functions = functions;
+  time.quadrature_points = 4 * (functions + 1);
+  return time;
+}
+
 }  // namespace
 
 void check_time(const Document& document, const Scene& scene) {
@@ -363,17 +373,18 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
-  const bool impacts = has_impacts(scene.contact), phases = solves_by_phases(scene);
-  const bool balanced = !stepping && !mode && !phases && !impacts;
-  if (phases) check_least_tolerance(document, scene);
+  const bool sweep = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+  const bool events = moves_by_events(scene), phases = solves_by_phases(scene);
+  const bool balanced = !stepping && !mode && !phases && !events && !solves_by_impacts(scene);
+  if (sweep && events) scene.analysis.exact = true;
+  if (sweep && scene.analysis.exact && scene.time.trial.empty()) scene.time = start_pair(scene);
+  if (phases && (!events || scene.time.tolerance > 0.0)) check_least_tolerance(document, scene);
   if (balanced) check_time(document, scene);
   if (mode) check_mode(document, scene);
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
-  if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
-    check_sweep(document, scene);
-  if (type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep)
-    check_motions(document, scene);
+  if (sweep) check_sweep(document, scene);
+  if (sweep) check_motions(document, scene);
   if (!mode) check_series(document, scene);
   if (balanced) check_subharmonic(document, scene);
   check_outputs(document, scene);

@@ -39,17 +39,12 @@ void check_damping(const Document& document, const Scene& scene) {
 /// Contacts with mass alone hold a structure that is free to move.
 void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
-  if (names_friction(scene.contact) && !integrates_in_time(scene.analysis.type))
-    fail_rule(
-        document, {"structure.free", "contact.law"},
-        "not with friction, which is solved in time alone for a structure that is free to move; expected analysis.type = "
-        "\"time_stepping\", or false and, in structure.stiffness, a soft spring to ground, of 1e-5 of "
-        "contact.tangential_stiffness for example");
-  if (names_plane(scene.contact) && !integrates_in_time(scene.analysis.type))
-    fail_rule(
-        document, {"structure.free", "contact.law"},
-        "not with a ring, which is solved in time alone for a structure that is free to move; expected "
-        "analysis.type = \"time_stepping\", or false and a soft spring to ground in structure.stiffness");
+  if (names_friction(scene.contact) && scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document, {"structure.free", "contact.law"},
+              "not with friction, whose modes are those of a structure that is held; expected false");
+  if (names_friction(scene.contact) && scene.contact.mass == ContactMass::redistribute)
+    fail_rule(document, {"contact.mass", "structure.free"},
+              "not of a structure that is free to move; expected \"keep\"");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
     fail_rule(
         document, {"structure.free", "contact.law"},

@@ -11,9 +11,9 @@ namespace {
 
 /// The impacts of a contact in the order in which the window shows them, with their instants there.
 std::vector<solvers::Impact> shown_impacts(const PeriodWindow& window,
-                                           const solvers::ImpactResponse& response, int contact) {
+                                           const std::vector<solvers::Impact>& all, int contact) {
   std::vector<solvers::Impact> impacts;
-  for (solvers::Impact one : response.motion.impacts) {
+  for (solvers::Impact one : all) {
     if (one.contact != contact) continue;
     one.time = window.instant(one.time);
     impacts.push_back(one);
@@ -25,11 +25,11 @@ std::vector<solvers::Impact> shown_impacts(const PeriodWindow& window,
 }  // namespace
 
 void add_velocity_with_jumps(Figure& figure, const PeriodWindow& window, const std::string& title,
-                             const solvers::ImpactResponse& response, int contact,
+                             const std::vector<solvers::Impact>& all, int contact,
                              const Eigen::VectorXd& velocity) {
   std::vector<double> times, values;
   const Series samples = window.curve(velocity);
-  const std::vector<solvers::Impact> impacts = shown_impacts(window, response, contact);
+  const std::vector<solvers::Impact> impacts = shown_impacts(window, all, contact);
   auto impact = impacts.begin();
   for (std::size_t l = 0; l < samples.x.size(); ++l) {
     for (; impact != impacts.end() && impact->time <= samples.x[l]; ++impact) {
@@ -50,9 +50,9 @@ void add_velocity_with_jumps(Figure& figure, const PeriodWindow& window, const s
 }
 
 void add_impulses(Figure& figure, const PeriodWindow& window, const std::string& title,
-                  const solvers::ImpactResponse& response, int contact) {
+                  const std::vector<solvers::Impact>& all, int contact) {
   std::vector<double> times, impulses;
-  for (const solvers::Impact& impact : shown_impacts(window, response, contact)) {
+  for (const solvers::Impact& impact : shown_impacts(window, all, contact)) {
     times.push_back(impact.time);
     impulses.push_back(impact.impulse);
   }

@@ -1,21 +1,22 @@
 #pragma once
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "drawing/period_window.hpp"
 #include "wavebalance/app/plot/plot.hpp"
-#include "wavebalance/solvers/impacts/impact_response.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::app {
 
 /// The velocity of a contact over the period, sampled at uniform instants (m/s), with both values at each of
 /// its impacts, so that these are drawn as jumps.
 void add_velocity_with_jumps(Figure& figure, const PeriodWindow& window, const std::string& title,
-                             const solvers::ImpactResponse& response, int contact,
+                             const std::vector<solvers::Impact>& all, int contact,
                              const Eigen::VectorXd& velocity);
 
 /// The impulses of a contact as lines at their instants.
 void add_impulses(Figure& figure, const PeriodWindow& window, const std::string& title,
-                  const solvers::ImpactResponse& response, int contact);
+                  const std::vector<solvers::Impact>& all, int contact);
 
 }  // namespace wavebalance::app

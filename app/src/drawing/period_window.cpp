@@ -14,8 +14,8 @@ std::vector<bool> closed_instants(const Response& response) {
   const Eigen::VectorXd force = response.force();
   std::vector<bool> closed(std::size_t(force.size()));
   for (Eigen::Index i = 0; i < force.size(); ++i) closed[std::size_t(i)] = force[i] != 0.0;
-  if (!response.impacts || closed.empty()) return closed;
-  for (const solvers::Impact& one : response.impacts->motion.impacts)
+  if (closed.empty()) return closed;
+  for (const solvers::Impact& one : response.struck)
     if (one.contact == response.contact)
       closed[std::size_t(std::floor(one.time * double(closed.size()))) % closed.size()] = true;
   return closed;
@@ -37,7 +37,6 @@ std::pair<std::size_t, std::size_t> longest_open_run(const std::vector<bool>& cl
 }  // namespace
 
 PeriodWindow::PeriodWindow(const Response& response) : periods_(response.periods) {
-  if (response.impacts) periods_ = response.impacts->load_periods;
   const std::vector<bool> closed = closed_instants(response);
   const auto [begin, length] = longest_open_run(closed);
   const std::size_t n = closed.size();

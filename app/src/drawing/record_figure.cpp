@@ -56,7 +56,7 @@ std::string method_title(const Scene& scene) {
            ", N = " + std::to_string(scene.analysis.harmonics) +
            ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
-  if (has_impacts(scene.contact)) return "impacts, " + structure_title(scene);
+  if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
   if (solves_by_phases(scene) || scene.analysis.exact)
     return "exact periodic solution" + std::string(is_curve(scene) ? "s" : "");
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
@@ -224,18 +224,17 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
                               contacts.size() > 1 ? ", " + title_of(contact) : ""};
   const std::string unit = displacement_unit(scene, contact), force_unit = unit == "rad" ? "N m" : "N";
   add_motion(figure, picture, "Displacement", unit, response.displacement());
-  if (response.impacts) {
-    add_velocity_with_jumps(figure, window, "Velocity" + picture.name, *response.impacts, response.contact,
+  if (response.impacts || !response.struck.empty()) {
+    add_velocity_with_jumps(figure, window, "Velocity" + picture.name, response.struck, response.contact,
                             response.velocity());
-    add_impulses(figure, window, "Impulses of impacts" + picture.name, *response.impacts, response.contact);
-    if (!response.impacts->motion.lasting.empty())
-      add_motion(figure, picture, "Contact force", force_unit, response.force());
+    add_impulses(figure, window, "Impulses of impacts" + picture.name, response.struck, response.contact);
   } else {
     add_motion(figure, picture, "Velocity", unit + "/s", response.velocity());
+  }
+  if (response.forces_are_known())
     add_motion(figure, picture,
                has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force",
                force_unit, response.force());
-  }
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));

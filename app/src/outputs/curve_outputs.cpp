@@ -70,13 +70,12 @@ class MotionMeasurer {
     });
   }
 
-  /// The force of an impact is not known, that of a contact that lasts is.
+  /// The force of an impact is not known.
   MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ImpactMotion& motion) {
     const solvers::ContactSource source{
         [&](int count) { return motion.force_harmonics(count); },
         [&](const Eigen::VectorXd& times) { return motion.displacement(times); }};
-    const Eigen::MatrixXd force = motion.lasting.empty() ? Eigen::MatrixXd() : motion.force(times_);
-    return measured(motion.displacement(times_), force, [&] {
+    return measured(motion.displacement(times_), Eigen::MatrixXd(), [&] {
       return solvers::structure_motion_of(
           held_at(point), source, points_,
           {.tolerance = impacts_left_out, .max_harmonics = most_impact_harmonics});
@@ -164,7 +163,7 @@ std::vector<std::vector<MeasuredPoint>> along_curves(const Scene& scene, const S
       curves.push_back(
           along_motions(std::move(measurer), sweep.impact_motions[i], curve_of(i), observer, cancelled));
     } else if (!sweep.exact_motions.empty()) {
-      MotionMeasurer measurer(scene, model, outputs, compose_problem(scene, model), 1);
+      MotionMeasurer measurer(scene, model, outputs, exact_problem(scene, model), 1);
       curves.push_back(
           along_motions(std::move(measurer), sweep.exact_motions, curve_of(i), observer, cancelled));
     } else {

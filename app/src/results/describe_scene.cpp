@@ -204,7 +204,7 @@ std::string starts_line(const Scene& scene) {
   return fmt::format(
       "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
       analysis.longest_period, analysis.random_starts, analysis.seed,
-      has_impacts(scene.contact)
+      solves_by_impacts(scene)
           ? "instants and impulses of impacts"
           : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
 }
@@ -227,7 +227,7 @@ std::string impacts_line(const Scene& scene) {
 std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
   if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
-  if (has_impacts(scene.contact)) return impacts_line(scene);
+  if (solves_by_impacts(scene)) return impacts_line(scene);
   if (scene.analysis.exact) return exact_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
@@ -240,7 +240,7 @@ std::string size_line(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
-  const bool has_no_functions = solves_by_phases(scene) || has_impacts(scene.contact) || scene.analysis.exact;
+  const bool has_no_functions = solves_by_phases(scene) || solves_by_impacts(scene) || scene.analysis.exact;
   if (has_no_functions || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",

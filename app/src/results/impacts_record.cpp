@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "files/missing.hpp"
@@ -12,46 +13,66 @@
 namespace wavebalance::app {
 namespace {
 
-/// Where contact lasts, and from when on.
-void warn_of_lasting_contact(Record& record, const solvers::ImpactMotion& motion, double frequency) {
+/// Where contact lasts, and from when on, though no motion was found in which it does.
+void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& response, double frequency) {
   using solvers::ImpactStatus;
-  if (motion.status != ImpactStatus::chattering && motion.status != ImpactStatus::lasting_contact) return;
+  const solvers::ImpactMotion& motion = response.motion;
   const bool chatters = motion.status == ImpactStatus::chattering;
+  if (response.lasts() || (!chatters && motion.status != ImpactStatus::lasting_contact)) return;
   record.warnings.push_back(fmt::format(
-      "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. {}",
+      "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. No periodic "
+      "motion with this contact closed was found.",
       chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound is pressed on",
-      motion.chattering_contact + 1, motion.chattering_end / frequency,
-      chatters
-          ? "Motions with contact that lasts are solved for without rebound alone, contact.restitution = 0."
-          : "No periodic motion with this contact closed was found."));
+      motion.chattering_contact + 1, motion.chattering_end / frequency));
 }
 
-/// contact, begin, end (fractions of the motion's period): those that stay closed.
-Table lasting_table(const solvers::ImpactMotion& motion) {
+/// contact, begin, end (fractions of the motion's period): obstacles with impacts on which a contact rests.
+Table lasting_table(const Scene& scene, const Response& response) {
   Table table({"contact", "begin", "end"});
-  for (const solvers::LastingContact& one : motion.lasting)
-    table.append_row({std::int64_t{one.contact + 1}, one.begin, one.end});
+  if (!response.phases) return table;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  for (const solvers::ContactPhase& one : response.phases->motion.phases)
+    if (const SceneContact& contact = contacts.at(std::size_t(one.contact)); is_rigid(contact.law))
+      table.append_row({std::int64_t{contact.number}, one.begin, one.end});
   return table;
 }
 
-/// The largest displacement of the leading contact, at the samples and at impacts.
-double highest(const solvers::ImpactMotion& motion, const Response& response) {
-  double largest = response.displacement().maxCoeff();
-  for (const solvers::Impact& one : motion.impacts)
-    largest =
-        std::max(largest, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(response.contact));
+template <class Motion>
+double highest_of(const Motion& motion, const std::vector<solvers::Impact>& impacts) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const solvers::Impact& one : impacts)
+    largest = std::max(largest, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(one.contact));
   return largest;
+}
+
+/// The largest displacement of the leading contact, at the samples and at its impacts.
+double highest(const Response& response) {
+  std::vector<solvers::Impact> own;
+  for (const solvers::Impact& one : response.struck)
+    if (one.contact == response.contact) own.push_back(one);
+  double at_impacts = response.displacement().maxCoeff();
+  if (response.phases && response.phases->motion.parts)
+    at_impacts = std::max(at_impacts, highest_of(response.phases->motion, own));
+  else if (response.impacts)
+    at_impacts = std::max(at_impacts, highest_of(response.impacts->motion, own));
+  return at_impacts;
 }
 
 }  // namespace
 
-Table impacts_table(const solvers::ImpactMotion& motion) {
+double highest_at_impacts(const solvers::ImpactResponse& response) {
+  return response.lasts() ? highest_of(response.lasting, response.impacts())
+                          : highest_of(response.motion, response.impacts());
+}
+
+Table impacts_table(const Scene& scene, const std::vector<solvers::Impact>& impacts) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
   Table table({"impact", "time_fraction", "contact", "velocity_before_m_per_s", "velocity_after_m_per_s",
                "impulse_Ns", "energy_lost_J"});
   std::int64_t number = 0;
-  for (const solvers::Impact& one : motion.impacts)
-    table.append_row({++number, one.time, std::int64_t{one.contact + 1}, one.velocity_before,
-                      one.velocity_after, one.impulse, one.energy_lost});
+  for (const solvers::Impact& one : impacts)
+    table.append_row({++number, one.time, std::int64_t{contacts.at(std::size_t(one.contact)).number},
+                      one.velocity_before, one.velocity_after, one.impulse, one.energy_lost});
   return table;
 }
 
@@ -60,15 +81,10 @@ void append_events(Record& record, const Response& response, double frequency) {
   constexpr std::array<const char*, 4> names{"open", "closed", "stick", "slip"};
   const solvers::FlowMotion& flow = *response.flow;
   Table table({"time_fraction", "contact", "state", "impulse_Ns", "velocity_before_m_per_s"});
-  std::int64_t impacts = 0;
-  double impulse = 0.0, velocity = 0.0;
   for (const solvers::FlowEvent& one : flow.events) {
     const auto kind = flow.machines[std::size_t(one.contact)].law->kind(one.to);
     table.append_row({one.time * frequency, std::int64_t{one.contact + 1},
                       std::string(names[std::size_t(kind)]), one.impulse, one.speed});
-    impacts += one.impulse > 0.0;
-    impulse = std::max(impulse, one.impulse);
-    velocity = std::max(velocity, one.speed);
   }
   for (std::size_t c = 0; c < flow.machines.size(); ++c) {
     const bool changes = std::any_of(flow.events.begin(), flow.events.end(),
@@ -78,11 +94,6 @@ void append_events(Record& record, const Response& response, double frequency) {
           "Contact {} sticks all the time. Where it sticks depends on the start: the contacts begin at rest, and the "
           "structure elsewhere in its motion without contact.",
           c + 1));
-  }
-  if (impacts > 0) {
-    record.summary.emplace_back(quantities::impacts, double(impacts));
-    record.summary.emplace_back(quantities::max_impulse, impulse);
-    record.summary.emplace_back(quantities::max_impact_velocity, velocity);
   }
   if (flow.rests > 0)
     record.warnings.push_back(fmt::format(
@@ -111,32 +122,31 @@ void append_endless(Record& record, const Response& response, double frequency) 
 void append_impacts(Record& record, const Scene& scene, const Response& response) {
   append_endless(record, response, scene.forcing.frequency);
   append_events(record, response, scene.forcing.frequency);
-  if (!response.impacts) return;
-  const solvers::ImpactMotion& motion = response.impacts->motion;
-  double impulse = 0.0, velocity = 0.0;
-  for (const solvers::Impact& one : motion.impacts) {
+  if (!response.impacts && response.struck.empty()) return;
+  double impulse = 0.0, velocity = 0.0, energy = 0.0;
+  for (const solvers::Impact& one : response.struck) {
     impulse = std::max(impulse, one.impulse);
     velocity = std::max(velocity, one.velocity_before);
+    energy += one.energy_lost / response.periods;
   }
   const bool known = response.moves;
   // Samples miss the instants at which a contact is at its gap, and impacts have no force.
   for (Entry& entry : record.summary) {
-    if (motion.lasting.empty() && entry.name == quantities::max_contact_force.name) entry.value = missing;
-    if (known && !motion.impacts.empty() && entry.name == quantities::max_displacement.name)
-      entry.value = highest(motion, response);
+    if (!response.forces_are_known() && entry.name == quantities::max_contact_force.name)
+      entry.value = missing;
+    if (known && entry.name == quantities::max_displacement.name) entry.value = highest(response);
   }
-  record.summary.emplace_back(quantities::impacts, known ? double(motion.impacts.size()) : missing);
+  record.summary.emplace_back(quantities::impacts, known ? double(response.struck.size()) : missing);
   record.summary.emplace_back(quantities::max_impulse, known ? impulse : missing);
   record.summary.emplace_back(quantities::max_impact_velocity, known ? velocity : missing);
-  record.summary.emplace_back(quantities::impact_energy,
-                              known ? motion.energy_lost() / response.impacts->load_periods : missing);
-  if (known && response.impacts->load_periods > 1)
-    record.summary.emplace_back(quantities::period_of_motion, std::int64_t{response.impacts->load_periods});
-  if (!motion.lasting.empty())
-    record.summary.emplace_back(quantities::lasting_contacts, lasting_table(motion));
-  warn_of_lasting_contact(record, motion, scene.forcing.frequency);
-  if (known && !motion.impacts.empty())
-    record.files.push_back({"impacts.csv", csv_text(impacts_table(motion)),
+  record.summary.emplace_back(quantities::impact_energy, known ? energy : missing);
+  if (response.impacts && known && response.periods > 1)
+    record.summary.emplace_back(quantities::period_of_motion, std::int64_t{response.periods});
+  if (const Table lasting = lasting_table(scene, response); lasting.rows() > 0)
+    record.summary.emplace_back(quantities::lasting_contacts, lasting);
+  if (response.impacts) warn_of_lasting_contact(record, *response.impacts, scene.forcing.frequency);
+  if (known && !response.struck.empty())
+    record.files.push_back({"impacts.csv", csv_text(impacts_table(scene, response.struck)),
                             "the impacts of a period: instants, velocities, impulses and energies"});
 }
 

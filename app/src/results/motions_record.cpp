@@ -21,17 +21,13 @@ std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}",
 
 /// Missing of a motion with impacts, which pass on impulses.
 double largest_force(const FoundMotion& one) {
-  return one.impacts && one.impacts->lasting.empty() ? missing : one.contacts.force.maxCoeff();
+  return one.impacts && !one.impacts->lasts() ? missing : one.contacts.force.maxCoeff();
 }
 
 /// The largest displacement, at samples and at impacts, which lie between them.
 double largest_displacement(const FoundMotion& one) {
   double largest = one.contacts.displacement.maxCoeff();
-  if (one.impacts)
-    for (const solvers::Impact& impact : one.impacts->impacts)
-      largest = std::max(
-          largest, one.impacts->displacement(Eigen::VectorXd::Constant(1, impact.time))(impact.contact));
-  return largest;
+  return one.impacts ? std::max(largest, highest_at_impacts(*one.impacts)) : largest;
 }
 
 Table motions_table(const Motions& all) {
@@ -66,8 +62,8 @@ void append_files(Record& record, const Scene& scene, const StructureModel& mode
     record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
                             about + ": every contact"});
   if (motion.impacts)
-    record.files.push_back(
-        {name + "_impacts.csv", csv_text(impacts_table(*motion.impacts)), about + ": its impacts"});
+    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(scene, motion.impacts->impacts())),
+                            about + ": its impacts"});
   for (RecordFile& file : motion_files(model, motion.structure, name)) {
     file.about = about + ": the whole structure";
     record.files.push_back(std::move(file));
@@ -141,7 +137,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary.emplace_back(quantities::max_contact_force, largest(all, largest_force));
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
-  const bool impacts = has_impacts(scene.contact);
+  const bool impacts = solves_by_impacts(scene);
   record.summary.emplace_back(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::phases));
   record.summary.emplace_back(quantities::random_starts, std::int64_t{all.starts});
   record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});

@@ -140,9 +140,7 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
   const Eigen::MatrixXd motion =
       motion_of_outputs(outputs, scene, model, response.contacts, response.structure.displacement);
   const int harmonics = scene.analysis.output_harmonics;
-  // Of impacts only the force of contacts that last is known.
-  const bool forces = !response.impacts || !response.impacts->motion.lasting.empty();
-  const Eigen::MatrixXd force = forces ? response.contacts.force : Eigen::MatrixXd();
+  const Eigen::MatrixXd force = response.forces_are_known() ? response.contacts.force : Eigen::MatrixXd();
   record.outputs.add_column("time_fraction", time_fractions(int(motion.cols())));
   for (std::size_t i = 0; i < outputs.size(); ++i)
     record.outputs.add_column(outputs[i].column + "_" + outputs[i].unit,

@@ -134,7 +134,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (!response.solved_by.empty()) record.summary.emplace_back(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
   const bool touches =
-      response.impacts ? !response.impacts->motion.impacts.empty() : response.contacts.force.any();
+      !response.struck.empty() || (response.forces_are_known() && response.contacts.force.any());
   if (response.moves && scene.contact.law != no_law && !touches) {
     const bool ring = names_plane(scene.contact);  // which is reached along any radius
     const double gap = ring ? missing : model.gaps[response.contact];
@@ -192,7 +192,7 @@ double least_displacement(const solvers::FrequencySweep& curve) {
 /// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
 /// where contacts differ, and where the displacement alone does not say it.
 double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
-  if (curve.points.empty() || has_impacts(scene.contact)) return missing;
+  if (curve.points.empty() || solves_by_impacts(scene)) return missing;
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
     return !other.pair && other.same_law(contacts.front());
@@ -235,7 +235,10 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (!sweep.start_status.empty() && !record.interrupted)
     record.warnings.push_back(
         fmt::format("Where the curve was to begin no periodic motion was found that a curve begins with: {}.",
-                    sweep.start_status));
+                    sweep.start_status) +
+        (sweep.start_status == "undetermined"
+             ? " Nothing holds a body, whose motion may be anywhere; a soft spring to ground holds it."
+             : ""));
   const double highest = largest(sweep.curve, &solvers::SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
@@ -266,9 +269,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (scene.analysis.branches) append_branches(record, sweep);
   append_isolas(record, scene, sweep);
   append_motions(record, scene, model, sweep, motions);
-  if (has_impacts(scene.contact)) {
+  if (!sweep.impacts.empty()) {
     record.summary.emplace_back(quantities::solved_by, "impacts");
-  } else if (scene.analysis.exact) {
+  } else if (!sweep.exact_motions.empty() || scene.analysis.exact) {
     record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
   } else {
     append_discretisation(record.summary, scene.time);
@@ -286,7 +289,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                    const StartMotion& start) {
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  if (has_impacts(scene.contact)) return impact_sweep(scene, model, observer);
+  if (solves_by_impacts(scene)) return impact_sweep(scene, model, observer);
   if (scene.analysis.exact) {
     Sweep sweep = exact_sweep(scene, model, observer, start);
     add_isolas(scene, model, sweep, observer);
@@ -319,8 +322,7 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
                      ResponseOptions options) {
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases;
-  if (has_impacts(scene.contact))
-    return response_record(scene, model, impacts_response(scene, model, options));
+  if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);
@@ -348,14 +350,12 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
     case AnalysisType::time_stepping:
       if (integrates_by_events(scene))
         return response_record(scene, model, flow_response(scene, model, options));
-      return response_record(scene, model,
-                             has_impacts(scene.contact) ? impacts_response(scene, model, options)
-                                                        : time_stepping_response(scene, model, options));
+      return response_record(scene, model, time_stepping_response(scene, model, options));
     case AnalysisType::shooting:
       options.stability = true;
       return response_record(scene, model,
-                             has_impacts(scene.contact) ? impacts_response(scene, model, options)
-                                                        : phases_response(scene, model, options));
+                             solves_by_impacts(scene) ? impacts_response(scene, model, options)
+                                                      : phases_response(scene, model, options));
     case AnalysisType::motions:
       return motions_record(scene, model, how.observer);
     case AnalysisType::forced_response:

@@ -153,12 +153,8 @@ bool has_friction(const Scene& scene) {
 }
 
 bool integrates_by_events(const Scene& scene) {
-  if (!integrates_in_time(scene.analysis.type)) return false;
-  const std::vector<SceneContact> contacts = contacts_of(scene);
-  const bool rebounds = has_impacts(scene.contact);
-  return has_friction(scene) || names_plane(scene.contact) || (rebounds && scene.structure.matrices.free) ||
-         (rebounds && std::any_of(contacts.begin(), contacts.end(),
-                                  [](const SceneContact& one) { return !is_rigid(one.law); }));
+  return integrates_in_time(scene.analysis.type) &&
+         (has_friction(scene) || names_plane(scene.contact) || has_impacts(scene.contact));
 }
 
 double common_gap(const Scene& scene) {

@@ -69,6 +69,19 @@ bool has_impacts(const Contact& contact) {
   return is_rigid(contact.law) && contact.values.contains("restitution");
 }
 
+bool moves_by_events(const Scene& scene) {
+  const Contact& contact = scene.contact;
+  const bool free = scene.structure.matrices.free;
+  if (has_impacts(contact))
+    return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                               [](const ContactPair& pair) { return !is_rigid(pair.law); });
+  const bool with_mass = contact.mass == ContactMass::keep && !scene.structure.massless_tip;
+  return (free && (names_friction(contact) || names_plane(contact))) ||
+         (with_mass && names_rigid_friction(contact));
+}
+
+bool solves_by_impacts(const Scene& scene) { return has_impacts(scene.contact) && !moves_by_events(scene); }
+
 Scene with_longer_period(Scene scene, int times) {
   Time& time = scene.time;
   const bool odd = time.functions % 2 == 1 && !is_wavelet(time.trial) && !is_wavelet(time.weight);
@@ -83,6 +96,7 @@ bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_s
 
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
+  if (moves_by_events(scene)) return type == AnalysisType::shooting || type == AnalysisType::forced_response;
   if (has_impacts(scene.contact)) return false;
   return type == AnalysisType::shooting || type == AnalysisType::motions ||
          (type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases);
@@ -110,7 +124,7 @@ std::vector<std::string> input_files(const Scene& scene) {
 
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (integrates_in_time(type) || has_impacts(scene.contact)) return false;
+  if (integrates_in_time(type) || has_impacts(scene.contact) || moves_by_events(scene)) return false;
   const bool rigid = (is_rigid(scene.contact.law) || names_rigid_friction(scene.contact)) &&
                      type != AnalysisType::nonlinear_mode;
   return scene.contact.mass == ContactMass::redistribute ||

@@ -55,6 +55,7 @@ Condition operator&&(Condition left, const Condition& right) {
 }
 
 bool SceneKey::required_in(const Scene& scene) const {
+  if (section == "time" && moves_by_events(scene)) return false;
   if (!belongs.holds(scene) || (in_pairs && !scene.contact.pairs.empty())) return false;
   if (in_terms && !scene.forcing.terms.empty()) return false;
   if (fallback == Default::derived) return !needed.empty() && needed.holds(scene);

@@ -309,9 +309,11 @@ Scene read_scene(const Document& given) {
   };
   read([](const SceneKey& key) { return governs(key) && key.belongs.empty(); });
   read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
-  read([](const SceneKey& key) { return !governs(key); });
+  const auto of_time = [](const SceneKey& key) { return key.section == "time"; };
+  read([&](const SceneKey& key) { return !governs(key) && !of_time(key); });
   read_pairs(document, scene);
   read_terms(document, scene);
+  read([&](const SceneKey& key) { return !governs(key) && of_time(key); });  // laws of pairs may need none
   return scene;
 }
 

@@ -246,15 +246,25 @@ class MapTracer : public CurveTracer {
   int failures_ = 0;
 };
 
+// A body that nothing holds may be elsewhere, and the motion still comes back.
+bool is_undetermined(const MapPoint& point) {
+  constexpr double rounding = 1e-9;
+  const Eigen::VectorXcd& all = point.slopes.multipliers;
+  return std::any_of(all.begin(), all.end(),
+                     [](std::complex<double> one) { return std::abs(one - 1.0) < rounding; });
+}
+
 }  // namespace
 
 ExactCurve map_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options) {
   ExactCurve curve;
   MapPath path(family, first, options);
-  PointOnCurve start = path.first(options.from, first, options.to > options.from ? 1.0 : -1.0);
+  const auto start = path.first(options.from, first, options.to > options.from ? 1.0 : -1.0);
   if (path.cancelled()) curve.status = SweepStatus::cancelled;
-  if (start)
-    MapTracer(path, curve, std::move(start)).run();
+  if (start && is_undetermined(*start))
+    curve.start = PhasesStatus::undetermined;
+  else if (start)
+    MapTracer(path, curve, start).run();
   else
     curve.start = PhasesStatus::not_found;
   return curve;

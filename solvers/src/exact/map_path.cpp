@@ -36,6 +36,8 @@ ContactPattern pattern_of(const ContactFlow& flow) {
       open = kind == ContactState::open;
       if (law.memories() > 0 && kind != ContactState::stick) slips += panel.end - panel.begin;
     }
+    for (const FlowEvent& one : flow.events())  // a rebound opens and closes at once
+      if (one.contact == int(c) && one.impulse > 0.0 && law.kind(one.to) == ContactState::open) passages += 2;
     pattern.passages.push_back(passages);
     pattern.slips = pattern.slips || slips > shortest * flow.period();
   }
@@ -44,13 +46,15 @@ ContactPattern pattern_of(const ContactFlow& flow) {
 
 // Sets how far the beginning is from events.
 void set_calm(const ContactFlow& flow, MapPoint& point) {
-  if (flow.events().empty()) return;
-  const double first = flow.events().front().time, last = flow.events().back().time, whole = flow.period();
+  point.events = flow.events();
+  if (point.events.empty()) return;
+  const double first = point.events.front().time, last = point.events.back().time, whole = flow.period();
   point.nearest_event = std::min(first, whole - last) / whole;
-  point.calm = (first + whole - last) / whole;
-  for (std::size_t i = 1; i < flow.events().size(); ++i)
-    point.calm = std::max(point.calm, (flow.events()[i].time - flow.events()[i - 1].time) / whole);
+  point.calm = longest_calm(point.events, whole).length / whole;
 }
+
+// In the middle a contact may be about to touch.
+constexpr double share_of_calm = 0.375;
 
 }  // namespace
 
@@ -81,12 +85,10 @@ std::optional<MapPath::Period> MapPath::period(const MapStart& start, double tol
   const Index states = start.state.size(), rows = family().dynamics().contacts();
   if (with_map) flow.perturb(Eigen::MatrixXd::Identity(states, states));
   Eigen::MatrixXd displacement(rows, points);
-  const Index begin = std::lround(start.begin * points);
-  const auto sample = [&](const FlowSample& at) {
-    const Index k = begin + std::lround(at.time / flow.period() * points);
-    displacement.col(k % points) = at.displacement;
-  };
-  const FlowStatus status = points > 0 ? flow.advance_period(points, sample) : flow.advance_period();
+  const auto first = Index(std::ceil(start.begin * points));  // after the beginning
+  Index next = first;
+  const auto sample = [&](const FlowSample& at) { displacement.col(next++ % points) = at.displacement; };
+  const FlowStatus status = flow.advance_period(points, sample, double(first) - start.begin * points);
   operations_ += period_operations(flow, int(rows));
   if (status != FlowStatus::converged) return std::nullopt;
   const Eigen::VectorXd change = flow.state() - start.state, weights = flow.displacements_by_state();
@@ -279,7 +281,7 @@ std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd&
   point->start = found.start;
   point->pattern = pattern_of(found.flow);
   set_calm(found.flow, *point);
-  point->motion = motion_of(family().at(point->value), found.flow, point->start.begin);
+  point->motion = motion_of(family().at(point->value), found.flow, point->start);
   const Eigen::MatrixXd displacement = point->motion.displacement(times());
   point->displacement = displacement.reshaped();
   point->vibration = vibration_of(displacement);
@@ -298,6 +300,7 @@ std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd&
 std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::VectorXd& held,
                                           const std::optional<MapSlopes>& slopes) const {
   constexpr double finest = 1e-12, coarser = 100.0, safety = 3.0;
+  constexpr double known = 1e-6;  // beside a grazing impact each tolerance leads elsewhere
   for (;; tolerance_ /= coarser) {
     auto found = closed(start, held, slopes, tolerance_);
     if (!found) return nullptr;
@@ -312,28 +315,30 @@ std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::Ve
     point->motion.estimated_error = std::max(error, 1e-13);
     const bool met = error <= options().phases.tolerance;
     point->motion.status = met ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
-    if (met || tolerance_ < 1.1 * finest) return point;
+    if (met) return point;
+    if (tolerance_ < 1.1 * finest) return error < known ? point : nullptr;
   }
 }
 
-MapStart MapPath::start_near(double value, const Eigen::MatrixXd& displacement,
+MapStart MapPath::near_start(double value, const Eigen::MatrixXd& displacement,
                              const Eigen::MatrixXd& force) const {
-  const PhasesProblem problem = family().at(value);
-  // In the middle a contact may be about to touch.
-  constexpr double share_of_calm = 0.375;
-  const FlowStart from = flow_start(problem, displacement, force, share_of_calm);
-  ContactFlow flow(begun_at(problem, from.begin), {});
-  flow.start_near(from.harmonics, from.displacement, from.force);
-  return {from.begin, value, flow.state(), flow.contact_states()};
+  return {start_near(family().at(value), displacement, force, share_of_calm), value};
 }
 
 std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
-  const MapStart start = start_near(value, motion.displacement(times()), motion.force(times()));
-  return solved(start, forwards * along_parameter(start.state.size()), {});
+  const std::optional<PeriodStart>& known = motion.parts->start;
+  const MapStart from = known ? MapStart{*known, value}
+                              : near_start(value, motion.displacement(times()), motion.force(times()));
+  return solved(from, forwards * along_parameter(from.state.size()), {});
 }
 
 std::shared_ptr<MapPoint> MapPath::begun_anew(const MapPoint& point) const {
-  auto anew = first(point.value, point.motion, 1.0);
+  const PhasesProblem problem = family().at(point.value);
+  const auto from =
+      point.events.empty()
+          ? start_near(problem, point.motion.displacement(times()), point.motion.force(times()), 0.0)
+          : calmed(problem, point.start, point.events, share_of_calm, {.tolerance = tolerance_});
+  auto anew = from ? solved({*from, point.value}, along_parameter(from->state.size()), {}) : nullptr;
   if (!anew) return nullptr;
   const double scale = arc_scale(point), size = double(point.displacement.size());
   const double ahead =

@@ -11,12 +11,9 @@
 
 namespace wavebalance::solvers::detail {
 
-/// A state from which a period may begin, `begin` periods after time 0.
-struct MapStart {
-  double begin = 0.0;
-  double value = 0.0;  ///< of the parameter
-  Eigen::VectorXd state;
-  std::vector<int> contacts;
+/// A state in which a period begins at a value of the parameter.
+struct MapStart : PeriodStart {
+  double value = 0.0;
 };
 
 /// What changes along a curve where a contact begins to touch, to open or to slip.
@@ -37,6 +34,7 @@ struct MapPoint : CurvePoint {
   Eigen::VectorXd weights;  ///< m, of the states in displacements
   MapSlopes slopes;
   ContactPattern pattern;
+  std::vector<FlowEvent> events;           ///< of the period from the start
   double nearest_event = 1.0, calm = 1.0;  ///< periods: from the beginning, and the longest time without one
   Eigen::VectorXd direction;               ///< of the states and the parameter by arc length, forwards
   Eigen::VectorXd displacement_direction;  ///< m, of CurvePoint::displacement by arc length
@@ -91,7 +89,7 @@ class MapPath : public CurvePath {
   };
 
   std::optional<Closed> closed_as_kept(double value, const Eigen::VectorXd& displacement) const;
-  MapStart start_near(double value, const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
+  MapStart near_start(double value, const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& force) const;
   std::optional<Period> period(const MapStart& start, double tolerance, bool with_map, int points = 0) const;
   Eigen::MatrixXd off_center_by_moves(const MapStart& start, const Period& own, double tolerance,
                                       const MapSlopes& slopes) const;

@@ -5,6 +5,23 @@
 #include "linalg/index.hpp"
 
 namespace wavebalance::solvers::detail {
+namespace {
+
+// Rows and columns scaled to one another. Where a body is free to move somewhere the shortest solution leaves
+// it.
+Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  constexpr double singular = 1e-9;
+  const Eigen::VectorXd rows = matrix.rowwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd by_rows = rows.asDiagonal() * matrix;
+  const Eigen::VectorXd columns = by_rows.colwise().norm().cwiseMax(1e-300).cwiseInverse();
+  const Eigen::MatrixXd scaled = by_rows * columns.asDiagonal();
+  const Eigen::VectorXd all = rows.cwiseProduct(right);
+  const Lu<double> lu(scaled);
+  return columns.cwiseProduct(lu.is_singular(singular) ? least_squares(scaled, all, singular)
+                                                       : Eigen::VectorXd(lu.solve(all)));
+}
+
+}  // namespace
 
 Eigen::VectorXd MapSlopes::step(const Eigen::VectorXd& held, const Eigen::VectorXd& right,
                                 double held_right) const {
@@ -22,7 +39,7 @@ Eigen::VectorXd MapSlopes::step(const Eigen::VectorXd& held, const Eigen::Vector
     all[i] = right[free[std::size_t(i)]];
   }
   all[count] = held_right;
-  const Eigen::VectorXd found = Lu<double>(matrix).solve(all);
+  const Eigen::VectorXd found = solved(matrix, all);
   Eigen::VectorXd result = Eigen::VectorXd::Zero(states + 1);
   for (const Index i : rest) result[i] = by_parameter[i] * found[count];
   for (Index i = 0; i < count; ++i) result[free[std::size_t(i)]] = found[i];

@@ -68,14 +68,15 @@ class PeriodNewton {
   }
 
   Eigen::VectorXd step(const Period& now, const Eigen::MatrixXd& map) const {
-    constexpr double singular = 1e-13;
+    constexpr double singular = 1e-9;  // of a body that is free to move somewhere
     const std::vector<Index> free = free_states(map);
     const auto count = Index(free.size());
     const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) - map(free, free);
     const Eigen::VectorXd right = now.change(free);
     const Lu<double> lu(left);
     Eigen::VectorXd result = now.change;
-    result(free) = lu.is_singular(singular) ? least_squares(left, right) : Eigen::VectorXd(lu.solve(right));
+    result(free) =
+        lu.is_singular(singular) ? least_squares(left, right, singular) : Eigen::VectorXd(lu.solve(right));
     return result;
   }
 

@@ -93,6 +93,11 @@ void ContactFlow::Engine::start() {
   level_ = coarsest_;
 }
 
+void ContactFlow::Engine::start(const Eigen::VectorXcd& poles) {
+  start();
+  states_ = poles;
+}
+
 void ContactFlow::Engine::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   states_ = poles_.complex_of(state.head(poles_.states())).col(0);
   for (Index m = 0; m < contacts_.memories(); ++m) now_.memory[std::size_t(m)] = state[poles_.states() + m];
@@ -176,7 +181,7 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
 
 void ContactFlow::Engine::keep(const Solved& panel, double end) {
   constexpr double nothing = 1e-13;  // periods
-  const double half = panel.shape->half(), until = std::min(time_ + half * (end + 1.0), poles_.period());
+  const double half = panel.shape->half(), until = std::min(time_ + half * (end + 1.0), until_);
   if (until - time_ < nothing * poles_.period()) return;
   const Eigen::VectorXd within = 0.5 * (end + 1.0) * (nodes_.points.array() + 1.0) - 1.0;
   const Eigen::MatrixXd restriction =
@@ -188,8 +193,9 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
                                        const std::function<void(const FlowSample&)>& sample) {
   const double step = poles_.period() / points, until = time_ + panel.shape->half() * (end + 1.0);
   std::vector<double> at;
-  for (; sampled_ < points && sampled_ * step < until; ++sampled_)
-    at.push_back(std::clamp((sampled_ * step - time_) / panel.shape->half() - 1.0, -1.0, 1.0));
+  const auto next = [&] { return (sampled_ + first_sample_) * step; };
+  for (; sampled_ < points && next() < until; ++sampled_)
+    at.push_back(std::clamp((next() - time_) / panel.shape->half() - 1.0, -1.0, 1.0));
   if (at.empty()) return;
   const Eigen::VectorXd points_here = Eigen::Map<const Eigen::VectorXd>(at.data(), Index(at.size()));
   const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), points_here);
@@ -225,6 +231,7 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
     impulse = (1.0 + rebound) / poles_.inverse_mass()(row, row) * speed;
     event.impulse = impulse->value;
     event.speed = speed.value;
+    event.after = -rebound * speed.value;
     const Eigen::VectorXcd left = poles_.inputs().col(row) * impulse->value;
     states_ -= left;
     for (int d = 0; d < detail::levels; ++d) after[std::size_t(d)] -= (poles_.outputs(d) * left).real();
@@ -271,7 +278,7 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   constexpr int most_idle = 16;
   const auto panel = steps_++ < options_.max_panels ? solve_next() : std::nullopt;
   if (!panel) return FlowStatus::step_failure;
-  const double half = panel->shape->half(), until = (poles_.period() - time_) / half - 1.0;
+  const double half = panel->shape->half(), until = (until_ - time_) / half - 1.0;
   const auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, until);
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
@@ -286,20 +293,31 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   if (!variation_.empty()) variation_.over(contacts_, now_, here, panel->force, waves, 0);
   const detail::Signals signals = ends_state ? here.at(waves, panel->force) : detail::Signals{};
   states_ = next;
-  time_ = end == until ? poles_.period() : time_ + half * (end + 1.0);
+  time_ = end == until ? until_ : time_ + half * (end + 1.0);
   if (ends_state) change(*hit, signals, next);
   return FlowStatus::converged;
 }
 
 FlowStatus ContactFlow::Engine::advance_period(int points,
-                                               const std::function<void(const FlowSample&)>& sample) {
+                                               const std::function<void(const FlowSample&)>& sample,
+                                               double first) {
+  first_sample_ = first;
   events_.clear();
   panels_.clear();
   margins_.clear();
   rests_ = sampled_ = steps_ = 0;
-  while (time_ < poles_.period())
+  until_ = poles_.period();
+  while (time_ < until_)
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
   time_ = 0.0;
+  return FlowStatus::converged;
+}
+
+FlowStatus ContactFlow::Engine::advance_to(double time) {
+  steps_ = 0;
+  until_ = time;
+  while (time_ < until_)
+    if (const FlowStatus status = step(0, {}); status != FlowStatus::converged) return status;
   return FlowStatus::converged;
 }
 
@@ -311,6 +329,7 @@ ContactFlow::~ContactFlow() = default;
 ContactFlow::ContactFlow(ContactFlow&&) noexcept = default;
 ContactFlow& ContactFlow::operator=(ContactFlow&&) noexcept = default;
 void ContactFlow::start() { engine_->start(); }
+void ContactFlow::start(const Eigen::VectorXcd& poles) { engine_->start(poles); }
 void ContactFlow::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   engine_->start(state, contacts);
 }
@@ -320,9 +339,11 @@ void ContactFlow::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::Vec
 }
 const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->panels(); }
 Eigen::VectorXd ContactFlow::displacements_by_state() const { return engine_->displacements_by_state(); }
-FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample) {
-  return engine_->advance_period(points, sample);
+FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample,
+                                       double first) {
+  return engine_->advance_period(points, sample, first);
 }
+FlowStatus ContactFlow::advance_to(double time) { return engine_->advance_to(time); }
 Eigen::VectorXd ContactFlow::off_center() const { return engine_->off_center(); }
 Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
 const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }

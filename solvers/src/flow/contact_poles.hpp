@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "linalg/index.hpp"
+#include "phases/harmonic_series.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -21,7 +22,7 @@ class ContactPoles {
  public:
   /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
   /// in periods. Throws std::invalid_argument for structural damping.
-  ContactPoles(const ContactDynamics& dynamics, Eigen::MatrixXcd contact_free, double frequency);
+  ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free, double frequency);
 
   Index rows() const { return inputs_.cols(); }
   Index poles() const { return exponents_.size(); }
@@ -46,7 +47,9 @@ class ContactPoles {
   double fastest() const { return fastest_; }
   /// The motion without contact at times, derivatives 0 to 3: R x N each.
   std::array<Eigen::MatrixXd, levels> contact_free(const Eigen::VectorXd& times) const;
-  double displacement_scale() const;  ///< m, the largest rms of the motion without contact
+  double displacement_scale() const {
+    return free_scale_;
+  }  ///< m, the largest rms of the motion without contact
 
   /// The real row by which real states make Re(weights y).
   Eigen::RowVectorXd row_of(const Eigen::RowVectorXcd& weights) const;
@@ -57,10 +60,11 @@ class ContactPoles {
   Eigen::MatrixXcd complex_of(const Eigen::MatrixXd& states) const;
 
  private:
-  double period_, holding_, fastest_ = 0.0;
+  double period_, holding_, fastest_ = 0.0, free_scale_ = 0.0;
   Index states_ = 0;
   Eigen::VectorXcd exponents_;
-  Eigen::MatrixXcd inputs_, contact_free_;
+  std::vector<HarmonicSeries> free_;  // of each row
+  Eigen::MatrixXcd inputs_;
   std::array<Eigen::MatrixXcd, levels> outputs_;
   std::array<Eigen::MatrixXd, levels> real_outputs_;
   std::array<Eigen::MatrixXd, levels> moments_;

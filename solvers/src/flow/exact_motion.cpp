@@ -25,7 +25,7 @@ PhasesStatus refusal_of(const PhasesProblem& problem) {
     const auto constants = law.friction();
     if (constants && constants->tangents > 1) return PhasesStatus::slip_in_a_plane;
     if (!constants && !law.coupled() && law.acts_over_period()) return PhasesStatus::law_over_period;
-    if (!constants && law.is_rigid() && inverse_mass_of(dynamics, row) > 0.0)
+    if (!constants && law.is_rigid() && !law.restitution() && inverse_mass_of(dynamics, row) > 0.0)
       return PhasesStatus::rigid_contact;
   }
   if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
@@ -58,14 +58,13 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
 
 class MotionSearch {
  public:
-  MotionSearch(const PhasesProblem& problem, const Eigen::MatrixXd& start, const Eigen::MatrixXd& force,
+  MotionSearch(const PhasesProblem& problem, PeriodStart start, Index points,
                const ContactPhasesOptions& options)
       : original_(problem),
-        from_(flow_start(problem, start, force)),
+        from_(std::move(start)),
         problem_(begun_at(problem, from_.begin)),
         options_(options),
-        start_(start),
-        times_(Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()))) {}
+        times_(Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / double(points))) {}
 
   PhaseMotion run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
@@ -79,7 +78,6 @@ class MotionSearch {
     motion_.residual = found_.distance;
     motion_.iterations = iterations_;
     motion_.estimated_error = error_;
-    if (found) motion_.start_error = (start_ - displacement_).norm() / displacement_.norm();
     motion_.status = cancelled_                     ? PhasesStatus::cancelled
                      : !found && exhausted_         ? PhasesStatus::too_many_phases
                      : !found                       ? PhasesStatus::not_found
@@ -110,12 +108,12 @@ class MotionSearch {
     if (found_.found)
       flow.start(found_.state, found_.contacts);
     else
-      flow.start_near(from_.harmonics, from_.displacement, from_.force);
+      flow.start(from_.state, from_.contacts);
     const Observer observer = [&](const Progress& progress) { return goes_on_after(flow, progress); };
     ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map);
     iterations_ += closed.iterations;
     if (!closed.found) return false;
-    motion_ = motion_of(original_, flow, from_.begin);
+    motion_ = motion_of(original_, flow, {from_.begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
     if (found_.found) error_ = std::max(safety * (now - displacement_).norm() / now.norm(), rounding);
     displacement_ = now;
@@ -125,10 +123,9 @@ class MotionSearch {
   }
 
   const PhasesProblem& original_;
-  FlowStart from_;
+  PeriodStart from_;
   PhasesProblem problem_;  // from the time at which the flow begins
   const ContactPhasesOptions& options_;
-  Eigen::MatrixXd start_;
   Eigen::VectorXd times_;
   // What was found.
   std::optional<ContactFlow> flow_;
@@ -150,7 +147,22 @@ PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& sta
   refused.status = refusal_of(problem);
   if (!refused.converged()) return refused;
   const Eigen::MatrixXd force = start_force.size() > 0 ? start_force : problem.laws.force(start);
-  return MotionSearch(problem, start, force, options).run();
+  PhaseMotion motion =
+      MotionSearch(problem, start_near(problem, start, force, 0.5), start.cols(), options).run();
+  if (motion.parts == nullptr) return motion;
+  const Eigen::MatrixXd found =
+      motion.displacement(Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols())));
+  motion.start_error = (start - found).norm() / found.norm();
+  return motion;
+}
+
+PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& start,
+                             const ContactPhasesOptions& options) {
+  constexpr Index points = 1024;  // at which two solutions are compared
+  options.validate();
+  PhaseMotion refused;
+  refused.status = refusal_of(problem);
+  return refused.converged() ? MotionSearch(problem, start, points, options).run() : refused;
 }
 
 PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,

@@ -16,10 +16,12 @@ class ContactFlow::Engine {
   Engine(const PhasesProblem& problem, const FlowOptions& options);
 
   void start();
+  void start(const Eigen::VectorXcd& poles);
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
-  FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample);
+  FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample, double first);
+  FlowStatus advance_to(double time);
   Eigen::VectorXd state() const;
   void perturb(const Eigen::MatrixXd& columns);
   Eigen::MatrixXd perturbation() const;
@@ -104,7 +106,7 @@ class ContactFlow::Engine {
   Eigen::VectorXd rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
-  double length_ = 0.0, time_ = 0.0, force_size_ = 0.0;
+  double length_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0;
   /// The least value of a guard in the last period, and its slope by the memory.
   struct Margin {
     double least, by_memory;

@@ -100,6 +100,36 @@ CellGrid grid_of(const ContactFlow& flow, double begin, Index rows, std::vector<
   return grid;
 }
 
+}  // namespace
+
+std::vector<Impact> impacts_of(const ContactFlow& flow, double begin) {
+  std::vector<Impact> impacts;
+  for (const FlowEvent& one : flow.events())
+    if (one.impulse > 0.0)
+      impacts.push_back({.contact = flow.machines()[std::size_t(one.contact)].row,
+                         .time = within_period(begin + one.time / flow.period()),
+                         .velocity_before = one.speed,
+                         .velocity_after = one.after,
+                         .impulse = one.impulse,
+                         .energy_lost = 0.5 * one.impulse * (one.speed + one.after)});
+  std::sort(impacts.begin(), impacts.end(), [](const Impact& a, const Impact& b) { return a.time < b.time; });
+  return impacts;
+}
+
+namespace {
+
+// Each impact is where two panels meet.
+void set_impulses(CellGrid& grid, const std::vector<Impact>& impacts, double frequency) {
+  for (const Impact& one : impacts) {
+    const auto away = [&](double boundary) {
+      return std::abs(boundary - one.time - std::round(boundary - one.time));
+    };
+    const auto nearest = std::min_element(grid.boundaries.begin(), grid.boundaries.end(),
+                                          [&](double a, double b) { return away(a) < away(b); });
+    grid.impulses.push_back({one.contact, int(nearest - grid.boundaries.begin()), one.impulse * frequency});
+  }
+}
+
 PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
                       const std::vector<Eigen::VectorXd>& values) {
   Eigen::VectorXd all(nodes.count() * Index(values.size()));
@@ -110,8 +140,9 @@ PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
 
 }  // namespace
 
-PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, double begin) {
+PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, const PeriodStart& start) {
   PhaseMotion motion;
+  const double begin = start.begin;
   for (std::size_t c = 0; c < flow.machines().size(); ++c) {
     const ContactMachine& machine = flow.machines()[c];
     const std::vector<Stay> stays = stays_of(flow, c, begin);
@@ -123,11 +154,14 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, dou
     return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
   });
   std::vector<Eigen::VectorXd> values;
-  const CellGrid grid = grid_of(flow, begin, problem.dynamics.contacts(), values);
+  CellGrid grid = grid_of(flow, begin, problem.dynamics.contacts(), values);
+  motion.impacts = impacts_of(flow, begin);
+  set_impulses(grid, motion.impacts, problem.frequency);
   const LegendreNodes nodes(panel_nodes);
   const PanelForces forces = forces_of(grid, nodes, values);
-  motion.parts =
-      PhaseMotion::Parts::complete({PhaseModel(problem, 1.0), PhaseIterate{{}, forces}, nodes, {}, {}});
+  PhaseMotion::Parts parts{PhaseModel(problem, 1.0), PhaseIterate{{}, forces}, nodes, {}, {}};
+  parts.start = start;
+  motion.parts = PhaseMotion::Parts::complete(std::move(parts));
   return motion;
 }
 

@@ -3,9 +3,12 @@
 
 namespace wavebalance::solvers::detail {
 
-/// A period of a flow that began `begin` periods after time 0, as a periodic motion with its phases, contacts
-/// with friction and parts.
-PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, double begin);
+/// The period of a flow from a start as a periodic motion with its phases, contacts with friction, impacts
+/// and parts.
+PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, const PeriodStart& start);
+
+/// The impacts of its last period, by time.
+std::vector<Impact> impacts_of(const ContactFlow& flow, double begin);
 
 /// Gives such a motion its multipliers.
 void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers);

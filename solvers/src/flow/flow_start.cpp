@@ -1,6 +1,7 @@
 #include "flow/flow_start.hpp"
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
@@ -29,18 +30,18 @@ std::vector<std::vector<int>> states_along(const std::vector<ContactMachine>& ma
   return result;
 }
 
-struct Calm {
+struct CalmSamples {
   Index begin, length;
 };
 
 // The longest time in which no contact changes its state.
-Calm longest_calm(const std::vector<std::vector<int>>& states) {
+CalmSamples longest_calm(const std::vector<std::vector<int>>& states) {
   const auto count = Index(states.size());
   const auto at = [&](Index k) -> const std::vector<int>& { return states[std::size_t(k % count)]; };
   Index first = 0;
   while (first < count && at(first) == at(first + 1)) ++first;
   if (first == count) return {0, count};
-  Calm longest{0, 0};
+  CalmSamples longest{0, 0};
   for (Index k = first + 1, begin = k; k <= first + count; ++k) {
     if (at(k) == at(k + 1)) continue;
     if (k + 1 - begin > longest.length) longest = {begin, k + 1 - begin};
@@ -84,18 +85,42 @@ Eigen::MatrixXcd harmonics_of(const Eigen::MatrixXd& samples) {
 
 }  // namespace
 
-FlowStart flow_start(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
-                     const Eigen::MatrixXd& force, double share_of_calm) {
+PeriodStart start_near(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
+                       const Eigen::MatrixXd& force, double share_of_calm) {
   const auto machines =
       machines_of(problem.laws, problem.dynamics, displacement.cwiseAbs().maxCoeff(), problem.frequency);
-  const Calm calm = longest_calm(states_along(machines, displacement, force));
+  const CalmSamples calm = longest_calm(states_along(machines, displacement, force));
   const Index count = displacement.cols(),
               first = calm.length == count
                           ? fastest_time(displacement)
                           : (calm.begin + Index(share_of_calm * double(calm.length))) % count;
-  return {double(first) / double(displacement.cols()),
-          harmonics_of(from_column(force - problem.dynamics.holding() * displacement, first)),
-          displacement.col(first), force.col(first)};
+  const double begin = double(first) / double(count);
+  ContactFlow flow(begun_at(problem, begin), {});
+  flow.start_near(harmonics_of(from_column(force - problem.dynamics.holding() * displacement, first)),
+                  displacement.col(first), force.col(first));
+  return {begin, flow.state(), flow.contact_states()};
+}
+
+Calm longest_calm(const std::vector<FlowEvent>& events, double whole) {
+  if (events.empty()) return {0.0, whole};
+  Calm longest{events.back().time, events.front().time + whole - events.back().time};
+  for (std::size_t i = 1; i < events.size(); ++i)
+    if (const double length = events[i].time - events[i - 1].time; length > longest.length)
+      longest = {events[i - 1].time, length};
+  return longest;
+}
+
+std::optional<PeriodStart> calmed(const PhasesProblem& problem, const PeriodStart& start,
+                                  const std::vector<FlowEvent>& events, double share_of_calm,
+                                  const FlowOptions& options) {
+  if (events.empty()) return start;
+  const double whole = 1.0 / problem.frequency;
+  const Calm calm = longest_calm(events, whole);
+  const double later = std::fmod(calm.begin + share_of_calm * calm.length, whole);
+  ContactFlow flow(begun_at(problem, start.begin), options);
+  flow.start(start.state, start.contacts);
+  if (flow.advance_to(later) != FlowStatus::converged) return std::nullopt;
+  return PeriodStart{std::fmod(start.begin + later / whole, 1.0), flow.state(), flow.contact_states()};
 }
 
 PhasesProblem begun_at(PhasesProblem problem, double begin) {

@@ -1,19 +1,27 @@
 #pragma once
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include <optional>
+#include <vector>
+
+#include "wavebalance/solvers/flow/contact_flow.hpp"
 
 namespace wavebalance::solvers::detail {
 
-/// What a flow begins with near a periodic motion, at a time far from all events.
-struct FlowStart {
-  double begin = 0.0;            ///< periods
-  Eigen::MatrixXcd harmonics{};  ///< as ContactFlow::start_near() takes them, likewise the others
-  Eigen::VectorXd displacement{}, force{};
-};
+/// Where a motion with these displacements, R x N, m, and forces of the laws, N, at the times l / N begins
+/// anew: at a share of the longest time in which no contact changes its state.
+PeriodStart start_near(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
+                       const Eigen::MatrixXd& force, double share_of_calm);
 
-/// Of a motion with these displacements, R x N, m, and forces of the laws, N, at the times l / N: at a share
-/// of the longest time in which no contact changes its state.
-FlowStart flow_start(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
-                     const Eigen::MatrixXd& force, double share_of_calm = 0.5);
+/// The longest time without events in a period of `whole` s, which may go on over its end.
+struct Calm {
+  double begin = 0.0, length = 0.0;  ///< s
+};
+Calm longest_calm(const std::vector<FlowEvent>& events, double whole);
+
+/// The same motion from a time far from all events on: at that share of the longest time without any. Nothing
+/// where the flow of the period fails.
+std::optional<PeriodStart> calmed(const PhasesProblem& problem, const PeriodStart& start,
+                                  const std::vector<FlowEvent>& events, double share_of_calm,
+                                  const FlowOptions& options = {});
 
 /// The problem with time 0 so many periods later.
 PhasesProblem begun_at(PhasesProblem problem, double begin);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "flow/closed_period.hpp"
+#include "flow/flow_phases.hpp"
 #include "linalg/index.hpp"
 #include "period/past_periods.hpp"
 #include "phases/phase_loads.hpp"
@@ -27,10 +28,13 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion) {
 }
 
 // Periods one after the other until the motion repeats.
-TimeSteppingStatus run(ContactFlow& flow, const TimeSteppingOptions& options, Index rows,
+TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const TimeSteppingOptions& options,
                        FlowMotion& result) {
+  constexpr double rounding = 1e-7;  // of the motion without contact, where a contact rests
   TimeSteppingResult& stepping = result.stepping;
-  PastPeriods past(options.longest, options.period_tolerance);
+  const Index rows = problem.dynamics.contacts();
+  PastPeriods past(options.longest, options.period_tolerance,
+                   rounding * problem.contact_free.norm() * std::sqrt(options.output_points));
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
     result.ended = sampled_period(flow, period);
@@ -67,25 +71,29 @@ void close(ContactFlow& flow, FlowMotion& result) {
 }  // namespace
 
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
-                               const FlowOptions& flow_options) {
+                               const FlowOptions& flow_options, const Eigen::VectorXcd& poles) {
   options.validate(0);
   for (const ContactPole& pole : problem.dynamics.poles())
     if (pole.exponent.real() > 1e-9 * std::abs(pole.exponent))
       throw std::invalid_argument(
           "integrate_by_events: motions of the structure grow without contact; its damping must not be negative");
   ContactFlow flow(problem, flow_options);
+  if (poles.size() > 0) flow.start(poles);
   FlowMotion result;
   result.machines = flow.machines();
-  result.stepping.status = run(flow, options, problem.dynamics.contacts(), result);
+  result.stepping.status = run(flow, problem, options, result);
   result.events = flow.events();
+  result.impacts = detail::impacts_of(flow, 0.0);
   result.rests = flow.rests();
   result.states = flow.contact_states();
+  result.state = flow.state();
   if (result.stepping.status == TimeSteppingStatus::converged) close(flow, result);
   if (std::isfinite(result.closed)) {
     Motion period = empty_motion(problem.dynamics.contacts(), options.output_points);
     if (sampled_period(flow, period) == FlowStatus::converged) {
       result.stepping.contacts = std::move(period);
       result.events = flow.events();
+      result.impacts = detail::impacts_of(flow, 0.0);
     }
   }
   return result;

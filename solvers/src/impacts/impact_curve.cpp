@@ -250,9 +250,6 @@ ImpactCurve impact_curve(const ImpactFamily& family, const ImpactMotion& first,
                          const ImpactCurveOptions& options) {
   options.validate();
   if (!first.converged()) throw std::invalid_argument("impact_curve: the first motion has not converged");
-  if (first.parts)
-    throw std::invalid_argument(
-        "impact_curve: the first motion has contact that lasts; it must have impacts alone");
   const ImpactPathScales scales = scales_of(first, options);
   auto path = std::make_unique<ImpactPath>(family, scales, contacts_of(first.impacts));
   std::optional<ImpactPlace> place = first_place(*path, first, options, scales);

@@ -76,7 +76,7 @@ ContactState ImpactModel::free_motion(double time) const {
   const Index contacts = shapes_.rows();
   ContactState state{Eigen::VectorXd(contacts), Eigen::VectorXd(contacts), Eigen::VectorXd(contacts)};
   for (Index c = 0; c < contacts; ++c) {
-    const auto [displacement, velocity, acceleration] = free_[static_cast<std::size_t>(c)].at(time);
+    const auto [displacement, velocity, acceleration, third] = free_[static_cast<std::size_t>(c)].at(time);
     state.displacement[c] = displacement;
     state.velocity[c] = velocity;
     state.acceleration[c] = acceleration;

@@ -11,7 +11,6 @@
 
 #include "impacts/impact_equations.hpp"
 #include "impacts/impact_parts.hpp"
-#include "impacts/lasting_motion.hpp"
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
@@ -300,10 +299,6 @@ const detail::ImpactModel& model_of(const ImpactMotion& motion) {
 
 detail::ContactState motion_at(const ImpactMotion& motion, double time) {
   const detail::ImpactModel& model = model_of(motion);
-  if (motion.parts) {
-    detail::LastingParts::At now = motion.parts->at(time);
-    return {std::move(now.displacement), std::move(now.velocity), {}};
-  }
   if (motion.impacts.empty()) return model.free_motion(time);
   const double share = within_period(time);
   const auto after = std::ranges::upper_bound(motion.impacts, share, {}, &Impact::time);
@@ -328,13 +323,6 @@ Eigen::MatrixXd ImpactMotion::velocity(const Eigen::VectorXd& times) const {
   return values;
 }
 
-Eigen::MatrixXd ImpactMotion::force(const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(model_of(*this).contacts(), times.size());
-  if (parts)
-    for (Index k = 0; k < times.size(); ++k) values.col(k) = parts->at(times[k]).force;
-  return values;
-}
-
 double ImpactMotion::frequency() const { return model_of(*this).problem().frequency; }
 
 double ImpactMotion::energy_lost() const {
@@ -351,7 +339,6 @@ Eigen::MatrixXcd ImpactMotion::force_harmonics(int count) const {
     for (int n = 0; n < count; ++n)
       harmonics(impact.contact, n) += (n == 0 ? 1.0 : 2.0) * impact.impulse / own.period() *
                                       std::polar(1.0, -2.0 * std::numbers::pi * n * impact.time);
-  if (parts) parts->add_harmonics(harmonics);
   return harmonics;
 }
 

@@ -20,10 +20,11 @@ void ImpactMotionsOptions::validate() const {
 namespace {
 
 bool same_motion(const ImpactResponse& a, const ImpactResponse& b) {
-  if (a.load_periods != b.load_periods || a.motion.impacts.size() != b.motion.impacts.size()) return false;
+  if (a.load_periods != b.load_periods || a.lasting.phases.size() != b.lasting.phases.size() ||
+      a.impacts().size() != b.impacts().size())
+    return false;
   for (int k = 0; k < a.load_periods; ++k)
-    if (detail::same_impacts_later(a.motion.impacts, b.motion.impacts, double(k) / a.load_periods))
-      return true;
+    if (detail::same_impacts_later(a.impacts(), b.impacts(), double(k) / a.load_periods)) return true;
   return false;
 }
 
@@ -75,9 +76,7 @@ class ImpactCollection {
   std::vector<CoexistingImpacts> motions_;
 };
 
-bool is_settled(const ImpactResponse& response) {
-  return response.motion.converged() && response.unstable == 0;
-}
+bool is_settled(const ImpactResponse& response) { return response.converged() && response.unstable == 0; }
 
 }  // namespace
 
@@ -105,10 +104,10 @@ ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsO
     if (start < 0) result.status = response.motion.status;
     if (start >= 0) {
       ++result.starts;
-      const bool unstable = response.motion.converged();
+      const bool unstable = response.converged();
       if (!settled) ++result.none[unstable ? ImpactStatus::not_settled : response.motion.status];
     }
-    if (response.motion.converged()) {
+    if (response.converged()) {
       CoexistingImpacts& one = found.add(std::move(response));
       one.from_random = one.from_random || (settled && !one.settled && start >= 0);
       one.settled = one.settled || settled;

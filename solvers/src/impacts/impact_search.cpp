@@ -5,12 +5,23 @@
 #include <utility>
 
 #include "impacts/impact_parts.hpp"
-#include "impacts/lasting_motion.hpp"
 #include "linalg/index.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_stability.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
+
+// The law of a contact of the problem.
+struct Obstacle {
+  double distance, rebound;
+
+  double force(double u) const { return u < distance ? 0.0 : std::numeric_limits<double>::infinity(); }
+  double tangent(double u) const { return force(u); }
+  double potential(double u) const { return force(u); }
+  double gap() const { return distance; }
+  std::optional<double> restitution() const { return rebound; }
+};
 
 Eigen::VectorXd velocity_weights(const ImpactModel& model) {
   return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
@@ -65,15 +76,12 @@ std::vector<ImpactGuess> ImpactSearch::last_impacts(int periods) const {
 
 // Whether a stable motion is found near the last periods.
 bool ImpactSearch::look_back() {
-  constexpr double apart = 100.0;
   const int most = std::min<int>(options_.longest, static_cast<int>(states_.size()) - 1);
   for (int n = 1; n <= most; ++n) {
     const double distance = distance_after(n);
     auto& best = best_[static_cast<std::size_t>(n - 1)];
     if (distance < best.distance) best = {n, distance, last_impacts(n)};
     if (distance > options_.near) continue;
-    // What comes to one period by turns of its sign is nearer to the last but one.
-    if (!options_.solve && n > 1 && distance_after(1) <= apart * options_.near) break;
     if (is_motion({n, distance, last_impacts(n)})) return true;
     break;  // longer ones would be the same motion
   }
@@ -82,10 +90,6 @@ bool ImpactSearch::look_back() {
 
 bool ImpactSearch::is_motion(const NearReturn& start) {
   constexpr double much_closer = 0.1, arrived = 1e-9;
-  if (!options_.solve) {
-    found_ = integrated(start);
-    return true;
-  }
   double& tried = tried_[static_cast<std::size_t>(start.periods - 1)];
   if (start.distance > much_closer * tried && start.distance > arrived) return false;
   tried = start.distance;
@@ -114,15 +118,31 @@ ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
   return response;
 }
 
-// The motion by the impacts of the last periods as they are.
-ImpactResponse ImpactSearch::integrated(const NearReturn& start) const {
-  ImpactResponse response;
-  response.load_periods = start.periods;
-  response.distance = start.distance;
-  const auto model = std::make_shared<const ImpactModel>(problem_.over_periods(start.periods));
-  response.motion = motion_of(model, unknowns_of(*model, start.impacts), {});
-  response.motion.residual = start.distance;
-  response.motion.status = ImpactStatus::converged;
+// The exact motion with contact that lasts, from the first state.
+ImpactResponse ImpactSearch::resting(ImpactStatus status) const {
+  std::vector<AnyContactLaw> laws;
+  for (Index c = 0; c < problem_.gaps.size(); ++c)
+    laws.emplace_back(Obstacle{problem_.gaps[c], problem_.restitution[c]});
+  TimeSteppingOptions stepping;
+  stepping.max_periods = options_.max_periods;
+  stepping.longest = options_.longest;
+  stepping.observer = options_.observer;
+  ImpactFlow clear(model_, options_.max_impacts);
+  if (options_.start.size() == 0)
+    clear.start_clear();
+  else
+    clear.start(options_.start, 0.0);
+  SettledExact settled = settled_motion(
+      {problem_.dynamics, ContactLaws(std::move(laws)), problem_.contact_free, problem_.frequency}, stepping,
+      {.observer = options_.observer}, PoleStart{clear.time(), clear.state()});
+  ImpactResponse response = none(status);
+  response.integrated = settled.settled.stepping.periods;
+  response.load_periods = settled.load_periods;
+  if (settled.motion.status == PhasesStatus::cancelled) response.motion.status = ImpactStatus::cancelled;
+  if (settled.motion.parts == nullptr) return response;
+  response.multipliers = settled.motion.multipliers();
+  response.unstable = unstable_count(response.multipliers);
+  response.lasting = std::move(settled.motion);
   return response;
 }
 
@@ -145,18 +165,16 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
 ImpactResponse ImpactSearch::ended(ImpactStatus status) {
   const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
-  if (status == ImpactStatus::lasting_contact) {
-    ImpactResponse lasting = lasting_response(problem_, options_);
-    if (lasting.motion.converged() || lasting.motion.status == ImpactStatus::cancelled) return lasting;
-  }
-  if (named || status == ImpactStatus::cancelled || !options_.solve) return none(status);
+  if (status == ImpactStatus::cancelled) return none(status);
+  const ImpactResponse rests = named ? resting(status) : none(status);
+  if (rests.lasts() || rests.motion.status == ImpactStatus::cancelled) return rests;
   for (const NearReturn& start : best_) {
     if (found_.motion.converged()) break;
     if (!std::isfinite(start.distance) || start.impacts.empty()) continue;
     ImpactResponse response = solve(start);
     if (response.motion.converged()) found_ = std::move(response);
   }
-  return found_.motion.converged() ? finished(found_) : none(status);
+  return found_.motion.converged() ? finished(found_) : rests;
 }
 
 ImpactResponse ImpactSearch::none(ImpactStatus status) const {

@@ -33,7 +33,7 @@ class ImpactSearch {
   bool look_back();
   bool is_motion(const NearReturn& start);
   ImpactResponse solve(const NearReturn& start) const;
-  ImpactResponse integrated(const NearReturn& start) const;
+  ImpactResponse resting(ImpactStatus status) const;
   ImpactResponse finished(ImpactResponse response) const;
   ImpactResponse ended(ImpactStatus status);
   ImpactResponse none(ImpactStatus status) const;

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "impacts/impact_model.hpp"
-#include "impacts/lasting_motion.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
@@ -131,7 +130,6 @@ GrowingGreen growing_green(const detail::ImpactModel& model, int c, int d, doubl
 
 Eigen::VectorXcd impact_multipliers(const ImpactMotion& motion) {
   require_motion(motion);
-  if (motion.parts) return motion.parts->multipliers;
   Eigen::VectorXcd all = motion.impacts.empty() ? free_multipliers(*motion.model)
                                                 : detail::map_multipliers(monodromy_of(motion));
   if (!all.allFinite()) return {};
@@ -143,9 +141,6 @@ int unstable_count(const Eigen::VectorXcd& multipliers) { return detail::count_o
 
 Complex impact_determinant(const ImpactMotion& motion, Complex z) {
   require_motion(motion);
-  if (motion.parts)
-    throw std::invalid_argument(
-        "impact_determinant: the motion has contact that lasts; it must have impacts alone");
   if (z == 0.0) throw std::invalid_argument("impact_determinant: z is 0; it must not be");
   const auto count = Index(motion.impacts.size());
   Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Identity(2 * count, 2 * count);

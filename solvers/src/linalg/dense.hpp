@@ -63,8 +63,10 @@ Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixX
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
 /// The shortest x that minimises ||A x - b||, by complete orthogonal decomposition; A may be singular.
+/// Columns that others make up to this share of the largest are dependent, and at least up to rounding.
 /// O(n^3).
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right,
+                              double dependent = 0.0);
 
 /// The lower factor L of A = L L^T; nothing unless A is positive definite. O(n^3).
 std::optional<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix);

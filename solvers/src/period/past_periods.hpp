@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <deque>
 
 #include "period/repetition.hpp"
@@ -9,15 +10,16 @@ namespace wavebalance::solvers {
 /// The contact displacements of the last periods, the last one first, and whether they repeat.
 class PastPeriods {
  public:
-  PastPeriods(int longest, double tolerance)
-      : longest_(static_cast<std::size_t>(longest)), rule_(longest, tolerance) {}
+  /// rounding, m: displacements whose norm is below move by rounding alone.
+  PastPeriods(int longest, double tolerance, double rounding = 0.0)
+      : longest_(static_cast<std::size_t>(longest)), rule_(longest, tolerance), rounding_(rounding) {}
 
   void add(const Eigen::MatrixXd& displacement) {
     past_.push_front(displacement);
     if (past_.size() > longest_ + 1) past_.pop_back();
     rule_.add([&](int lag) {
       const double difference = (past_.front() - past_[static_cast<std::size_t>(lag)]).norm();
-      return difference == 0.0 ? 0.0 : difference / past_.front().norm();
+      return difference == 0.0 ? 0.0 : difference / std::max(past_.front().norm(), rounding_);
     });
   }
   /// The relative rms difference of the last period and that before it.
@@ -28,6 +30,7 @@ class PastPeriods {
   std::size_t longest_;
   std::deque<Eigen::MatrixXd> past_;  // contacts x points
   RepetitionRule rule_;
+  double rounding_;
 };
 
 }  // namespace wavebalance::solvers

@@ -291,6 +291,7 @@ std::string_view to_string(PhasesStatus status) {
                                         {structural_damping, "structural_damping"},
                                         {slip_in_a_plane, "slip_in_a_plane"},
                                         {law_over_period, "law_over_period"},
+                                        {undetermined, "undetermined"},
                                         {cancelled, "cancelled"}},
                                        status);
 }

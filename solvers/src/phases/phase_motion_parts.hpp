@@ -19,6 +19,7 @@ struct PhaseMotion::Parts {
   detail::LegendreNodes nodes;
   detail::PanelForces tangent, damping;              // slopes of the laws, N/m and N s/m
   std::optional<Eigen::VectorXcd> multipliers = {};  // where they are known without these slopes
+  std::optional<PeriodStart> start = {};             // of a motion of the flow
   std::shared_ptr<const detail::PeriodCells> period = {};
 };
 

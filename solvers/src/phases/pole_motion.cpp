@@ -60,7 +60,8 @@ Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
   const auto& grid = period.grid;
   const auto& cells = period.cells;
   Eigen::MatrixXcd states(exponents_.size(), Index(cells.size()));
-  const auto advance = [&](const Eigen::VectorXcd& state, const Cell& cell) {
+  const auto advance = [&](const Eigen::VectorXcd& state, Index j) {
+    const Cell& cell = cells[static_cast<std::size_t>(j)];
     Eigen::VectorXcd next = cell.decay.cwiseProduct(state);
     for (const Part& part : cell.parts)
       next +=
@@ -68,13 +69,15 @@ Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
           left_.row(grid.panels[part.panel].contact)
               .transpose()
               .cwiseProduct(cell.waves->at_end() * (part.restriction * coefficients.col(Index(part.panel))));
+    for (const CellGrid::Impulse& one : grid.impulses)
+      if (one.boundary == grid.next(static_cast<int>(j)))
+        next += one.size * left_.row(one.contact).transpose();
     return next;
   };
   Eigen::VectorXcd from_rest = Eigen::VectorXcd::Zero(exponents_.size());
-  for (const Cell& cell : cells) from_rest = advance(from_rest, cell);
+  for (Index j = 0; j < states.cols(); ++j) from_rest = advance(from_rest, j);
   if (states.cols() > 0) states.col(0) = periodic_.cwiseProduct(from_rest);
-  for (Index j = 1; j < states.cols(); ++j)
-    states.col(j) = advance(states.col(j - 1), cells[static_cast<std::size_t>(j - 1)]);
+  for (Index j = 1; j < states.cols(); ++j) states.col(j) = advance(states.col(j - 1), j - 1);
   return states;
 }
 

@@ -29,10 +29,17 @@ struct CellGrid {
     bool acts_before = false, acts_after = false;
   };
 
+  /// An impulse on a contact, N periods, where two cells meet.
+  struct Impulse {
+    int contact = 0, boundary = 0;
+    double size = 0.0;
+  };
+
   /// Ascending within one period. Cell j begins at boundary j; the last one ends at the first.
   std::vector<double> boundaries;
   std::vector<Panel> panels;
   std::vector<Mark> marks;
+  std::vector<Impulse> impulses = {};
 
   int cells() const { return static_cast<int>(boundaries.size()); }
   double length(int cell) const;

@@ -127,6 +127,10 @@ Eigen::MatrixXcd PhaseMotion::force_harmonics(int count) const {
         result(panels[k].contact, n) += factor * at_end[Eigen::Index(k - p)];
     }
   }
+  for (const Impact& one : impacts)
+    for (int n = 0; n < count; ++n)
+      result(one.contact, n) += (n == 0 ? 1.0 : 2.0) * one.impulse * parts->model.frequency *
+                                std::polar(1.0, -2.0 * std::numbers::pi * double(n) * one.time);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/slip_points.hpp"
 #include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -53,11 +54,23 @@ ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
 
 void ContactProblem::require_well_posed() const {
   laws_.require(contacts());
-  if (laws_.have_impacts()) {
-    laws_.restitution(contacts());
-    return;
-  }
-  require_massless_rigid_contacts(structure(), laws_);
+  for (int row = 0; row < contacts(); row += laws_[row].rows())  // friction without mass may be beside it
+    if (laws_[row].is_rigid() && !laws_[row].friction() && !laws_[row].restitution())
+      return require_massless_rigid_contacts(structure(), laws_);
+}
+
+bool ContactProblem::moves_by_events() const {
+  if (laws_.have_impacts()) return true;
+  if (!laws_.act_over_period()) return false;
+  const bool with_mass =
+      !laws_.have_finite_force() && !contacts_are_massless(structure(), laws_.rigid(contacts()));
+  return with_mass || (dynamics() != nullptr && dynamics()->holding() > 0.0);
+}
+
+SettledExact ContactProblem::settled_exact(double frequency, const TimeSteppingOptions& stepping,
+                                           const ContactPhasesOptions& options) {
+  load_fully(frequency);
+  return settled_motion(phases_problem_here(), stepping, options);
 }
 
 void ContactProblem::set_laws(ContactLaws laws) {
@@ -206,6 +219,13 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
 
 PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                         const ResponseStart& start) {
+  if (moves_by_events()) {
+    TimeSteppingOptions stepping;
+    stepping.observer = how.observer;
+    SettledExact found = settled_motion(phases_problem_here(), stepping, options.phases);
+    if (found.load_periods == 1) return std::move(found.motion);
+    return {};  // the curve is of motions of one period
+  }
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {

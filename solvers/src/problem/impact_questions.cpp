@@ -38,7 +38,7 @@ ImpactCurve ContactProblem::traced_impacts(SweepParameter parameter, ImpactCurve
   options.validate();
   ImpactResponse start = impact_response(impacts_here(), {.observer = options.observer});
   ImpactCurve curve;
-  if (start.motion.converged() && start.motion.lasting.empty()) {
+  if (start.motion.converged()) {
     options.periods = start.load_periods;
     curve = impact_curve(impact_family(parameter), start.motion, options);
   } else if (start.motion.status == ImpactStatus::cancelled) {

@@ -92,9 +92,10 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> all_modes(const LinearStructure& str
 MasslessContacts with_massless_contacts(LinearStructure structure, int modes, const Eigen::VectorXd& omega,
                                         const Eigen::MatrixXd& shapes) {
   if (modes < 1)
-    throw std::invalid_argument("contact.mass = \"redistribute\": " + std::to_string(structure.size()) +
-                                " degrees of freedom, " + std::to_string(structure.contacts()) +
-                                " contacts; expected more degrees of freedom than contacts");
+    throw std::invalid_argument(
+        "contact.mass = \"redistribute\": " + std::to_string(structure.size()) + " degrees of freedom, " +
+        std::to_string(structure.contacts()) +
+        " contacts; expected more degrees of freedom than contacts, or \"keep\" in its place");
   Eigen::MatrixXd basis = transformation(omega, shapes, structure.contact_directions, modes);
   structure.stiffness = transformed(structure.stiffness, basis);
   structure.damping = transformed(structure.damping, basis);

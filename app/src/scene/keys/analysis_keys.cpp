@@ -185,7 +185,7 @@ SceneValue stability_by_default(const Scene& scene) {
 /// Of one response they cost little beside its stability; along a curve as much as the curve, or more.
 SceneValue phases_by_default(const Scene& scene) {
   return scene.analysis.type == AnalysisType::forced_response && !solves_by_phases(scene) &&
-         !has_impacts(scene.contact) && scene.contact.law != no_law;
+         !solves_by_impacts(scene) && scene.contact.law != no_law;
 }
 
 SceneValue default_motion_points(const Scene& scene) {

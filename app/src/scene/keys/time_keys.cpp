@@ -22,7 +22,7 @@ void add_time_keys(std::vector<SceneKey>& keys) {
   const Condition of_bases =
       analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"}) &&
       by_balance();
-  const Condition balance = (of_responses && by_balance()).unless("time.tolerance");
+  const Condition balance = (of_responses && by_balance()).unless("time.tolerance").unless("analysis.exact");
   time(&Time::method, "method", "",
        "what a response solves for: the balance in a pair of bases, or the motion of the structure itself by "
        "phases of contact, which has no functions and starts from a coarse balance of its own",

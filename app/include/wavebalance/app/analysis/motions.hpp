@@ -15,9 +15,9 @@ namespace wavebalance::app {
 
 /// One of the motions of a frequency, as it is written.
 struct FoundMotion {
-  solvers::CoexistingMotion found;                    ///< of scenes with impacts without its motion by phases
-  std::optional<solvers::ImpactMotion> impacts = {};  ///< of scenes with impacts
-  int iterations = 0, unknowns = 0;                   ///< of Newton's method
+  solvers::CoexistingMotion found;  ///< of scenes with impacts without its motion by phases
+  std::optional<solvers::ImpactResponse> impacts = {};  ///< of scenes with impacts
+  int iterations = 0, unknowns = 0;                     ///< of Newton's method
   double residual = std::numeric_limits<double>::quiet_NaN();
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points of its whole period
   int contact = 0;            ///< the leading one, see leading_contact()

@@ -86,8 +86,11 @@ struct Response {
   /// Set if converged, with ResponseOptions::phases of a structure whose modes are known, and in scenes by
   /// phases where a motion was found, then without errors of a response.
   std::optional<solvers::ResponsePhases> phases;
-  /// Set in scenes with impacts. Between them no contact exerts a force, so that `contacts` have none.
+  std::vector<solvers::Impact> struck;  ///< the impacts of its period, by time
+  /// Set in scenes whose contacts all have impacts. Unless one rests no contact exerts a force between them,
+  /// so that `contacts` have none.
   std::optional<solvers::ImpactResponse> impacts;
+  bool forces_are_known() const { return !impacts || impacts->lasts(); }
   /// Set in scenes that are integrated by events.
   std::optional<solvers::FlowMotion> flow;
   /// Set where the response is unstable and its motion has the load's period.

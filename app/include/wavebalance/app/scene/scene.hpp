@@ -344,8 +344,15 @@ std::string name_of(LoadKind value);
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
 
-/// Whether its motion is solved for by phases of contact, without functions and points of its own:
-/// time.method, and analysis.type = "shooting", which is another name for the same, and "motions".
+/// Whether no balance has its motions, which are solved for from event to event: of impacts beside other laws
+/// or of a structure that is free to move, of friction of such a structure, and of rigid friction at a
+/// contact with mass.
+bool moves_by_events(const Scene& scene);
+/// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
+bool solves_by_impacts(const Scene& scene);
+/// Whether its motion is solved for exactly, without functions and points of its own: time.method, and
+/// analysis.type = "shooting", which is another name for the same, "motions", and responses that
+/// moves_by_events().
 bool solves_by_phases(const Scene& scene);
 
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,

@@ -43,6 +43,7 @@ struct FlowEvent {
   int from = 0, to = 0;
   double impulse = 0.0;  ///< N s
   double speed = 0.0;    ///< m/s, before an impact
+  double after = 0.0;    ///< m/s, behind it
 };
 
 /// The contacts at a time, R rows.
@@ -77,6 +78,8 @@ class ContactFlow {
 
   /// Begins at time 0 with contacts at rest where they touch nothing, as far as masses let them.
   void start();
+  /// Begins at time 0 with states of the poles and contacts that touch nothing.
+  void start(const Eigen::VectorXcd& poles);
   /// Begins at time 0 in a state, as of state(), with contacts in discrete states.
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
   /// Begins at time 0 as a periodic motion near this one: under forces of the contacts with harmonics, R x (H
@@ -86,8 +89,13 @@ class ContactFlow {
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
 
-  /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period.
-  FlowStatus advance_period(int points = 0, const std::function<void(const FlowSample&)>& sample = {});
+  /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period, the
+  /// first of them that share of their distance after its beginning.
+  FlowStatus advance_period(int points = 0, const std::function<void(const FlowSample&)>& sample = {},
+                            double first = 0.0);
+
+  /// Goes on to a time of the period, s.
+  FlowStatus advance_to(double time);
 
   /// The states of all poles, then all memories; those without a meaning are zero.
   Eigen::VectorXd state() const;

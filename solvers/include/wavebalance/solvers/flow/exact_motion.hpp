@@ -20,11 +20,14 @@ namespace wavebalance::solvers {
 /// the last two solutions.
 ///
 /// Statuses: slip_in_a_plane for two tangents, law_over_period for one without states, rigid_contact at a
-/// contact with mass, where a motion has impulses, structural_damping, resonant, not_found, tolerance_missed,
+/// contact with mass without a restitution, structural_damping, resonant, not_found, tolerance_missed,
 /// cancelled. Throws std::invalid_argument for sizes that do not fit and options out of range. O(periods
 /// panels ((rows q)^3 + states^2 rows q)), q = 12.
 PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                         const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
+/// The same near a state at a time that is far from all events, as impulses need it.
+PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& start,
+                             const ContactPhasesOptions& options = {});
 
 /// contact_phases(), which is faster, where all laws are those of one instant, and flow_motion() with
 /// friction, and where that finds no motion or has too many phases.

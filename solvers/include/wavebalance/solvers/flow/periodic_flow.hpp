@@ -13,8 +13,10 @@ struct FlowMotion {
   TimeSteppingResult stepping;  ///< the last period, and how it was reached
   FlowStatus ended = FlowStatus::converged;
   std::vector<FlowEvent> events;  ///< of the last period, in s from its beginning
+  std::vector<Impact> impacts;    ///< among these, in periods
   std::vector<ContactMachine> machines;
   std::vector<int> states;  ///< of the machines at the end
+  Eigen::VectorXd state;    ///< ContactFlow::state() there
   int rests = 0;            ///< impacts of the last period without rebound, FlowOptions::rest_velocity
   /// Relative distance of the state from that one period later, after Newton's method on the map of the
   /// period; missing where that was not tried or found no motion.
@@ -23,14 +25,14 @@ struct FlowMotion {
   Eigen::VectorXcd multipliers;
 };
 
-/// Integrates from contacts at rest, and the structure elsewhere in its motion without contact, until two
-/// successive periods of the displacements differ by less than period_tolerance, then closes the period by
-/// Newton's method: the motion is then exact to the tolerance of the panels, and its multipliers are known.
-/// Of the options those of steps and of initial values, and full_history, have no part in it. A slider that
-/// does not move keeps its position, which has a multiplier of 1 that is left out. Throws as ContactFlow
-/// does, and for options out of range.
+/// Integrates from contacts at rest, and the structure elsewhere in its motion without contact, or from
+/// states of the poles, until two successive periods of the displacements differ by less than
+/// period_tolerance, then closes the period by Newton's method: the motion is then exact to the tolerance of
+/// the panels, and its multipliers are known. Of the options those of steps and of initial values, and
+/// full_history, have no part in it. A slider that does not move keeps its position, which has a multiplier
+/// of 1 that is left out. Throws as ContactFlow does, and for options out of range.
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
-                               const FlowOptions& flow = {});
+                               const FlowOptions& flow = {}, const Eigen::VectorXcd& poles = {});
 /// The same of a structure under the load of a problem, at its frequency.
 FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
                                const ContactLaws& laws, const TimeSteppingOptions& options,

@@ -7,6 +7,7 @@
 #include "wavebalance/solvers/impacts/impacts_problem.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
@@ -35,22 +36,6 @@ struct ImpactGuess {
   double impulse = 0.0;  ///< N s
 };
 
-/// An impact of a periodic motion.
-struct Impact {
-  int contact = 0;
-  double time = 0.0;             ///< periods of the motion, 0..1
-  double velocity_before = 0.0;  ///< m/s, towards the obstacle
-  double velocity_after = 0.0;   ///< m/s
-  double impulse = 0.0;          ///< N s
-  double energy_lost = 0.0;      ///< J, impulse (velocity_before + velocity_after) / 2
-};
-
-/// A contact that stays closed, pressed by load and motion, after an impact without rebound.
-struct LastingContact {
-  int contact = 0;
-  double begin = 0.0, end = 0.0;  ///< periods of the motion; begin in 0..1
-};
-
 struct ImpactMotionOptions {
   int max_iterations = 40;  ///< of Newton's method
   Observer observer = {};   ///< called before each of its steps
@@ -61,7 +46,6 @@ struct ImpactMotionOptions {
 
 namespace detail {
 class ImpactModel;
-struct LastingParts;
 }  // namespace detail
 
 /// A periodic motion with impacts, to rounding.
@@ -70,8 +54,7 @@ struct LastingParts;
 class ImpactMotion {
  public:
   ImpactStatus status = ImpactStatus::not_settled;
-  std::vector<Impact> impacts;          ///< by time; the solution of the equations also where it is no motion
-  std::vector<LastingContact> lasting;  ///< by time
+  std::vector<Impact> impacts;  ///< by time; the solution of the equations also where it is no motion
   int iterations = 0;
   /// Largest error of the equations over the scales of displacement and velocity.
   double residual = missing;
@@ -92,8 +75,6 @@ class ImpactMotion {
   /// velocity after it. Throw std::invalid_argument without a solution. O(K (log impacts + C poles)).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
   Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
-  /// N, likewise: of contacts that stay closed, and 0 of others; impulses have no force.
-  Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
   /// J per period, of all impacts.
   double energy_lost() const;
   /// Complex amplitudes of the contact forces, N, C x count: column n belongs to Re(a exp(2 pi i n t)). They
@@ -101,8 +82,7 @@ class ImpactMotion {
   Eigen::MatrixXcd force_harmonics(int count) const;
 
   std::shared_ptr<const detail::ImpactModel> model;
-  Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact; empty with `parts`
-  std::shared_ptr<const detail::LastingParts> parts;  ///< of a motion with contact that lasts
+  Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact
 };
 
 /// The periodic motion near the impacts of a start, in any order. With the periodic Green function G of the

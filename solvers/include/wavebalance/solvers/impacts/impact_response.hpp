@@ -12,9 +12,6 @@ struct ImpactResponseOptions {
   int longest = 16;        ///< periods of the load after which a motion may repeat
   int max_impacts = 2000;  ///< in a period of the load
   double near = 1e-2;      ///< relative change of the state after which Newton's method is tried
-  /// false: no Newton's method; the motion is that of the last periods once they repeat to `near`, and its
-  /// stability is not known.
-  bool solve = true;
   /// The deviation from the motion without contact at t = 0, one number for each of ContactDynamics::poles();
   /// empty: where it is clear of all obstacles.
   Eigen::VectorXcd start{};
@@ -27,12 +24,19 @@ struct ImpactResponseOptions {
 
 /// A forced response with impacts.
 struct ImpactResponse {
-  ImpactMotion motion;           ///< over load_periods periods of the load
+  ImpactMotion motion;  ///< over load_periods periods of the load
+  /// Where a contact rests: the exact motion with impacts and contact that lasts, over as many; `motion` then
+  /// says why it is none of impacts alone.
+  PhaseMotion lasting;
   int load_periods = 1;          ///< after which it repeats
-  Eigen::VectorXcd multipliers;  ///< impact_multipliers(); empty unless the motion has converged
+  Eigen::VectorXcd multipliers;  ///< empty unless the motion has converged
   int unstable = -1;             ///< unstable_count(); -1 where not known
   int integrated = 0;            ///< periods of the load
   double distance = missing;     ///< relative change of the integrated state over the motion's period
+
+  bool lasts() const { return lasting.parts != nullptr; }
+  bool converged() const { return motion.converged() || lasting.converged(); }
+  const std::vector<Impact>& impacts() const { return lasts() ? lasting.impacts : motion.impacts; }
 };
 
 /// The motion with impacts that a structure settles to under its load, of which `problem` has one period: by
@@ -41,14 +45,12 @@ struct ImpactResponse {
 /// begins where the motion without contact is farthest from all obstacles, pressed away from those that it
 /// passes there. A motion that is unstable is given only where none that is stable has been found.
 ///
-/// A contact without rebound (e = 0) that is pressed after its impact stays closed until its force vanishes,
-/// by exact motions with that contact closed; the periodic motion is then solved for by Newton's method on
-/// the map of its period. `lasting_contact` where two such contacts are closed at once, or the closed one has
-/// mass in common with another that meets its obstacle.
+/// Where a contact without rebound is pressed after its impact, and where impacts of a contact follow each
+/// other ever faster, their velocity below 1e-6 of the largest, the contact rests: settled_motion() from the
+/// same state then leads to `lasting`. Where it leads to none, `motion` has the status lasting_contact or
+/// chattering with the instant at which the first such impacts end, the sum of a geometric series.
 ///
-/// `chattering` where impacts of one contact follow each other ever faster, their velocity below 1e-6 of the
-/// largest while the contact is pressed against its obstacle; they then end at chattering_end, the sum of a
-/// geometric series. Throws as impact_motion() and for options out of range. O(cells C poles) per period.
+/// Throws as impact_motion() and for options out of range. O(cells C poles) per period.
 ImpactResponse impact_response(const ImpactsProblem& problem, const ImpactResponseOptions& options = {});
 
 }  // namespace wavebalance::solvers

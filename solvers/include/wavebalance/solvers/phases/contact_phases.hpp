@@ -23,6 +23,24 @@ struct ContactPhase {
   bool always() const { return end - begin >= 1.0; }
 };
 
+/// An impact of a periodic motion.
+struct Impact {
+  int contact = 0;
+  double time = 0.0;             ///< periods of the motion, 0..1
+  double velocity_before = 0.0;  ///< m/s, towards the obstacle
+  double velocity_after = 0.0;   ///< m/s
+  double impulse = 0.0;          ///< N s
+  double energy_lost = 0.0;      ///< J, impulse (velocity_before + velocity_after) / 2
+};
+
+/// A state in which a period begins, `begin` periods after time 0: of the poles and memories, as
+/// ContactFlow::state() has it, and of the contacts.
+struct PeriodStart {
+  double begin = 0.0;
+  Eigen::VectorXd state;
+  std::vector<int> contacts;
+};
+
 enum class PhasesStatus {
   converged,
   not_found,  ///< the search ended without a motion near the start, which is no proof that there is none
@@ -35,6 +53,7 @@ enum class PhasesStatus {
   structural_damping,    ///< it has no equation in time
   slip_in_a_plane,       ///< friction along two tangents
   law_over_period,       ///< a law that acts over a period and has no states
+  undetermined,          ///< a body is free to be elsewhere: of a curve, whose points would be any of them
   cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 
@@ -80,6 +99,7 @@ class PhaseMotion {
   std::vector<ContactPhase> phases;  ///< by contact, then by begin
   /// Contacts with friction by the parts of the period in which they are open, stick and slip.
   std::vector<FrictionAlong> friction;
+  std::vector<Impact> impacts;  ///< by time
   int unknowns = 0, iterations = 0, changes = 0;
   double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
   /// Relative rms error of the displacements, by the last Legendre coefficients and the residual.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wavebalance/solvers/exact/exact_curve.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_curve.hpp"
 #include "wavebalance/solvers/impacts/impact_motions.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
@@ -80,6 +81,12 @@ class ContactProblem {
   /// or no modes.
   std::optional<PhaseMotion> phases(double frequency, const SettledMotion& settled,
                                     const ContactPhasesOptions& options = {});
+  /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other
+  /// laws, of friction of a structure that is free to move and of rigid friction at a contact with mass.
+  bool moves_by_events() const;
+  /// settled_motion() at a frequency. Throws std::invalid_argument without modes.
+  SettledExact settled_exact(double frequency, const TimeSteppingOptions& stepping,
+                             const ContactPhasesOptions& options = {});
   /// The phases of contact near displacements of the contacts, and with rigid laws forces, uniform over the
   /// period; nothing without modes.
   std::optional<PhaseMotion> phases(double frequency, const Motion& start,

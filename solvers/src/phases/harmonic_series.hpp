@@ -4,8 +4,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Re sum_n a_n exp(2 pi i n t) over the time t in periods, with its first two derivatives by the time in s.
-/// Few harmonics are summed as they are. Many are summed by FFTs at uniform instants once, where Taylor's
+/// Re sum_n a_n exp(2 pi i n t) over the time t in periods, with its first three derivatives by the time in
+/// s. Few harmonics are summed as they are. Many are summed by FFTs at uniform instants once, where Taylor's
 /// series about the nearest instant has the values between them to rounding: O(H log H) to make, and each
 /// value O(1).
 class HarmonicSeries {
@@ -14,11 +14,11 @@ class HarmonicSeries {
   /// `rate`: 2 pi over the period, rad/s.
   HarmonicSeries(Eigen::VectorXcd amplitudes, double rate);
 
-  /// The value and its two derivatives.
-  std::array<double, 3> at(double time) const;
+  /// The value and its derivatives.
+  std::array<double, 4> at(double time) const;
 
  private:
-  std::array<double, 3> summed(double time) const;
+  std::array<double, 4> summed(double time) const;
 
   Eigen::VectorXcd amplitudes_;
   double rate_ = 0.0;

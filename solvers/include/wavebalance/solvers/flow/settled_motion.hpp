@@ -1,0 +1,33 @@
+#pragma once
+#include <optional>
+
+#include "wavebalance/solvers/flow/periodic_flow.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::solvers {
+
+/// The exact motion that a structure settles to.
+struct SettledExact {
+  FlowMotion settled;    ///< what was integrated
+  int load_periods = 1;  ///< after which the motion repeats
+  PhaseMotion motion;    ///< of a problem over so many periods
+};
+
+/// Where a structure is let go: states of the poles at a time, with contacts that touch nothing.
+struct PoleStart {
+  double begin = 0.0;  ///< periods
+  Eigen::VectorXcd poles;
+};
+
+/// The problem over several periods of its load.
+PhasesProblem over_periods(const PhasesProblem& problem, int times);
+
+/// The motion that the structure settles to from contacts at rest or a start, integrate_by_events(), and from
+/// there to the tolerance of the exact motion, flow_motion_from(). It is tried once two periods agree to a
+/// thousandth; where what is found is unstable the structure settles further. An unstable motion is given
+/// where it settles to none. Any laws that are machines of states: impacts, friction and others side by side,
+/// of structures that may be free to move. Throws as integrate_by_events(), and for options out of range.
+SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions stepping,
+                            const ContactPhasesOptions& options, const std::optional<PoleStart>& start = {});
+
+}  // namespace wavebalance::solvers
