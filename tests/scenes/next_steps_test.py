@@ -126,7 +126,7 @@ def test_steps_of_motions_in_time_are_accepted(chain, run, command, law, free, p
 
 def test_impacts_that_do_not_settle_in_time_have_a_step(chain, run):
     record = run(chain(LAWS["restitution"], 'type = "time_stepping"\nmax_periods = 2\n'))
-    assert record.summary["status"] == "not_settled"
+    assert record.summary["status"] == "iteration_limit"
     assert "more analysis.max_periods" in record.errors
 
 

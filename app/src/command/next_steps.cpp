@@ -72,15 +72,11 @@ const Remedies& of_modes() {
 
 const Remedies& of_time_stepping() {
   static const Remedies all{
-      {"iteration_limit", {more_periods, larger_step_tolerance, more_damping, fewer_modes}},
+      {"iteration_limit", {more_periods, larger_step_tolerance, all_motions, more_damping, fewer_modes}},
       {"subharmonic", {response_of_periods, all_motions}},
       {"tolerance_missed", {larger_step_tolerance}},
       {"step_failure", {softer_contact}},
-      {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}},
-      {"not_settled", {more_periods, all_motions, more_damping}},
-      {"chattering", {all_motions, no_rebound, stiff_law, more_rebound}},
-      {"lasting_contact", {stiff_law}},
-      {"too_many_impacts", {stiff_law, more_damping, less_rebound}}};
+      {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}}};
   return all;
 }
 

@@ -253,7 +253,11 @@ Step exact_curve(const Scene& scene) {
 
 Step curve_of_balance(const Scene& scene) {
   if (moves_by_events(scene)) return std::nullopt;
-  return set_to("analysis.exact", false);
+  NextStep step = *set_to("analysis.exact", false);  // and the pair, which an exact curve need not name
+  const std::array names{"time.trial", "time.weight", "time.functions"};
+  for (const char* name : names)
+    step.change.set.push_back(std::string(name) + "=" + toml_text(find_scene_key(name)->get(scene)));
+  return step;
 }
 
 Step smaller_step(const Scene& scene) {

@@ -96,14 +96,16 @@ TEST(ImpactScene, OfABarHasImpactsAndAMotionOfAllItsNodes) {
   EXPECT_EQ(std::count_if(record.files.begin(), record.files.end(), written), 1);
 }
 
-TEST(ImpactScene, OfABarWhoseEndHasTheMassOfAnElementChatters) {
+TEST(ImpactScene, OfABarWhoseEndHasTheMassOfAnElementComesToRestAfterManyImpacts) {
   const std::vector<std::string> set{"contact.restitution=0.8"},
       unset{"structure.massless_tip", "time.trial",       "time.weight",
             "time.functions",         "time.formulation", "time.quadrature_points",
             "time.inner_products"};
   const Record record = analyse(
       load_scene(impact_scenes.parent_path() / "jones_legrand_2014" / "case2_rigid.toml", set, unset));
-  EXPECT_EQ(record.status, "chattering");
+  EXPECT_EQ(record.status, "converged");
+  EXPECT_GT(value_of<double>(record.summary, "impacts"), 20.0);
+  EXPECT_FALSE(value_in<Table>(record.summary, "lasting_contacts")->empty());
 }
 
 TEST(ImpactScene, OfABarWithoutReboundHasContactThatLasts) {
@@ -159,14 +161,6 @@ TEST(ImpactScene, OfTimeSteppingHasTheMotionOfNewtonsMethod) {
   EXPECT_GT(value_of<std::int64_t>(stepped.summary, "iterations"), 10);
 }
 
-TEST(ImpactScene, NamesChatteringAndDoesNotConverge) {
-  const Record record = analyse(impact_scene(
-      "oscillator.toml", {"contact.gap=0", "contact.restitution=0.5", "forcing.frequency=0.0318309886"}));
-  EXPECT_FALSE(record.converged);
-  EXPECT_EQ(record.status, "chattering");
-  ASSERT_FALSE(record.warnings.empty());
-}
-
 TEST(ImpactScene, IsWrittenAndReadBackEqual) {
   for (const char* name :
        {"oscillator.toml", "bar_with_end_mass.toml", "bar_without_rebound.toml", "between_stops.toml"}) {
@@ -197,18 +191,6 @@ TEST(ImpactScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
     EXPECT_NE((details.key + " " + details.allowed).find(one.expected), std::string::npos)
         << one.setting << ": " << details.allowed;
   }
-}
-
-TEST(ImpactScene, WhoseContactLastsHasNoCurveAndSaysSo) {
-  const Record record = analyse(
-      load_scene(impact_scenes / "bar_without_rebound.toml",
-                 std::vector<std::string>{"analysis.type=frequency_sweep", "analysis.frequency_from=1275",
-                                          "analysis.frequency_to=1300"},
-                 std::vector<std::string>{"forcing.frequency"}));
-  EXPECT_EQ(record.status, "no_start");
-  EXPECT_TRUE(std::any_of(record.warnings.begin(), record.warnings.end(), [](const std::string& text) {
-    return text.find("contact lasts") != std::string::npos;
-  }));
 }
 
 TEST(ImpactScene, HasNoFunctionsToCompare) {
