@@ -50,8 +50,10 @@ class PeriodNewton {
                            : Eigen::MatrixXd(state.size(), 0));
     if (flow_.advance_period() != FlowStatus::converged) return std::nullopt;
     Period result{state, flow_.state() - state, contacts, flow_.contact_states(), flow_.perturbation(), 0.0};
-    const double size = state.cwiseProduct(weights_).norm();
-    result.distance = result.change.cwiseProduct(weights_).norm() / std::max(size, 1e-300);
+    constexpr double least = 1e-7;  // where contacts hold the structure
+    const double size =
+        std::clamp(state.cwiseProduct(weights_).norm(), least * flow_.length(), flow_.length());
+    result.distance = result.change.cwiseProduct(weights_).norm() / size;
     stopped_ = !goes_on(observer_,
                         {"exact motion", result_.iterations, result.distance, "relative change of a period"});
     return result;

@@ -14,7 +14,7 @@ struct ClosedPeriod {
   int iterations = 0;
   Eigen::VectorXd state;      ///< ContactFlow::state() at the beginning
   std::vector<int> contacts;  ///< and the states of the machines
-  double distance = missing;  ///< of the state one period later, relative, in displacements
+  double distance = missing;  ///< of the state one period later, in displacements relative to the motion
   Eigen::MatrixXd map;        ///< what becomes of perturbations of the state in a period, there or near
 };
 

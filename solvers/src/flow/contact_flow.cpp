@@ -24,10 +24,15 @@ int coarsest_level(const detail::ContactPoles& poles, int panels) {
   return level;
 }
 
+// A length that the motion has. Where almost nothing holds a structure it rests on its contacts, and its
+// static deflection without them says nothing but how large rounding is.
 double length_of(const PhasesProblem& problem) {
-  const double free =
-      problem.contact_free.size() == 0 ? 0.0 : problem.contact_free.rowwise().norm().maxCoeff();
-  return std::max({free, problem.laws.largest_gap(), 1e-300});
+  constexpr double rounding = 1e-4;
+  const Eigen::MatrixXcd& free = problem.contact_free;
+  if (free.size() == 0) return std::max(problem.laws.largest_gap(), 1e-300);
+  const double moving = free.rightCols(free.cols() - 1).rowwise().norm().maxCoeff(),
+               whole = free.rowwise().norm().maxCoeff();
+  return std::max({moving, (moving > 0.0 ? rounding : 1.0) * whole, problem.laws.largest_gap(), 1e-300});
 }
 
 }  // namespace
@@ -351,6 +356,7 @@ const std::vector<ContactMachine>& ContactFlow::machines() const { return engine
 const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events(); }
 int ContactFlow::rests() const { return engine_->rests(); }
 double ContactFlow::period() const { return engine_->period(); }
+double ContactFlow::length() const { return engine_->length(); }
 void ContactFlow::perturb(const Eigen::MatrixXd& columns) { engine_->perturb(columns); }
 Eigen::MatrixXd ContactFlow::perturbation() const { return engine_->perturbation(); }
 

@@ -34,6 +34,7 @@ class ContactFlow::Engine {
   int rests() const { return rests_; }
   Eigen::VectorXd off_center() const;
   double period() const { return poles_.period(); }
+  double length() const { return length_; }
 
  private:
   /// An exit of a contact's state.

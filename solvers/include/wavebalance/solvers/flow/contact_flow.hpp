@@ -113,6 +113,8 @@ class ContactFlow {
   /// positions in which it would have; 0 of others.
   Eigen::VectorXd off_center() const;
   double period() const;  ///< s
+  /// m, that the motion of the contacts has: of the motion without contact about its mean, or a gap.
+  double length() const;
 
   /// Takes perturbations of state() along from here on: columns.
   void perturb(const Eigen::MatrixXd& columns);
