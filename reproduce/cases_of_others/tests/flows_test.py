@@ -41,7 +41,7 @@ def test_motions_of_the_impact_damper(index):
 
 
 def test_work_of_the_shaken_mass():
-    for amplitude, row in ((1.5, "power of wear (W) at 1.5"), (0.99, "power of wear (W) at 0.99")):
+    for amplitude, row in ((1.5, "power of wear (W) at 1.5"), (1.01, "power of wear (W) at 1.01"), (0.99, "power of wear (W) at 0.99")):
         events = flows.shaken(1.0, amplitude, 2 * pi).run([0, 0], "stick", 2)[3]
         places = [event[3][0] for event in events if event[0] > 0.9]
         power = 10 * abs(places[2] - places[0]) * 2 if len(places) > 2 else 0.0
@@ -114,6 +114,14 @@ def test_flight_of_the_follower():
     landing, height, speed = known("cam_follower", "share", "height", "speed")
     found = smooth.follower()
     assert found == pytest.approx((landing, height, speed), rel=1e-5)
+
+
+def test_bounces_of_the_follower():
+    impacts = smooth.bouncing_follower(0.8, 60)
+    period, count, largest, least = known("cam_follower", "period", "impacts", "largest", "least")
+    assert len([speed for turn, speed in impacts if turn >= 60 - period]) == count
+    speeds = [speed for _, speed in impacts[-int(count):]]
+    assert [max(speeds), min(speeds)] == pytest.approx([largest, least], rel=1e-6)
 
 
 def test_load_of_the_cam_is_that_of_its_arcs():

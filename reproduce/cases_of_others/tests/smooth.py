@@ -105,3 +105,35 @@ def follower():
     rates = lambda time, state: [state[1], (cam_force(time / period) - 1430.8 * state[0]) / 1.221]
     ran = solve_ivp(rates, (share * period, (share + 1) * period), [1e-12, 1e-9], events=landed, max_step=period / 1000, rtol=1e-9, atol=1e-12)
     return ran.t[-1] / period, ran.y[0].max(), -ran.y[1, -1]
+
+
+def bouncing_follower(restitution, turns):
+    """The impacts (time in turns, speed in m/s) of a follower from rest above its cam, whose load is linear between its samples."""
+    lines = (SCENES / "cam_load.csv").read_text().split()[1:]
+    load = np.array([*map(float, lines), float(lines[0])]) / 1430.8
+    natural, step = np.sqrt(1430.8 / 1.221), 60 / 358 / len(lines)
+    place, speed, impacts = 0.1, 0.0, []
+
+    def after(time, begin, end, place, speed, slope):
+        turned = natural * time
+        away, rate = place - begin, (speed - slope) / natural
+        return (begin + slope * time + away * np.cos(turned) + rate * np.sin(turned),
+                slope + natural * (rate * np.cos(turned) - away * np.sin(turned)))
+
+    for count in range(turns * len(lines)):
+        begin, end = load[count % len(lines)], load[count % len(lines) + 1]
+        slope, done = (end - begin) / step, 0.0
+        while True:
+            ahead = after(step - done, begin + slope * done, end, place, speed, slope)
+            if ahead[0] >= 0 or len(impacts) > 100 * turns:
+                place, speed = ahead
+                break
+            low, high = 0.0, step - done
+            for _ in range(50):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if after(middle, begin + slope * done, end, place, speed, slope)[0] >= 0 else (low, middle)
+            place, speed = 0.0, after(high, begin + slope * done, end, place, speed, slope)[1]
+            done += high
+            impacts.append(((count + done / step) / len(lines), -speed))
+            speed *= -restitution
+    return impacts
