@@ -309,11 +309,12 @@ Scene read_scene(const Document& given) {
   };
   read([](const SceneKey& key) { return governs(key) && key.belongs.empty(); });
   read([](const SceneKey& key) { return governs(key) && !key.belongs.empty(); });
-  const auto of_time = [](const SceneKey& key) { return key.section == "time"; };
-  read([&](const SceneKey& key) { return !governs(key) && !of_time(key); });
+  // Laws of pairs may need no pair of bases, and defaults of the analysis follow from that.
+  const auto last = [](const SceneKey& key) { return key.section == "time" || key.section == "analysis"; };
+  read([&](const SceneKey& key) { return !governs(key) && !last(key); });
   read_pairs(document, scene);
   read_terms(document, scene);
-  read([&](const SceneKey& key) { return !governs(key) && of_time(key); });  // laws of pairs may need none
+  read([&](const SceneKey& key) { return !governs(key) && last(key); });
   return scene;
 }
 

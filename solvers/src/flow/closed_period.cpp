@@ -31,6 +31,8 @@ class PeriodNewton {
     while (now && !stopped_ && !done(*now) && result_.iterations < most) {
       ++result_.iterations;
       auto next = now->returns() ? newton(*now) : std::nullopt;
+      result_.found = !next && !stopped_ && now->returns() && now->distance < small_;  // no step leads nearer
+      if (result_.found) break;
       if (!next && !stopped_) next = passed(*now);
       now = std::move(next);
     }
@@ -50,9 +52,10 @@ class PeriodNewton {
                            : Eigen::MatrixXd(state.size(), 0));
     if (flow_.advance_period() != FlowStatus::converged) return std::nullopt;
     Period result{state, flow_.state() - state, contacts, flow_.contact_states(), flow_.perturbation(), 0.0};
-    constexpr double least = 1e-7;  // where contacts hold the structure
-    const double size =
-        std::clamp(state.cwiseProduct(weights_).norm(), least * flow_.length(), flow_.length());
+    constexpr double least = 1e-7,
+                     most = 1e3;  // where contacts hold the structure, and where it rests on them
+    double size = std::max(state.cwiseProduct(weights_).norm(), least * flow_.length());
+    if (flow_.rests_on_contacts()) size = std::min(size, most * flow_.length());
     result.distance = result.change.cwiseProduct(weights_).norm() / size;
     stopped_ = !goes_on(observer_,
                         {"exact motion", result_.iterations, result.distance, "relative change of a period"});
@@ -61,25 +64,31 @@ class PeriodNewton {
 
   // As far as rounding lets it.
   bool done(const Period& now) {
-    constexpr double rounding = 1e-13, small = 1e-8;
+    constexpr double rounding = 1e-13;
     if (!now.returns()) return false;
-    const bool stalls = now.distance < small && now.distance > 0.1 * last_distance_;
+    const bool stalls = now.distance < small_ && now.distance > 0.1 * last_distance_;
     result_.found = now.distance < rounding || stalls;
     last_distance_ = now.distance;
     return result_.found;
   }
 
   Eigen::VectorXd step(const Period& now, const Eigen::MatrixXd& map) const {
-    constexpr double singular = 1e-9;  // of a body that is free to move somewhere
+    constexpr double singular = 1e-9;
     const std::vector<Index> free = free_states(map);
-    const auto count = Index(free.size());
-    const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(count, count) - map(free, free);
+    const Eigen::MatrixXd own = map(free, free),
+                          left = Eigen::MatrixXd::Identity(own.rows(), own.cols()) - own;
     const Eigen::VectorXd right = now.change(free);
     const Lu<double> lu(left);
+    const bool shortest = lu.is_singular(singular) && moves_freely(own);
     Eigen::VectorXd result = now.change;
-    result(free) =
-        lu.is_singular(singular) ? least_squares(left, right, singular) : Eigen::VectorXd(lu.solve(right));
+    result(free) = shortest ? least_squares(left, right, singular) : Eigen::VectorXd(lu.solve(right));
     return result;
+  }
+
+  // Whether a body may be elsewhere and still come back; a map of fast growth is nearly singular, too.
+  static bool moves_freely(const Eigen::MatrixXd& map) {
+    constexpr double rounding = 1e-9;
+    return ((eigenvalues(map).array() - 1.0).abs() < rounding).any();
   }
 
   std::optional<Period> newton(const Period& now) {
@@ -108,6 +117,7 @@ class PeriodNewton {
   }
 
   ContactFlow& flow_;
+  double small_ = std::max(1e-8, 0.1 * flow_.tolerance());  // where errors may keep it from coming nearer
   const Observer& observer_;
   Eigen::VectorXd weights_;
   Eigen::MatrixXd map_;

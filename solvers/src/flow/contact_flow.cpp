@@ -24,15 +24,22 @@ int coarsest_level(const detail::ContactPoles& poles, int panels) {
   return level;
 }
 
-// A length that the motion has. Where almost nothing holds a structure it rests on its contacts, and its
-// static deflection without them says nothing but how large rounding is.
+// Of the motion without contact about its mean, or a gap.
+double moving_length(const PhasesProblem& problem) {
+  const Eigen::MatrixXcd& free = problem.contact_free;
+  if (free.size() == 0) return std::max(problem.laws.largest_gap(), 1e-300);
+  const double whole = free.rowwise().norm().maxCoeff(),
+               moving = free.cols() > 1 ? free.rightCols(free.cols() - 1).rowwise().norm().maxCoeff() : 0.0;
+  return std::max({moving > 0.0 ? moving : whole, problem.laws.largest_gap(), 1e-300});
+}
+
+// Where almost nothing holds a structure it rests on its contacts, and its static deflection without them
+// says nothing but how large rounding is.
 double length_of(const PhasesProblem& problem) {
   constexpr double rounding = 1e-4;
   const Eigen::MatrixXcd& free = problem.contact_free;
-  if (free.size() == 0) return std::max(problem.laws.largest_gap(), 1e-300);
-  const double moving = free.rightCols(free.cols() - 1).rowwise().norm().maxCoeff(),
-               whole = free.rowwise().norm().maxCoeff();
-  return std::max({moving, (moving > 0.0 ? rounding : 1.0) * whole, problem.laws.largest_gap(), 1e-300});
+  const double whole = free.size() == 0 ? 0.0 : free.rowwise().norm().maxCoeff();
+  return std::max(moving_length(problem), rounding * whole);
 }
 
 }  // namespace
@@ -59,6 +66,7 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       nodes_(detail::panel_nodes),
       rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
       length_(length_of(problem)),
+      moving_(moving_length(problem)),
       coarsest_(coarsest_level(poles_, options.panels)),
       fastest_(machines_.size(), 0.0) {
   for (const int row : problem.laws.rigid(int(poles_.rows())))
@@ -356,7 +364,9 @@ const std::vector<ContactMachine>& ContactFlow::machines() const { return engine
 const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events(); }
 int ContactFlow::rests() const { return engine_->rests(); }
 double ContactFlow::period() const { return engine_->period(); }
+double ContactFlow::tolerance() const { return engine_->tolerance(); }
 double ContactFlow::length() const { return engine_->length(); }
+bool ContactFlow::rests_on_contacts() const { return engine_->rests_on_contacts(); }
 void ContactFlow::perturb(const Eigen::MatrixXd& columns) { engine_->perturb(columns); }
 Eigen::MatrixXd ContactFlow::perturbation() const { return engine_->perturbation(); }
 

@@ -37,13 +37,17 @@ double fastest_turn(const Eigen::VectorXcd& exponents, const Eigen::MatrixXcd& o
 
 ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free,
                            double frequency)
-    : period_(1.0 / frequency), holding_(dynamics.holding()), constant_(dynamics.constant()) {
+    : period_(1.0 / frequency),
+      holding_(dynamics.holding()),
+      contact_free_(contact_free),
+      constant_(dynamics.constant()) {
   if (dynamics.structurally_damped())
     throw std::invalid_argument(
         "ContactPoles: the structure has structural damping, which has no equation in time; the damping must "
         "be viscous");
   const Index count = Index(dynamics.poles().size()), rows = dynamics.contacts();
-  for (Index row = 0; row < rows; ++row)
+  constexpr Index few = 64;  // harmonics, which are summed at once for all contacts
+  for (Index row = 0; row < (contact_free_.cols() > few ? rows : 0); ++row)
     free_.emplace_back(contact_free.row(row).transpose(), 2.0 * std::numbers::pi * frequency);
   if (contact_free.size() > 0) free_scale_ = contact_free.rowwise().norm().maxCoeff();
   exponents_.resize(count);
@@ -74,6 +78,19 @@ const Eigen::MatrixXd& ContactPoles::feed(int level, int k) const {
 
 std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::VectorXd& times) const {
   std::array<Eigen::MatrixXd, levels> result;
+  if (free_.empty()) {
+    const double rate = 2.0 * std::numbers::pi / period_;
+    Eigen::MatrixXcd waves(contact_free_.cols(), times.size());
+    for (Index k = 0; k < times.size(); ++k)
+      for (Index n = 0; n < contact_free_.cols(); ++n)
+        waves(n, k) = std::polar(1.0, rate * double(n) * times[k]);
+    Eigen::MatrixXcd amplitudes = contact_free_;
+    for (auto& values : result) {
+      values = (amplitudes * waves).real();
+      for (Index n = 0; n < amplitudes.cols(); ++n) amplitudes.col(n) *= Complex(0.0, rate * double(n));
+    }
+    return result;
+  }
   result.fill(Eigen::MatrixXd(rows(), times.size()));
   for (Index row = 0; row < rows(); ++row)
     for (Index k = 0; k < times.size(); ++k) {

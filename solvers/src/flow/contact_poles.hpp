@@ -63,8 +63,8 @@ class ContactPoles {
   double period_, holding_, fastest_ = 0.0, free_scale_ = 0.0;
   Index states_ = 0;
   Eigen::VectorXcd exponents_;
-  std::vector<HarmonicSeries> free_;  // of each row
-  Eigen::MatrixXcd inputs_;
+  std::vector<HarmonicSeries> free_;  // of each row, of many harmonics
+  Eigen::MatrixXcd inputs_, contact_free_;
   std::array<Eigen::MatrixXcd, levels> outputs_;
   std::array<Eigen::MatrixXd, levels> real_outputs_;
   std::array<Eigen::MatrixXd, levels> moments_;

@@ -34,7 +34,9 @@ class ContactFlow::Engine {
   int rests() const { return rests_; }
   Eigen::VectorXd off_center() const;
   double period() const { return poles_.period(); }
-  double length() const { return length_; }
+  double tolerance() const { return options_.tolerance; }
+  double length() const { return moving_; }
+  bool rests_on_contacts() const { return length_ > moving_; }
 
  private:
   /// An exit of a contact's state.
@@ -107,7 +109,7 @@ class ContactFlow::Engine {
   Eigen::VectorXd rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
-  double length_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0;
+  double length_ = 0.0, moving_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0;
   /// The least value of a guard in the last period, and its slope by the memory.
   struct Margin {
     double least, by_memory;

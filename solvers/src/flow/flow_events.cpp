@@ -128,12 +128,13 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Den
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
   while (k < g.size() && !is_clear(k)) ++k;
-  // What an event before has left slightly below zero, and grows, is as zero; so is all that a contact brings
-  // into a state which it has just begun, as a velocity in which it stuck by less than a perturbation.
+  // What an event before has left slightly below zero, and grows, is as zero; so is a velocity in which a
+  // contact stuck, to which a perturbation leads.
   constexpr double left_over = 1e4;  // of `clear`
-  const bool begins = !events_.empty() && events_.back().contact == int(guard.contact) &&
-                      events_.back().time == time_ && events_.back().from != events_.back().to;
-  if (k == 0 && g[0] < 0.0 && (begins || g[0] > -left_over * samples.clear) && samples.rate[0] > 0.0)
+  const bool from_stick = !events_.empty() && events_.back().contact == int(guard.contact) &&
+                          events_.back().time == time_ &&
+                          contacts_.law(guard.contact).kind(events_.back().from) == ContactState::stick;
+  if (k == 0 && g[0] < 0.0 && (from_stick || g[0] > -left_over * samples.clear) && samples.rate[0] > 0.0)
     while (k < g.size() && g[k] < samples.clear) ++k;
   if (k == g.size()) return std::nullopt;
   if (g[k] < 0.0) {

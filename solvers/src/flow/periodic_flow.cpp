@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "flow/closed_period.hpp"
@@ -35,13 +36,19 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
   const Index rows = problem.dynamics.contacts();
   PastPeriods past(options.longest, options.period_tolerance,
                    rounding * problem.contact_free.norm() * std::sqrt(options.output_points));
+  double nearest = std::numeric_limits<double>::infinity();
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
+    const PeriodStart begin{0.0, flow.state(), flow.contact_states()};
     result.ended = sampled_period(flow, period);
     if (result.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
     past.add(period.displacement);
     stepping.contacts = std::move(period);
     if (++stepping.periods > 1) stepping.period_error.push_back(past.change());
+    if (stepping.periods > 1 && past.change() < nearest) {
+      nearest = past.change();
+      result.nearest = begin;
+    }
     if (const int repeats = past.repeats(); repeats > 0) {
       stepping.attractor_periods = repeats;
       return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;

@@ -7,13 +7,17 @@
 namespace wavebalance::solvers {
 namespace {
 
-// Far from the events of its next period.
-std::optional<PeriodStart> start_of(const PhasesProblem& problem, const FlowMotion& settled) {
+// The exact motion near a state at the end of a period of the load, far from the events of its next periods.
+PhaseMotion exact_from(const PhasesProblem& problem, const PeriodStart& state, int periods,
+                       const ContactPhasesOptions& options) {
   constexpr double share_of_calm = 0.375;  // in the middle a contact may be about to touch
-  ContactFlow flow(problem);
-  flow.start(settled.state, settled.states);
-  if (flow.advance_period() != FlowStatus::converged) return std::nullopt;
-  return detail::calmed(problem, {0.0, settled.state, settled.states}, flow.events(), share_of_calm);
+  const PhasesProblem longer = over_periods(problem, periods);
+  ContactFlow flow(detail::begun_at(longer, state.begin / periods));
+  flow.start(state.state, state.contacts);
+  if (flow.advance_period() != FlowStatus::converged) return {};
+  const auto start = detail::calmed(longer, {state.begin / periods, state.state, state.contacts},
+                                    flow.events(), share_of_calm);
+  return start ? flow_motion_from(longer, *start, options) : PhaseMotion();
 }
 
 }  // namespace
@@ -34,22 +38,28 @@ SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions st
   for (const double near : {1e-3, 1e-7}) {
     stepping.period_tolerance = near;
     result.settled = integrate_by_events(shifted, stepping, {}, start ? start->poles : Eigen::VectorXcd());
-    const int periods = result.settled.stepping.attractor_periods;
-    if (result.settled.stepping.status == TimeSteppingStatus::cancelled) {
+    const FlowMotion& settled = result.settled;
+    if (settled.stepping.status == TimeSteppingStatus::cancelled) {
       result.motion = {};
       result.motion.status = PhasesStatus::cancelled;
+      return result;
     }
-    if (periods < 1) return result;
-    auto from = start_of(over_periods(shifted, periods), result.settled);
-    if (from) from->begin += begin / periods;
-    PhaseMotion found =
-        from ? flow_motion_from(over_periods(problem, periods), *from, options) : PhaseMotion();
-    if (found.parts == nullptr && result.motion.parts != nullptr) return result;
+    const int periods = settled.stepping.attractor_periods;
+    if (periods < 1) break;
+    PhaseMotion found = exact_from(problem, {begin, settled.state, settled.states}, periods, options);
+    if (found.parts == nullptr && result.motion.parts != nullptr) break;
     result.motion = std::move(found);
     result.load_periods = periods;
     if (result.motion.status == PhasesStatus::cancelled) return result;
-    if (result.motion.parts != nullptr && result.motion.count_unstable() <= 0) return result;
+    if (result.motion.parts != nullptr && result.motion.count_unstable() <= 0) break;
   }
+  if (result.motion.converged() || result.settled.nearest.state.size() == 0) return result;
+  PeriodStart nearest = result.settled.nearest;
+  nearest.begin = begin;
+  PhaseMotion found = exact_from(problem, nearest, 1, options);
+  if (!found.converged()) return result;
+  result.motion = std::move(found);
+  result.load_periods = 1;
   return result;
 }
 

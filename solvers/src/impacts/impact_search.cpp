@@ -164,7 +164,8 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
 ImpactResponse ImpactSearch::ended(ImpactStatus status) {
-  const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
+  const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact ||
+                     status == ImpactStatus::grazing;
   if (status == ImpactStatus::cancelled) return none(status);
   const ImpactResponse rests = named ? resting(status) : none(status);
   if (rests.lasts() || rests.motion.status == ImpactStatus::cancelled) return rests;

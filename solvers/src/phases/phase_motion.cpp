@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
 #include "phases/phase_count.hpp"
 #include "phases/phase_motion_parts.hpp"
@@ -61,6 +62,14 @@ std::optional<detail::PeriodMap> map_of(const PhaseMotion::Parts& parts) {
   return panels ? detail::period_map(parts.model, parts.iterate, *panels, parts.nodes) : std::nullopt;
 }
 
+// Whether a contact has a force at a time.
+bool acts(const std::vector<ContactPhase>& phases, int contact, double time) {
+  return std::any_of(phases.begin(), phases.end(), [&](const ContactPhase& phase) {
+    const double since = time - phase.begin;
+    return phase.contact == contact && since - std::floor(since) <= phase.length();
+  });
+}
+
 }  // namespace
 
 Eigen::MatrixXd PhaseMotion::displacement(const Eigen::VectorXd& times) const {
@@ -73,7 +82,12 @@ Eigen::MatrixXd PhaseMotion::velocity(const Eigen::VectorXd& times) const {
 
 Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
   Eigen::MatrixXd forces = detail::force_at(parts->iterate.forces, parts->model, times);
-  if (parts->model.holding > 0.0) forces += parts->model.holding * displacement(times);
+  if (parts->model.holding == 0.0) return forces;
+  // What holds a structure that is free to move is taken off; of open contacts rounding would be left.
+  forces += parts->model.holding * displacement(times);
+  for (Index c = 0; c < forces.rows(); ++c)
+    for (Index k = 0; k < times.size(); ++k)
+      if (!acts(phases, int(c), times[k])) forces(c, k) = 0.0;
   return forces;
 }
 

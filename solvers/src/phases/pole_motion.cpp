@@ -239,7 +239,7 @@ ContactMotion PoleResponse::motion(const PeriodCells& period, const Eigen::Matri
   const auto& [grid, nodes, cells, waves] = period;
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), times.size()),
                        Eigen::MatrixXd::Zero(contacts(), times.size())};
-  if (grid.panels.empty()) return result;
+  if (grid.panels.empty() && grid.impulses.empty()) return result;
   const Eigen::MatrixXcd states = states_at_boundaries(period, coefficients);
   std::vector<std::vector<Index>> numbers(cells.size());
   std::vector<std::vector<double>> since(cells.size());

@@ -11,6 +11,7 @@
 #include "phases/phase_motion_parts.hpp"
 #include "support/impact_scenes.hpp"
 #include "support/rigid_law.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 
 namespace wavebalance::solvers {
@@ -18,10 +19,10 @@ namespace {
 
 using testing::impact_oscillator, testing::ImpactScene, testing::lumped_bar;
 
-// Without rebound, at 0.5.
 struct Obstacle : testing::Rigid {
-  Obstacle() : Rigid{0.5} {}
-  std::optional<double> restitution() const { return 0.0; }
+  Obstacle(double gap, double share) : Rigid{gap}, rebound(share) {}
+  std::optional<double> restitution() const { return rebound; }
+  double rebound;
 };
 
 // x'' + 0.1 x' + x = cos w t from x = gap, x' = 0 on, by small steps of Runge and Kutta, until x = gap again.
@@ -110,8 +111,8 @@ TEST(LastingContactTest, HasTheMultipliersOfDifferencesOfItsMotions) {
   const ImpactResponse found = impact_response(scene.problem(dynamics));
   ASSERT_TRUE(found.lasting.converged()) << to_string(found.motion.status);
   const PeriodStart start = *found.lasting.parts->start;
-  ContactFlow flow(detail::begun_at({dynamics, ContactLaws(Obstacle{}), scene.problem(dynamics).contact_free,
-                                     scene.problem(dynamics).frequency},
+  ContactFlow flow(detail::begun_at({dynamics, ContactLaws(Obstacle{0.5, 0.0}),
+                                     scene.problem(dynamics).contact_free, scene.problem(dynamics).frequency},
                                     start.begin),
                    {.tolerance = 1e-12});
   constexpr double change = 1e-6;
@@ -146,6 +147,23 @@ TEST(LastingContactTest, OfABarTendsToALimitAsItsElementsAreRefined) {
     }
     last = mean;
   }
+}
+
+// The map of the flow has the motion of the equations of impacts, between which no contact has a force.
+TEST(SettledMotionTest, OfImpactsAloneIsThatOfTheirEquations) {
+  const ImpactScene scene = lumped_bar(6, 0.5, 0.02, 0.8, 0.8, 0.9);
+  const ContactDynamics dynamics(scene.structure());
+  const ImpactsProblem problem = scene.problem(dynamics);
+  const ImpactResponse found = impact_response(problem);
+  ASSERT_TRUE(found.motion.converged() && found.load_periods == 1);
+  const SettledExact settled = settled_motion(
+      {dynamics, ContactLaws(Obstacle{0.8, 0.8}), problem.contact_free, problem.frequency}, {}, {});
+  ASSERT_TRUE(settled.motion.converged());
+  ASSERT_EQ(settled.motion.impacts.size(), found.motion.impacts.size());
+  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(97, 0.0, 0.99);
+  EXPECT_LT((settled.motion.displacement(times) - found.motion.displacement(times)).norm(), 1e-8);
+  EXPECT_LT((settled.motion.velocity(times) - found.motion.velocity(times)).norm(), 1e-7);
+  EXPECT_LT((settled.motion.force_harmonics(9) - found.motion.force_harmonics(9)).norm(), 1e-8);
 }
 
 // e = 0.3 between stops under a mean load: infinitely many impacts in a finite time, then rest. The same

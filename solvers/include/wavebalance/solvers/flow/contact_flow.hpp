@@ -112,9 +112,12 @@ class ContactFlow {
   /// m, by memories: how far a slider that stuck in all of the last period lies in front of the middle of the
   /// positions in which it would have; 0 of others.
   Eigen::VectorXd off_center() const;
-  double period() const;  ///< s
+  double period() const;     ///< s
+  double tolerance() const;  ///< FlowOptions::tolerance
   /// m, that the motion of the contacts has: of the motion without contact about its mean, or a gap.
   double length() const;
+  /// Whether its static deflection without contact is more than 1e4 times as large.
+  bool rests_on_contacts() const;
 
   /// Takes perturbations of state() along from here on: columns.
   void perturb(const Eigen::MatrixXd& columns);

@@ -17,6 +17,7 @@ struct FlowMotion {
   std::vector<ContactMachine> machines;
   std::vector<int> states;  ///< of the machines at the end
   Eigen::VectorXd state;    ///< ContactFlow::state() there
+  PeriodStart nearest;      ///< of all periods the beginning of the one that came back nearest
   int rests = 0;            ///< impacts of the last period without rebound, FlowOptions::rest_velocity
   /// Relative distance of the state from that one period later, after Newton's method on the map of the
   /// period; missing where that was not tried or found no motion.
