@@ -119,6 +119,21 @@ def test_the_curve_of_a_free_ball_ends_at_the_response_there(run, matrix):
     assert float(last["rms_displacement_m"]) == pytest.approx(there["rms_displacement_m"], rel=1e-7)
 
 
+def test_a_ball_on_a_table_that_shakes_hard_is_told_as_unstable_with_what_it_settles_to(run, matrix):
+    # One impact a period with -1/2 of the speed: 0.2616 m/s, phase and multiplier in closed form. From rest it bounces to rest.
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[0.0]])
+    table_below = '[contact]\nlaw = "rigid"\nrestitution = 0.5\ngap = 0.0\n[[contact.pairs]]\ndofs = [1]\ncoefficients = [-1.0]'
+    loads = ('[[forcing.terms]]\nharmonic = 0\ndofs = [1]\namplitude = -9.81\n'
+             '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\namplitude = 20.0')
+    found = run(scene("free = true", table_below, loads, 25.0, "", "forced_response"))
+    summary = found.summary
+    assert found.code == 0 and summary["stability"] == "unstable", found.errors
+    assert summary["max_impact_velocity_m_per_s"] == pytest.approx(0.2616, rel=1e-9)
+    assert summary["leading_multiplier_real"] == pytest.approx(-2.58922383, abs=1e-7)
+    assert summary["settled_periods"] > 1
+
+
 def test_a_curve_of_a_block_that_nothing_holds_is_told_as_undetermined(run, matrix):
     matrix("m.mtx", [[1.0]])
     matrix("k.mtx", [[0.0]])

@@ -179,6 +179,7 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   result.periods = result.motion_periods = found.load_periods;
   if (found.load_periods > 1) problem = problem.over_periods(found.load_periods);
   copy_motion(problem, motion, scene, model, options, result);
+  if (events && result.stability && result.stability->unstable > 0) result.settled = found.settled;
 }
 
 Response timed_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options,

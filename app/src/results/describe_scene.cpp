@@ -228,6 +228,8 @@ std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
   if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
   if (solves_by_impacts(scene)) return impacts_line(scene);
+  if (moves_by_events(scene))
+    return "time       exact motions, from what the structure settles to from event to event\n";
   if (scene.analysis.exact) return exact_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }

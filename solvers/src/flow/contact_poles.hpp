@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "flow/harmonic_series.hpp"
 #include "linalg/index.hpp"
-#include "phases/harmonic_series.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers::detail {

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "phases/harmonic_series.hpp"
+#include "flow/harmonic_series.hpp"
 #include "wavebalance/solvers/impacts/impacts_problem.hpp"
 
 namespace wavebalance::solvers::detail {

@@ -1,4 +1,4 @@
-#include "phases/harmonic_series.hpp"
+#include "flow/harmonic_series.hpp"
 
 #include <algorithm>
 #include <cmath>
