@@ -31,8 +31,11 @@ class PeriodNewton {
     while (now && !stopped_ && !done(*now) && result_.iterations < most) {
       ++result_.iterations;
       auto next = now->returns() ? newton(*now) : std::nullopt;
-      result_.found = !next && !stopped_ && now->returns() && now->distance < small_;  // no step leads nearer
-      if (result_.found) break;
+      if (!next && !stopped_ && now->returns() && now->distance < small_) {  // no step leads nearer
+        result_.found =
+            period(now->begin, now->contacts, false).has_value();  // the flow is at this one again
+        break;
+      }
       if (!next && !stopped_) next = passed(*now);
       now = std::move(next);
     }

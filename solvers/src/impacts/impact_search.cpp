@@ -168,7 +168,7 @@ ImpactResponse ImpactSearch::ended(ImpactStatus status) {
                      status == ImpactStatus::grazing;
   if (status == ImpactStatus::cancelled) return none(status);
   const ImpactResponse rests = named ? resting(status) : none(status);
-  if (rests.lasts() || rests.motion.status == ImpactStatus::cancelled) return rests;
+  if (rests.lasting.converged() || rests.motion.status == ImpactStatus::cancelled) return rests;
   for (const NearReturn& start : best_) {
     if (found_.motion.converged()) break;
     if (!std::isfinite(start.distance) || start.impacts.empty()) continue;
