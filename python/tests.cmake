@@ -22,6 +22,9 @@ else()
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(scenes_${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/scenes ${test})
   endforeach()
+  # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
+  wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/mixtures ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
+  set_tests_properties(python.random_mixtures PROPERTIES TIMEOUT 3600)
   # The cases of others, which are data, and what they are compared with.
   if(WAVEBALANCE_BUILD_REPRODUCE)
     foreach(name cases_test flows_test references_test)

@@ -262,7 +262,8 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   }
   if (!variation_.empty()) {
     const Dual guard = law.guard(state, hit.guard.exit, local.signals());
-    variation_.through(contacts_, poles_, {c, guard, memory, impulse, row}, signals, before);
+    const bool forced = guard.value < -left_over * clear_of({c, hit.guard.exit});
+    variation_.through(contacts_, poles_, {c, guard, memory, impulse, row, forced}, signals, before);
   }
   for (Index m = 0; m < law.memories(); ++m)
     now_.memory[std::size_t(contacts_.memory_begin(c) + m)] =

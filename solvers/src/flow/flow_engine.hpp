@@ -49,6 +49,8 @@ class ContactFlow::Engine {
     double at;  ///< -1..1
     Guard guard;
   };
+  /// How far an event may leave a guard below zero by rounding, in multiples of `clear`.
+  static constexpr double left_over = 1e4;
   /// A guard and its rate by x.
   struct GuardValue {
     double value, rate;
@@ -91,6 +93,7 @@ class ContactFlow::Engine {
                               std::size_t k) const;
   std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard, double until);
   double scale_of(const Dual& guard, int rows) const;
+  double clear_of(const Guard& guard) const;
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
   void keep_margins(double end);

@@ -56,6 +56,12 @@ double ContactFlow::Engine::scale_of(const Dual& guard, int rows) const {
   return sum;
 }
 
+double ContactFlow::Engine::clear_of(const Guard& guard) const {
+  constexpr double rounding = 1e-11;
+  const int state = now_.state[std::size_t(guard.contact)];
+  return rounding * size_.at({guard.contact, 64 * state + guard.exit});
+}
+
 ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel, const Dense& dense,
                                                                     const Guard& guard) {
   const Index c = guard.contact;
@@ -72,8 +78,7 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
     size = std::max({size, std::abs(value.value), k == 0 ? scale_of(value, law.rows()) : 0.0});
     if (k == 0 && law.remembers(state)) samples.by_memory = value.slope[std::size_t(4 * law.rows())];
   }
-  constexpr double clear = 1e-11;
-  samples.clear = clear * size;
+  samples.clear = clear_of(guard);
   return samples;
 }
 
@@ -128,14 +133,16 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Den
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
   while (k < g.size() && !is_clear(k)) ++k;
-  // What an event before has left slightly below zero, and grows, is as zero; so is a velocity in which a
-  // contact stuck, to which a perturbation leads.
-  constexpr double left_over = 1e4;  // of `clear`
+  // What an event before has left slightly below zero, and does not fall, is as zero; so is a velocity in
+  // which a contact stuck, to which a perturbation or rounding leads.
   const bool from_stick = !events_.empty() && events_.back().contact == int(guard.contact) &&
                           events_.back().time == time_ &&
                           contacts_.law(guard.contact).kind(events_.back().from) == ContactState::stick;
-  if (k == 0 && g[0] < 0.0 && (from_stick || g[0] > -left_over * samples.clear) && samples.rate[0] > 0.0)
-    while (k < g.size() && g[k] < samples.clear) ++k;
+  if (k == 0 && g[0] < 0.0 && (from_stick || g[0] > -left_over * samples.clear)) {
+    std::size_t next = 0;
+    while (next < g.size() && g[next] < samples.clear && g[next] >= g[0] - samples.clear) ++next;
+    if (next == g.size() || g[next] >= samples.clear) k = next;
+  }
   if (k == g.size()) return std::nullopt;
   if (g[k] < 0.0) {
     double largest_rate = 0.0;

@@ -102,7 +102,7 @@ void Variation::through(const Contacts& contacts, const ContactPoles& poles, con
   const auto rate = [&](const Dual& value) {
     return SlopeOfSignals{contacts, event.contact, value, 0.0}.rate(signals, 0);
   };
-  const Eigen::RowVectorXd delay = -change(contacts, event.contact, event.guard) / rate(event.guard);
+  if (!event.forced) last_delay_ = -change(contacts, event.contact, event.guard) / rate(event.guard);
   Eigen::VectorXcd after = before, jump = Eigen::VectorXcd::Zero(before.size());
   Eigen::MatrixXd next = poles_;
   if (event.impulse) {
@@ -114,7 +114,7 @@ void Variation::through(const Contacts& contacts, const ContactPoles& poles, con
   const Eigen::VectorXd force = signals[force_kind].col(0) - holding * signals[0].col(0);
   jump +=
       poles.exponents().cwiseProduct(before - after) - poles.inputs() * force.cast<std::complex<double>>();
-  next += poles.real_of(jump) * delay;
+  next += poles.real_of(jump) * last_delay_;
   for (Index m = 0; m < contacts.law(event.contact).memories(); ++m) {
     auto row = memory_.row(contacts.memory_begin(event.contact) + m);
     if (event.memory.empty()) {
@@ -122,10 +122,10 @@ void Variation::through(const Contacts& contacts, const ContactPoles& poles, con
       continue;
     }
     const Dual& value = event.memory[std::size_t(m)];
-    row = (change(contacts, event.contact, value) + rate(value) * delay).eval();
+    row = (change(contacts, event.contact, value) + rate(value) * last_delay_).eval();
   }
   poles_ = std::move(next);
-  delay_ = delay;
+  delay_ = last_delay_;
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -13,7 +13,8 @@ class Variation {
   Variation(Eigen::MatrixXd poles, Eigen::MatrixXd memory)
       : poles_(std::move(poles)),
         memory_(std::move(memory)),
-        delay_(Eigen::RowVectorXd::Zero(memory_.cols())) {}
+        delay_(Eigen::RowVectorXd::Zero(memory_.cols())),
+        last_delay_(delay_) {}
 
   bool empty() const { return poles_.cols() == 0; }
   const Eigen::MatrixXd& poles() const { return poles_; }
@@ -30,6 +31,7 @@ class Variation {
     const std::vector<Dual>& memory;  ///< behind it; empty where the next state has none
     std::optional<Dual> impulse{};    ///< N s
     Index impulse_row = 0;            ///< of the structure
+    bool forced = false;  ///< by what the event before has changed at this instant, whatever the guard
   };
   /// Through an event at the end of that panel; signals has this one point, `before` the states of the poles
   /// before the impulse.
@@ -50,6 +52,8 @@ class Variation {
   std::array<Eigen::MatrixXd, 4> ends_;
   // The change of an instant behind which the forces are not known yet.
   Eigen::RowVectorXd delay_;
+  // That of the last instant.
+  Eigen::RowVectorXd last_delay_;
 };
 
 }  // namespace wavebalance::solvers::detail
