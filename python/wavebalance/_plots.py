@@ -35,7 +35,7 @@ def curve(ax: Any, x: npt.NDArray[np.float64], y: npt.NDArray[np.float64], unsta
     ax.legend()
 
 
-MARKERS = {"fold": "o", "grazing": "|", "period_doubling": "s", "neimark_sacker": "^", "branch": "D", "slip": "v"}
+MARKERS = {"fold": "o", "grazing": "|", "period_doubling": "s", "neimark_sacker": "^", "branch": "D", "slip": "v", "stick": "<"}
 
 
 def special_points(ax: Any, points: list[dict[str, Any]], place: str) -> None:

@@ -46,3 +46,8 @@ def test_rigid_friction_slips_on_from_a_velocity_and_an_acceleration_of_zero(see
 
 def test_an_impact_that_stops_a_slider_at_once_has_the_multipliers_of_differences():
     assert verdict(69) == ("converged", "right")
+
+
+@pytest.mark.parametrize("seed", [151, 234])
+def test_rigid_friction_that_never_slips_leaves_the_multipliers_of_the_held_structure(seed):
+    assert verdict(seed) == ("converged", "right")

@@ -101,3 +101,58 @@ def test_two_tangents_have_no_exact_curve_and_say_so(command, two_masses, tmp_pa
     checked = command("check", "scene.toml")
     assert checked.code == 2
     assert "two tangents" in checked.errors and "analysis.exact" in checked.errors
+
+
+def test_a_contact_that_slips_all_along_begins_to_stick_at_its_closed_form(run, matrix):
+    """Den Hartog's oscillator, whose velocity is known in closed form, until it vanishes within a half period."""
+    for name in ("m", "k"):
+        matrix(f"{name}.mtx", [[1.0]])
+    record = run("""[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+[contact]
+law = "coulomb"
+mass = "keep"
+friction = 0.3
+normal_load = 1.0
+[[contact.pairs]]
+dofs = [1]
+[forcing]
+load_dofs = [1]
+amplitude = 1.0
+[analysis]
+type = "frequency_sweep"
+frequency_from = 0.1
+frequency_to = 0.06
+""")
+
+    limit = 0.3
+
+    def largest(w):  # velocity over the part of the half period in which it is about to vanish
+        whole, way = math.pi / w, 1.0 / (1.0 - w**2)
+        sine = -limit * (1.0 - math.cos(whole)) / (w * math.sin(whole))  # way sin(phase)
+        phase = math.atan2(sine, math.sqrt(way**2 - sine**2))
+        return max(limit * math.sin(t) + w * sine * math.cos(t) - way * w * math.sin(w * t + phase)
+                   for t in (whole * k / 20000 for k in range(40, 10000)))
+
+    low, high = 0.45, 0.499
+    for _ in range(25):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if largest(middle) < 0.0 else (middle, high)
+    assert record.summary["status"] == "reached_end", record.errors
+    assert [point["type"] for point in record.summary["special_points"]] == ["stick"]
+    assert record.summary["special_points"][0]["frequency_Hz"] == pytest.approx(low / (2.0 * math.pi), rel=1e-5)
+
+
+def test_an_exact_curve_goes_on_where_stops_with_dashpots_begin_to_touch(run, scenes):
+    """Both stops at once, where the linear motion reaches them; the force of a dashpot jumps there."""
+    record = run(scenes / "cases_of_others" / "harvester_dashpots.toml", "--analysis", "frequency_sweep",
+                 set=("analysis.exact=true", "analysis.frequency_from=290.0", "analysis.frequency_to=300.0"))
+    summary = record.summary
+    assert summary["status"] == "reached_end", record.errors
+    reach = 3.0 / (80e-6 * math.pi**2)
+    grazing = math.sqrt((179991.0 - math.sqrt(179991.0**2 - 4.0 * (90000.0**2 - reach**2))) / 2.0)
+    assert [point["type"] for point in summary["special_points"]] == ["grazing"]
+    assert summary["special_points"][0]["frequency_Hz"] == pytest.approx(grazing, rel=1e-9)
+    assert float(rows_of(record)[-1]["max_displacement_m"]) == pytest.approx(2.0075021778e-5, rel=1e-6)

@@ -11,12 +11,13 @@ namespace {
 using Type = solvers::SpecialPointType;
 
 /// The kinds in the order of the legend, with their names there.
-constexpr std::array<std::pair<Type, const char*>, 7> kinds{{{Type::fold, "fold"},
+constexpr std::array<std::pair<Type, const char*>, 8> kinds{{{Type::fold, "fold"},
                                                              {Type::period_doubling, "period doubling"},
                                                              {Type::neimark_sacker, "Neimark-Sacker point"},
                                                              {Type::branch, "branch point"},
                                                              {Type::grazing, "grazing"},
                                                              {Type::slip, "first slip"},
+                                                             {Type::stick, "onset of sticking"},
                                                              {Type::krein_collision, "Krein collision"}}};
 
 struct Vertex {

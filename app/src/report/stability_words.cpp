@@ -60,6 +60,8 @@ std::string type_in_words(const std::string& type) {
       {"grazing", "Grazing points, where an interval of contact appears, vanishes, splits or joins another"},
       {"branch", "Branch points, where another curve begins"},
       {"slip", "First slip, where all contacts stick up to there or from there on"},
+      {"stick",
+       "Onsets of sticking, where a contact that slips all along begins to stick in each period, or ceases to"},
       {"krein_collision",
        "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it, so that a small "
        "disturbance begins to oscillate and grow"}};

@@ -17,7 +17,8 @@ bool is_matched(solvers::StructurePointStatus status) {
 }
 
 bool is_jump(solvers::SpecialPointType type) {
-  return type == solvers::SpecialPointType::grazing || type == solvers::SpecialPointType::slip;
+  return type == solvers::SpecialPointType::grazing || type == solvers::SpecialPointType::slip ||
+         type == solvers::SpecialPointType::stick;
 }
 
 /// A fold, say, of the structure beside one of its grazings, which the balance has not: its samples take both

@@ -186,25 +186,33 @@ class MapTracer : public CurveTracer {
   }
 
   void append_changes(const CurvePoint& next, std::vector<PlacedEvent>& events) override {
-    append_changes(last(), static_cast<const MapPoint&>(next), events);
-  }
-
-  void append_changes(const MapPoint& a, const MapPoint& b, std::vector<PlacedEvent>& events) {
-    constexpr std::size_t most = 16;  // of a step
-    if (a.pattern == b.pattern || path_.cancelled()) return;
-    const auto change = change_between(a, b);
-    if (!change) return;
-    append_change(a.pattern, *change, events);
-    if (events.size() < most) append_changes(*change->behind, b, events);
+    constexpr int most = 16;  // of a step
+    const auto& b = static_cast<const MapPoint&>(next);
+    const MapPoint* a = &last();
+    std::shared_ptr<const MapPoint> behind;
+    for (int i = 0; i < most && !(a->pattern == b.pattern) && !path_.cancelled(); ++i) {
+      const auto change = change_between(*a, b);
+      if (!change) return;
+      append_change(a->pattern, *change, events);
+      behind = change->behind;
+      a = behind.get();
+    }
   }
 
   static void append_change(const ContactPattern& before, const Change& change,
                             std::vector<PlacedEvent>& events) {
+    using enum SpecialPointType;
+    const ContactPattern& behind = change.behind->pattern;
+    const auto type = before.slips != behind.slips         ? slip
+                      : before.passages != behind.passages ? grazing
+                                                           : stick;
     // A motion in which all contacts stick is smooth up to the first slip.
-    const bool slips = before.slips, changes = slips != change.behind->pattern.slips;
-    const CurvePoint& at = changes && slips ? *change.behind : *change.before;
-    if (!changes && before.passages == change.behind->pattern.passages) return;
-    const auto type = changes ? SpecialPointType::slip : SpecialPointType::grazing;
+    const CurvePoint& at = type == slip && before.slips ? *change.behind : *change.before;
+    // Contacts of a symmetric structure touch together, which rounding tells apart.
+    constexpr double together = 1e-8;
+    if (!events.empty() && events.back().event.type == type &&
+        std::abs(events.back().event.value - change.value) <= together * std::abs(change.value))
+      return;
     events.push_back({at.place, {type, change.value, {missing, missing}, at.motion}});
   }
 

@@ -28,17 +28,20 @@ ContactPattern pattern_of(const ContactFlow& flow) {
   for (std::size_t c = 0; c < flow.machines().size(); ++c) {
     const LawMachine& law = *flow.machines()[c].law;
     int passages = 0;
+    bool sticks = false;
     double slips = 0.0;
     bool open = law.kind(flow.panels().back().states[c]) == ContactState::open;
     for (const FlowPanel& panel : flow.panels()) {
       const ContactState kind = law.kind(panel.states[c]);
       passages += (kind == ContactState::open) != open;
       open = kind == ContactState::open;
+      sticks = sticks || kind == ContactState::stick;
       if (law.memories() > 0 && kind != ContactState::stick) slips += panel.end - panel.begin;
     }
     for (const FlowEvent& one : flow.events())  // a rebound opens and closes at once
       if (one.contact == int(c) && one.impulse > 0.0 && law.kind(one.to) == ContactState::open) passages += 2;
     pattern.passages.push_back(passages);
+    pattern.sticks.push_back(sticks);
     pattern.slips = pattern.slips || slips > shortest * flow.period();
   }
   return pattern;
@@ -252,26 +255,39 @@ Eigen::VectorXd MapPath::plane_across(const Eigen::VectorXd& change, const Eigen
   return all.cwiseAbs2().cwiseProduct(change);
 }
 
-// By differences of the flow along the tangent.
+// By differences of the flow along the tangent. Beside grazing a change of the parameter alone may touch
+// elsewhere than motions of the curve do, so that how these come back tells the change by the parameter
+// better.
 bool MapPath::set_direction(MapPoint& point, const Eigen::VectorXd& held) const {
-  constexpr double apart = 1e-4;  // arc length
+  constexpr double apart = 1e-4, comes_back = 1e-3;  // arc length; of a step
+  constexpr int most = 4;
   const Index states = point.start.state.size();
-  const Eigen::VectorXd tangent = point.slopes.step(held, Eigen::VectorXd::Zero(states), 1.0);
-  if (!tangent.allFinite()) return false;
-  const double scale = arc_scale(point),
-               rough = std::hypot(tangent.head(states).cwiseProduct(point.weights).norm() / scale,
-                                  tangent[states] / parameter_scale());
-  const double part = apart / rough;
-  const auto points = int(times().size());
-  const auto ahead = period(moved(point.start, tangent, part), tolerance_, false, points),
-             behind = period(moved(point.start, tangent, -part), tolerance_, false, points);
-  if (!ahead || !behind) return false;
-  point.displacement_direction = (ahead->displacement - behind->displacement).reshaped() / (2.0 * part);
-  const double speed =
-      std::hypot(rms_of(point.displacement_direction) / scale, tangent[states] / parameter_scale());
-  point.direction = tangent / speed;
-  point.displacement_direction /= speed;
-  point.slope = point.direction[states];
+  const double scale = arc_scale(point);
+  const auto length = [&](double moved, double parameter) {
+    return std::hypot(moved / scale, parameter / parameter_scale());
+  };
+  for (int i = 0; i < most; ++i) {
+    const Eigen::VectorXd tangent = point.slopes.step(held, Eigen::VectorXd::Zero(states), 1.0);
+    if (!tangent.allFinite()) return false;
+    const double rough = length(tangent.head(states).cwiseProduct(point.weights).norm(), tangent[states]),
+                 part = apart / rough;
+    const auto points = int(times().size());
+    const auto ahead = period(moved(point.start, tangent, part), tolerance_, false, points),
+               behind = period(moved(point.start, tangent, -part), tolerance_, false, points);
+    if (!ahead || !behind) return false;
+    const Eigen::VectorXd away = (ahead->change - behind->change) / (2.0 * part);
+    const bool along = std::abs(tangent[states]) > comes_back * rough * parameter_scale();
+    if (along && i + 1 < most && length(away.cwiseProduct(point.weights).norm(), 0.0) > comes_back * rough) {
+      point.slopes.by_parameter += away / tangent[states];
+      continue;
+    }
+    point.displacement_direction = (ahead->displacement - behind->displacement).reshaped() / (2.0 * part);
+    const double speed = length(rms_of(point.displacement_direction), tangent[states]);
+    point.direction = tangent / speed;
+    point.displacement_direction /= speed;
+    point.slope = point.direction[states];
+    break;
+  }
   return true;
 }
 

@@ -16,9 +16,10 @@ struct MapStart : PeriodStart {
   double value = 0.0;
 };
 
-/// What changes along a curve where a contact begins to touch, to open or to slip.
+/// What changes along a curve where a contact begins to touch, to open, to slip or to stick.
 struct ContactPattern {
   std::vector<int> passages;  ///< of each contact, between open and not open, in a period
+  std::vector<bool> sticks;   ///< whether each contact sticks in some of the period
   bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
 };

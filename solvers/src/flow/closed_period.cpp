@@ -130,6 +130,14 @@ class PeriodNewton {
   bool stopped_ = false;
 };
 
+// Positions of contacts that stick all along are parameters: what moves them is no perturbation.
+Eigen::MatrixXd without_moving(const Eigen::MatrixXd& held, const Eigen::MatrixXd& map) {
+  if (held.rows() == 0) return map;
+  const Lu<double> own(product_transposed(held, held));
+  if (own.is_singular()) return map;
+  return map - product(held.transpose(), own.solve(product(held, map)));
+}
+
 }  // namespace
 
 std::vector<Index> free_states(const Eigen::MatrixXd& map) {
@@ -168,7 +176,7 @@ Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed) {
   flow.start(closed.state, closed.contacts);
   flow.perturb(Eigen::MatrixXd::Identity(closed.state.size(), closed.state.size()));
   if (flow.advance_period() != FlowStatus::converged) return {};
-  return multipliers_of(flow.perturbation());
+  return multipliers_of(without_moving(flow.held(), flow.perturbation()));
 }
 
 }  // namespace wavebalance::solvers::detail

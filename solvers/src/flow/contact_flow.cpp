@@ -359,6 +359,7 @@ FlowStatus ContactFlow::advance_period(int points, const std::function<void(cons
 }
 FlowStatus ContactFlow::advance_to(double time) { return engine_->advance_to(time); }
 Eigen::VectorXd ContactFlow::off_center() const { return engine_->off_center(); }
+Eigen::MatrixXd ContactFlow::held() const { return engine_->held(); }
 Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
 const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }
 const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines(); }

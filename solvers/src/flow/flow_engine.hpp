@@ -33,6 +33,7 @@ class ContactFlow::Engine {
   Eigen::VectorXd displacements_by_state() const;
   int rests() const { return rests_; }
   Eigen::VectorXd off_center() const;
+  Eigen::MatrixXd held() const;
   double period() const { return poles_.period(); }
   double tolerance() const { return options_.tolerance; }
   double length() const { return moving_; }
@@ -94,6 +95,7 @@ class ContactFlow::Engine {
   std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard, double until);
   double scale_of(const Dual& guard, int rows) const;
   double clear_of(const Guard& guard) const;
+  bool changed(Index c) const;  // its state, in the last period
   GuardValue guard_at(const Solved& panel, const Guard& guard, double at) const;
   void keep(const Solved& panel, double end);
   void keep_margins(double end);

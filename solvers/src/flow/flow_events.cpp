@@ -202,13 +202,32 @@ void ContactFlow::Engine::keep_margins(double end) {
   }
 }
 
+bool ContactFlow::Engine::changed(Index c) const {
+  return std::any_of(events_.begin(), events_.end(),
+                     [&](const FlowEvent& event) { return event.contact == int(c); });
+}
+
+Eigen::MatrixXd ContactFlow::Engine::held() const {
+  const double rate = 2.0 * std::numbers::pi / poles_.period();
+  Eigen::MatrixXd result(0, poles_.states() + contacts_.memories());
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const LawMachine& law = contacts_.law(c);
+    const int state = now_.state[std::size_t(c)];
+    if (changed(c) || law.kind(state) != ContactState::stick || law.remembers(state)) continue;
+    const Index row = contacts_.row(c) + law.rows() - 1, next = result.rows();
+    result.conservativeResize(next + 2, Eigen::NoChange);
+    result.bottomRows(2).setZero();
+    result.row(next).head(poles_.states()) = poles_.real_outputs(0).row(row);
+    result.row(next + 1).head(poles_.states()) = poles_.real_outputs(1).row(row) / rate;
+  }
+  return result;
+}
+
 // A slider by which the guards of its two exits are equally near to zero lies in the middle.
 Eigen::VectorXd ContactFlow::Engine::off_center() const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(contacts_.memories());
   for (Index c = 0; c < contacts_.count(); ++c) {
-    const bool moved = std::any_of(events_.begin(), events_.end(),
-                                   [&](const FlowEvent& event) { return event.contact == int(c); });
-    if (moved || !contacts_.law(c).remembers(now_.state[std::size_t(c)])) continue;
+    if (changed(c) || !contacts_.law(c).remembers(now_.state[std::size_t(c)])) continue;
     double up = 0.0, down = 0.0, stiffness = 0.0;
     for (auto it = margins_.lower_bound({c, 0}); it != margins_.end() && it->first.first == c; ++it) {
       const Margin& margin = it->second;

@@ -338,6 +338,7 @@ std::string_view to_string(SpecialPointType type) {
                                             {grazing, "grazing"},
                                             {branch, "branch"},
                                             {slip, "slip"},
+                                            {stick, "stick"},
                                             {krein_collision, "krein_collision"}},
                                            type);
 }

@@ -112,6 +112,9 @@ class ContactFlow {
   /// m, by memories: how far a slider that stuck in all of the last period lies in front of the middle of the
   /// positions in which it would have; 0 of others.
   Eigen::VectorXd off_center() const;
+  /// Rows by state() that stayed constant and zero in the last period, a position and a velocity of each
+  /// contact that rigid friction held all along by its mass.
+  Eigen::MatrixXd held() const;
   double period() const;     ///< s
   double tolerance() const;  ///< FlowOptions::tolerance
   /// m, that the motion of the contacts has: of the motion without contact about its mean, or a gap.

@@ -26,7 +26,8 @@ enum class SpecialPointType {
   grazing,          ///< an interval of contact appears, vanishes, splits or joins another
   branch,           ///< a real multiplier passes 1 where the frequency goes on: another curve begins
   krein_collision,  ///< of free motions: two pairs of multipliers meet on the unit circle and leave it
-  slip              ///< the first contact with friction begins to slip or to open, or the last ceases to
+  slip,             ///< the first contact with friction begins to slip or to open, or the last ceases to
+  stick             ///< a contact with friction that slips or is open all along begins to stick, or ceases to
 };
 
 std::string_view to_string(SpecialPointType type);
