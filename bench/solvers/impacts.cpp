@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "solver_scenes.hpp"
-#include "wavebalance/solvers/impacts/impact_stability.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
 // A bar of 50 elements, EA = rho A = L = 1, whose end has a mass of its own and meets a rigid stop twice in a
@@ -37,9 +37,9 @@ struct ImpactBench {
   solvers::LinearStructure structure = bar_with_end_mass();
   solvers::ContactDynamics dynamics{structure};
   solvers::CondensedProblem condensed = condensed_at(structure);
-  solvers::ImpactFamily family{condensed, dynamics, Eigen::VectorXd::Constant(1, gap),
-                               Eigen::VectorXd::Constant(1, restitution), solvers::SweepParameter::frequency};
-  solvers::ImpactsProblem problem = family.at(omega / turn);
+  solvers::PhaseFamily family{condensed, contact::RigidLaw(gap, restitution), dynamics,
+                              solvers::SweepParameter::frequency};
+  solvers::PhasesProblem problem = family.at(omega / turn);
 
   static solvers::CondensedProblem condensed_at(const solvers::LinearStructure& structure) {
     const spectral::FourierBasis basis(7);
@@ -60,19 +60,23 @@ void impact_motion(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(solvers::impact_motion(bench.problem, start).residual);
 }
 
+// With the motion from its own impacts.
 void impact_multipliers(benchmark::State& state) {
   const ImpactBench bench;
-  const solvers::ImpactMotion motion = solvers::impact_response(bench.problem).motion;
-  for (auto _ : state) benchmark::DoNotOptimize(solvers::impact_multipliers(motion).data());
+  std::vector<solvers::ImpactGuess> start;
+  for (const solvers::Impact& impact : solvers::impact_response(bench.problem).motion.impacts)
+    start.push_back({impact.contact, impact.time, impact.impulse});
+  for (auto _ : state)
+    benchmark::DoNotOptimize(solvers::impact_motion(bench.problem, start).multipliers().data());
 }
 
 void follow_impacts(benchmark::State& state, bool stability) {
   const ImpactBench bench;
-  const solvers::ImpactMotion first = solvers::impact_response(bench.problem).motion;
-  solvers::ImpactCurve curve;
+  const solvers::PhaseMotion first = solvers::impact_response(bench.problem).motion;
+  solvers::ExactCurve curve;
   for (auto _ : state)
-    curve = solvers::impact_curve(bench.family, first,
-                                  {.from = omega / turn, .to = 1.0 / turn, .stability = stability});
+    curve = solvers::exact_curve(bench.family, first,
+                                 {.from = omega / turn, .to = 1.0 / turn, .stability = stability});
   if (curve.status != solvers::SweepStatus::reached_end)
     state.SkipWithError("the curve does not reach its end");
   state.counters["curve_points"] = double(curve.points.size());

@@ -264,7 +264,7 @@ void draw_phase_errors(const Files& files) {
 
 // Displacements of a contact whose rigid stop gives way elastically: about each impact half a sine beyond the
 // gap.
-Eigen::MatrixXd with_penetrations(const solvers::ImpactMotion& motion, const Eigen::VectorXd& times,
+Eigen::MatrixXd with_penetrations(const solvers::PhaseMotion& motion, const Eigen::VectorXd& times,
                                   double gap, double natural) {
   Eigen::MatrixXd u = motion.displacement(times);
   for (const solvers::Impact& impact : motion.impacts)
@@ -294,7 +294,7 @@ void draw_stiff_stops(const Files& files) {
     if (!rigid.converged) throw std::runtime_error(file + ": " + rigid.status);
     const double gap = scene.contact.gap, frequency = scene.forcing.frequency,
                  mobility = solvers::inverse_contact_mass(*model.contact_dynamics())(0, 0);
-    const solvers::ImpactMotion& motion = rigid.impacts->motion;
+    const solvers::PhaseMotion& motion = rigid.impacts->motion;
     const Eigen::MatrixXd exact_motion = motion.displacement(times);
     std::vector<double> stiffnesses, distances;
     for (double stiffness = 1e3; stiffness < 2e8; stiffness *= std::sqrt(10.0)) {

@@ -1,11 +1,19 @@
 #pragma once
 #include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
 namespace wavebalance::app {
 
-/// A curve of the scene that was followed by phases, as a sweep: Sweep::exact_motions are set.
+/// A curve of the scene whose motions are exact, as a sweep: Sweep::exact_motions are set.
 Sweep sweep_of(const solvers::ExactCurve& curve, const Scene& scene, const solvers::ContactProblem& problem);
+
+/// A scene whose motions are exact has this to ask: its pair, or where it names none, or has impacts alone, a
+/// small one, which takes no part.
+solvers::ContactProblem exact_problem(const Scene& scene, const StructureModel& model);
+
+/// The contacts at so many points of the motion's period; between impacts alone there are no forces.
+solvers::Motion contacts_of(const solvers::PhaseMotion& motion, int points);
 
 }  // namespace wavebalance::app

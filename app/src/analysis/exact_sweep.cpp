@@ -2,9 +2,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "analysis/curve_events.hpp"
 #include "analysis/exact_parts.hpp"
-#include "analysis/impact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -23,25 +21,23 @@ struct Measure {
   double frequency;  ///< Hz, of an amplitude sweep
   const solvers::ContactLaws& laws;
   Eigen::VectorXd times;
+  bool impulses;  ///< what an impact passes on is an impulse and not a force, so that points have none
 
   solvers::SweepPoint operator()(double value, const PhaseMotion& motion) const {
-    const Eigen::MatrixXd u = motion.displacement(times), force = motion.force(times);
+    const Eigen::MatrixXd u = motion.displacement(times);
     solvers::SweepPoint point;
     const bool over_frequency = parameter == solvers::SweepParameter::frequency;
     point.frequency = over_frequency ? value : frequency;
     point.load_scale = over_frequency ? 1.0 : value;
-    point.max_displacement = u.maxCoeff();
-    for (const solvers::Impact& one : motion.impacts)  // where samples miss it
-      point.max_displacement = std::max(
-          point.max_displacement, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(one.contact));
+    point.max_displacement = std::max(u.maxCoeff(), highest_at_impacts(motion));
     point.min_displacement = u.minCoeff();
     point.max_abs_displacement = std::max(point.max_displacement, -point.min_displacement);
     const solvers::Vibration vibration = solvers::largest_vibration(u);
     point.vibration = vibration.half_peak_to_peak;
     point.rms_vibration = vibration.rms;
     point.rms_displacement = std::sqrt(u.rowwise().squaredNorm().maxCoeff() / double(times.size()));
-    point.max_force = laws.largest_force(force);
-    for (Eigen::Index c = 0; c < force.rows(); ++c)
+    point.max_force = impulses ? solvers::missing : laws.largest_force(motion.force(times));
+    for (Eigen::Index c = 0; c < u.rows(); ++c)
       point.contact_fraction = std::max(point.contact_fraction, contact_share(motion, static_cast<int>(c)));
     point.residual = motion.residual;
     return point;
@@ -56,16 +52,17 @@ struct Measure {
   }
 };
 
-solvers::PointStability stability_of(const ExactPoint& point, const solvers::ContactLaws& laws) {
+solvers::PointStability stability_of(const ExactPoint& point, const Measure& measure) {
   solvers::PointStability stability;
   stability.status =
       point.unstable >= 0 ? solvers::StabilityStatus::converged : solvers::StabilityStatus::no_response;
   stability.unstable = point.unstable;
-  stability.contacts = static_cast<int>(std::count_if(
+  const auto phases = std::count_if(
       point.motion.phases.begin(), point.motion.phases.end(),
       [&](const solvers::ContactPhase& phase) {  // contacts with friction have phases in all their states
-        return laws.begins(phase.contact) && !laws[phase.contact].friction();
-      }));
+        return measure.laws.begins(phase.contact) && !measure.laws[phase.contact].friction();
+      });
+  stability.contacts = static_cast<int>(measure.impulses ? point.motion.impacts.size() : std::size_t(phases));
   return stability;
 }
 
@@ -81,56 +78,155 @@ SweepPhases::Point phases_of(const PhaseMotion& motion) {
   return solvers::PointPhases{motion.status, motion.estimated_error, solvers::missing};
 }
 
-void copy_events(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
-  for (const ExactEvent& event : curve.events) {
+/// Those of a motion of so many periods of the load.
+PointImpacts impacts_of(const PhaseMotion& motion, int periods) {
+  PointImpacts result;
+  result.count = static_cast<int>(motion.impacts.size());
+  for (const solvers::Impact& impact : motion.impacts) {
+    result.largest_impulse = std::max(result.largest_impulse, impact.impulse);
+    result.largest_speed = std::max(result.largest_speed, impact.velocity_before);
+  }
+  result.energy_lost = motion.energy_lost() / periods;
+  return result;
+}
+
+/// A special point that was solved for with the parameter as unknown, with the measures of the motion there.
+solvers::SpecialPoint special_point_of(const ExactEvent& event, const solvers::SweepPoint& at) {
+  solvers::SpecialPoint point;
+  point.type = event.type;
+  point.frequency = at.frequency;
+  point.load_scale = at.load_scale;
+  point.multiplier = event.multiplier;
+  point.max_displacement = at.max_displacement;
+  point.max_abs_displacement = at.max_abs_displacement;
+  point.vibration = at.vibration;
+  point.located = true;
+  point.unknown_parameter = event.value;
+  point.next_point = event.next_point;
+  return point;
+}
+
+void copy_points(const ExactCurve& traced, const Measure& measure, bool stability,
+                 solvers::FrequencySweep& curve, solvers::CurveStability& known) {
+  curve.status = traced.status;
+  curve.closed_at_start = traced.status == solvers::SweepStatus::closed;
+  curve.parameter = measure.parameter;
+  for (const ExactPoint& point : traced.points) {
+    curve.points.push_back(measure(point.value, point.motion));
+    if (stability) known.points.push_back(stability_of(point, measure));
+  }
+  for (const ExactEvent& event : traced.events) {
     const solvers::SpecialPoint point = special_point_of(event, measure(event.value, event.motion));
-    if (event.type == solvers::SpecialPointType::fold)
-      sweep.curve.turning_points.push_back(turning_point_at(point, false));
-    if (!stability) continue;
-    sweep.stability.special_points.push_back(point);
-    sweep.phases.front().special_points.push_back(phases_of(event.motion));
+    if (event.type == solvers::SpecialPointType::fold || event.turns)
+      curve.turning_points.push_back({point.frequency, point.max_displacement, point.max_abs_displacement,
+                                      event.turns, point.load_scale});
+    if (stability) known.special_points.push_back(point);
   }
 }
 
-void copy_curve(const ExactCurve& curve, const Measure& measure, bool stability, Sweep& sweep) {
-  sweep.curve.status = curve.status;
-  sweep.curve.closed_at_start = curve.status == solvers::SweepStatus::closed;
-  sweep.curve.parameter = measure.parameter;
-  if (curve.status == solvers::SweepStatus::no_start && curve.start != solvers::PhasesStatus::converged)
-    sweep.start_status = to_string(curve.start);
-  SweepPhases& phases = sweep.phases.emplace_back();
-  for (const ExactPoint& point : curve.points) {
-    sweep.curve.points.push_back(measure(point.value, point.motion));
+void copy_impacts(const ExactCurve& traced, int periods, Sweep& sweep) {
+  std::vector<PointImpacts>& impacts = sweep.impacts.emplace_back();
+  for (const ExactPoint& point : traced.points) impacts.push_back(impacts_of(point.motion, periods));
+}
+
+void copy_motions(const ExactCurve& traced, Sweep& sweep) {
+  std::vector<PhaseMotion>& motions = sweep.exact_motions.emplace_back();
+  for (const ExactPoint& point : traced.points) motions.push_back(point.motion);
+}
+
+/// The errors and the stability of each point.
+SweepPhases sweep_phases(const ExactCurve& traced, const solvers::FrequencySweep& curve, bool stability) {
+  SweepPhases phases;
+  for (const ExactPoint& point : traced.points) {
     phases.points.push_back(phases_of(point.motion));
     if (!stability) continue;
-    sweep.stability.points.push_back(stability_of(point, measure.laws));
     solvers::MotionStability& found = phases.points.back()->stability.emplace();
     found.unstable = point.unstable;
     found.status = point.unstable < 0 ? "not_known" : point.unstable == 0 ? "stable" : "unstable";
     found.by_phases = true;
   }
-  for (const std::size_t next : curve.unexplained) sweep.unexplained.push_back(curve.points[next].value);
-  copy_events(curve, measure, stability, sweep);
-  if (!curve.points.empty()) phases.peak = phases.points[peak_of(sweep.curve)];
+  if (stability)
+    for (const ExactEvent& event : traced.events) phases.special_points.push_back(phases_of(event.motion));
+  if (!traced.points.empty()) phases.peak = phases.points[peak_of(curve)];
+  return phases;
+}
+
+solvers::SweepParameter parameter_of(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::amplitude_sweep ? solvers::SweepParameter::load_scale
+                                                              : solvers::SweepParameter::frequency;
+}
+
+Measure measure_of(const ExactCurve& curve, const Scene& scene, const solvers::ContactLaws& laws) {
+  const bool impulses =
+      solves_by_impacts(scene) && (curve.points.empty() || curve.points.front().motion.phases.empty());
+  return {parameter_of(scene), scene.forcing.frequency, laws, time_fractions(scene.analysis.output_points),
+          impulses};
+}
+
+solvers::BranchEnd end_of(solvers::SweepStatus status) {
+  using solvers::BranchEnd, solvers::SweepStatus;
+  switch (status) {
+    case SweepStatus::reached_end:
+      return BranchEnd::to_end;
+    case SweepStatus::returned:
+      return BranchEnd::from_end;
+    case SweepStatus::ended:
+      return BranchEnd::parent_curve;
+    case SweepStatus::closed:
+      return BranchEnd::closed;
+    case SweepStatus::no_start:
+      return BranchEnd::no_start;
+    case SweepStatus::point_limit:
+      return BranchEnd::point_limit;
+    case SweepStatus::cancelled:
+      return BranchEnd::cancelled;
+    default:
+      return BranchEnd::lost;
+  }
+}
+
+/// Of impacts, one from each period doubling, in their order.
+void add_doubled_curves(const std::vector<ExactCurve>& curves, const Measure& measure, Sweep& sweep) {
+  const std::vector<solvers::SpecialPoint>& points = sweep.stability.special_points;
+  std::size_t next = 0;
+  for (const ExactCurve& curve : curves) {
+    while (points[next].type != solvers::SpecialPointType::period_doubling) ++next;
+    solvers::Branch branch;
+    branch.periods = 2;
+    branch.special_point = static_cast<int>(next++);
+    branch.end = end_of(curve.status);
+    copy_points(curve, measure, true, branch.curve, branch.stability);
+    copy_impacts(curve, 2 * sweep.periods, sweep);
+    copy_motions(curve, sweep);
+    sweep.branches.push_back(std::move(branch));
+  }
 }
 
 }  // namespace
 
 Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::ContactProblem& problem) {
-  const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  const auto parameter =
-      over_amplitude ? solvers::SweepParameter::load_scale : solvers::SweepParameter::frequency;
+  const Measure measure = measure_of(curve, scene, problem.laws());
+  const bool stability = scene.analysis.stability;
   Sweep sweep;
-  copy_curve(
-      curve,
-      {parameter, scene.forcing.frequency, problem.laws(), time_fractions(scene.analysis.output_points)},
-      scene.analysis.stability, sweep);
-  for (const ExactPoint& point : curve.points) sweep.exact_motions.push_back(point.motion);
+  copy_points(curve, measure, stability, sweep.curve, sweep.stability);
+  copy_motions(curve, sweep);
+  for (const std::size_t next : curve.unexplained) sweep.unexplained.push_back(curve.points[next].value);
+  if (curve.status == solvers::SweepStatus::no_start && curve.start != solvers::PhasesStatus::converged)
+    sweep.start_status = to_string(curve.start);
+  if (measure.impulses) {
+    if (!curve.points.empty())
+      sweep.periods = sweep.motion_periods = static_cast<int>(
+          std::lround(sweep.curve.points.front().frequency / curve.points.front().motion.frequency()));
+    copy_impacts(curve, sweep.periods, sweep);
+  } else {
+    sweep.phases.push_back(sweep_phases(curve, sweep.curve, stability));
+  }
   if (has_friction(scene)) {
     std::vector<FrictionShares>& shares = sweep.friction.emplace_back();
     for (const ExactPoint& point : curve.points) shares.push_back(friction_of(point.motion));
   }
-  if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
+  if (parameter_of(scene) == solvers::SweepParameter::load_scale)
+    sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
   return sweep;
 }
 
@@ -138,8 +234,8 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
                   const StartMotion& start) {
   require_start_fits(start, scene);
   const auto begin = std::chrono::steady_clock::now();
-  const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  const solvers::ExactCurveOptions options = exact_options<solvers::ExactCurveOptions>(scene, observer);
+  const bool over_frequency = parameter_of(scene) == solvers::SweepParameter::frequency;
+  const solvers::ExactCurveOptions options = exact_options(scene, observer);
   solvers::ContactProblem problem = exact_problem(scene, model);
   solvers::ForcedResponseOptions how;
   how.observer = observer;
@@ -147,10 +243,14 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
   StartSamples samples;
   if (!start.contacts.empty()) samples = start_samples(start, scene);
   const solvers::ResponseStart at{samples.displacement, samples.force};
-  const ExactCurve curve = over_amplitude
-                               ? problem.exact_amplitude_sweep(scene.forcing.frequency, options, how, at)
-                               : problem.exact_sweep(options, how, at);
+  const double frequency = over_frequency ? options.from : scene.forcing.frequency;
+  const ExactCurve curve = over_frequency ? problem.exact_sweep(options, how, at)
+                                          : problem.exact_amplitude_sweep(frequency, options, how, at);
   Sweep sweep = sweep_of(curve, scene, problem);
+  if (model.contact_dynamics() == nullptr) sweep.start_status = "no_modes";
+  if (scene.analysis.branches && curve.status != solvers::SweepStatus::cancelled && !sweep.impacts.empty())
+    add_doubled_curves(problem.doubled_curves(curve, parameter_of(scene), frequency, options),
+                       measure_of(curve, scene, problem.laws()), sweep);
   sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return sweep;
 }

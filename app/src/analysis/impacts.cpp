@@ -2,7 +2,7 @@
 #include <chrono>
 #include <utility>
 
-#include "analysis/impact_parts.hpp"
+#include "analysis/exact_parts.hpp"
 #include "analysis/phases_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
@@ -15,13 +15,10 @@ namespace {
 void copy_structure(solvers::ContactProblem& problem, const Scene& scene, int points, Response& result) {
   constexpr double left_out = 1e-4;
   constexpr int most_harmonics = 2048;
-  const solvers::ImpactResponse& found = *result.impacts;
-  solvers::ContactProblem longer = problem.over_periods(found.load_periods);
-  const solvers::StructurePhasesOptions how{.tolerance = left_out, .max_harmonics = most_harmonics};
-  const double frequency = scene.forcing.frequency;
-  solvers::StructurePhases whole = found.lasts()
-                                       ? longer.structure_motion(frequency, found.lasting, points, how)
-                                       : longer.structure_motion(frequency, found.motion, points, how);
+  solvers::StructurePhases whole =
+      problem.over_periods(result.periods)
+          .structure_motion(scene.forcing.frequency, result.impacts->motion, points,
+                            {.tolerance = left_out, .max_harmonics = most_harmonics});
   result.structure = std::move(whole.motion);
   result.structure_harmonics = whole.harmonics;
   result.structure_left_out = whole.left_out;
@@ -29,23 +26,22 @@ void copy_structure(solvers::ContactProblem& problem, const Scene& scene, int po
 
 void solve(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
            Response& result) {
-  solvers::ContactProblem problem = impacts_problem(scene, model);
+  solvers::ContactProblem problem = exact_problem(scene, model);
   result.impacts = problem.impacts(scene.forcing.frequency, {.observer = options.observer});
   const solvers::ImpactResponse& found = *result.impacts;
-  const solvers::PhaseMotion& lasting = found.lasting;
-  result.status = found.lasts() ? to_string(lasting.status) : to_string(found.motion.status);
-  result.converged = found.converged();
-  result.moves = found.lasts() || result.converged;
-  result.iterations = found.lasts() ? lasting.iterations : found.motion.iterations;
-  result.unknowns = found.lasts() ? lasting.unknowns : 2 * static_cast<int>(found.motion.impacts.size());
-  result.residual = found.lasts() ? lasting.residual : found.motion.residual;
+  const solvers::PhaseMotion& motion = found.motion;
+  result.status = to_string(motion.status);
+  result.converged = motion.converged();
+  result.moves = found.moves();
+  result.iterations = motion.iterations;
+  result.unknowns = motion.unknowns;
   if (!result.moves) return;
+  result.residual = motion.residual;
   if (found.lasts()) result.solved_by = name_of(TimeMethod::phases);
-  if (found.lasts()) result.phases = {lasting, solvers::missing, solvers::missing};
-  result.struck = found.impacts();
+  if (found.lasts()) result.phases = {motion, solvers::missing, solvers::missing};
+  result.struck = motion.impacts;
   result.periods = result.motion_periods = found.load_periods;
-  result.contacts = found.lasts() ? contacts_of(lasting, scene.analysis.output_points)
-                                  : contacts_of(found.motion, scene.analysis.output_points);
+  result.contacts = contacts_of(motion, scene.analysis.output_points);
   result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (options.structure_points > 0) copy_structure(problem, scene, options.structure_points, result);
   if (options.stability && found.multipliers.size() > 0)
@@ -55,20 +51,11 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
 
 }  // namespace
 
-solvers::ContactProblem impacts_problem(const Scene& scene, const StructureModel& model) {
+solvers::ContactProblem exact_problem(const Scene& scene, const StructureModel& model) {
+  if (!scene.time.trial.empty() && !solves_by_impacts(scene)) return compose_problem(scene, model);
   Scene paired = scene;
   paired.time = balance_of(scene, least_start_functions(scene)).time;
   return compose_problem(paired, model);
-}
-
-solvers::ContactProblem exact_problem(const Scene& scene, const StructureModel& model) {
-  return scene.time.trial.empty() ? impacts_problem(scene, model) : compose_problem(scene, model);
-}
-
-solvers::Motion contacts_of(const solvers::ImpactMotion& motion, int points) {
-  const Eigen::VectorXd times = time_fractions(points);
-  const Eigen::MatrixXd u = motion.displacement(times);
-  return {u, motion.velocity(times), Eigen::MatrixXd::Zero(u.rows(), u.cols())};
 }
 
 solvers::Motion contacts_of(const solvers::PhaseMotion& motion, int points) {

@@ -77,8 +77,8 @@ bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequenc
     const double share =
         (frequency - points[k - 1].frequency) / (points[k].frequency - points[k - 1].frequency);
     if (!(share >= 0.0 && share <= 1.0)) continue;
-    const auto there =
-        problem.phases(frequency, between(sweep.exact_motions[k - 1], sweep.exact_motions[k], share));
+    const auto there = problem.phases(
+        frequency, between(sweep.exact_motions.front()[k - 1], sweep.exact_motions.front()[k], share));
     if (!there || there->parts == nullptr) continue;
     if ((there->displacement(time_fractions(compared_points)) - wanted).norm() <= same * vibration)
       return true;
@@ -102,15 +102,15 @@ void add_exact_isola(const Scene& scene, solvers::ContactProblem& problem,
     const auto near = problem.phases(response);
     if (!near || near->motion.parts == nullptr) continue;
     if (is_on_any(problem, sweep, at, near->motion)) return;
-    const auto options = exact_options<solvers::ExactCurveOptions>(scene, observer);
+    const auto options = exact_options(scene, observer);
     Sweep isola = sweep_of(problem.exact_curve_from(at, near->motion, options), scene, problem);
     if (isola.curve.points.empty()) continue;
     isola.origin = {at, found.start, false};
     const auto meets = [&](const solvers::SweepPoint& end, const solvers::PhaseMotion& motion) {
       return !isola.curve.closed_at_start && is_on_any(problem, sweep, end.frequency, motion);
     };
-    isola.origin.meets_known = meets(isola.curve.points.front(), isola.exact_motions.front()) ||
-                               meets(isola.curve.points.back(), isola.exact_motions.back());
+    isola.origin.meets_known = meets(isola.curve.points.front(), isola.exact_motions.front().front()) ||
+                               meets(isola.curve.points.back(), isola.exact_motions.front().back());
     sweep.isolas.push_back(std::move(isola));
     return;
   }

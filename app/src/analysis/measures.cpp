@@ -99,6 +99,14 @@ double observed_order(std::span<const double> sizes, std::span<const double> err
   return -(centred * y).sum() / centred.square().sum();
 }
 
+double highest_at_impacts(const solvers::PhaseMotion& motion, std::optional<int> contact) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const solvers::Impact& one : motion.impacts)
+    if (!contact || one.contact == *contact)
+      largest = std::max(largest, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(one.contact));
+  return largest;
+}
+
 Eigen::VectorXd time_fractions(int points) {
   return Eigen::VectorXd::LinSpaced(points, 0.0, static_cast<double>(points - 1)) /
          static_cast<double>(points);

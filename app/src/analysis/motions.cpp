@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/impact_parts.hpp"
+#include "analysis/exact_parts.hpp"
 #include "analysis/phases_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -41,21 +41,17 @@ FoundMotion sampled(solvers::CoexistingImpacts one, int starts, solvers::Contact
   constexpr int most_harmonics = 2048;
   FoundMotion result;
   solvers::ImpactResponse& response = one.response;
-  const bool lasts = response.lasts();
-  const int points = scene.analysis.output_points;
-  result.contacts = lasts ? contacts_of(response.lasting, points) : contacts_of(response.motion, points);
+  const solvers::PhaseMotion& motion = response.motion;
+  result.contacts = contacts_of(motion, scene.analysis.output_points);
   result.contact = leading_contact(scene, result.contacts, model.gaps);
-  if (scene.analysis.motion_points > 0) {
-    solvers::ContactProblem longer = problem.over_periods(response.load_periods);
-    const solvers::StructurePhasesOptions how{.tolerance = left_out, .max_harmonics = most_harmonics};
-    const auto whole = [&](const auto& motion) {
-      return longer.structure_motion(scene.forcing.frequency, motion, scene.analysis.motion_points, how);
-    };
-    result.structure = (lasts ? whole(response.lasting) : whole(response.motion)).motion.displacement;
-  }
-  result.iterations = lasts ? response.lasting.iterations : response.motion.iterations;
-  result.unknowns = lasts ? response.lasting.unknowns : 2 * static_cast<int>(response.motion.impacts.size());
-  result.residual = lasts ? response.lasting.residual : response.motion.residual;
+  if (scene.analysis.motion_points > 0)
+    result.structure = problem.over_periods(response.load_periods)
+                           .structure_motion(scene.forcing.frequency, motion, scene.analysis.motion_points,
+                                             {.tolerance = left_out, .max_harmonics = most_harmonics})
+                           .motion.displacement;
+  result.iterations = motion.iterations;
+  result.unknowns = motion.unknowns;
+  result.residual = motion.residual;
   result.found.periods = response.load_periods;
   result.found.stability = solvers::stability_of_multipliers(response.multipliers);
   result.found.found_by = source_of(one);
@@ -73,7 +69,7 @@ Motions impact_motions(const Scene& scene, const StructureModel& model, const so
   Motions result;
   result.status = "no_modes";
   if (model.contact_dynamics() == nullptr) return result;
-  solvers::ContactProblem problem = impacts_problem(scene, model);
+  solvers::ContactProblem problem = exact_problem(scene, model);
   const Analysis& analysis = scene.analysis;
   solvers::ImpactMotions all =
       problem.coexisting_impacts(scene.forcing.frequency, {.random_starts = analysis.random_starts,

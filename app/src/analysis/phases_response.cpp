@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/impact_parts.hpp"
+#include "analysis/exact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -22,4 +22,17 @@ solvers::FrequencySweepOptions sweep_options(const Scene& scene) {
   return options;
 }
 
+solvers::ExactCurveOptions exact_options(const Scene& scene, const solvers::Observer& observer) {
+  const solvers::FrequencySweepOptions balance = sweep_options(scene);
+  solvers::ExactCurveOptions options;
+  options.from = balance.from;
+  options.to = balance.to;
+  options.max_points = balance.max_points;
+  options.first_step = std::min(options.first_step, balance.arc_length.initial_step);
+  options.largest_step = balance.arc_length.max_step;
+  options.stability = scene.analysis.stability;
+  options.observer = observer;
+  return options;
+}
+
 }  // namespace wavebalance::app

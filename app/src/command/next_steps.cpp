@@ -44,6 +44,7 @@ const Remedies& of_sweeps() {
   static const Remedies all{{"returned", {reversed, other_start}},
                             {"no_start", {other_start}},
                             {"closed", {other_start, reversed, more_points}},
+                            {"ended", {other_start, reversed}},
                             {"lost", {damping_depth, exact_curve, smaller_step, more_points, odd_functions}},
                             {"missed_part", {damping_depth, exact_curve, smaller_step, more_points}},
                             {"unbounded", {more_damping, dropped_nyquist}},
@@ -54,6 +55,7 @@ const Remedies& of_sweeps() {
 const Remedies& of_exact_sweeps() {
   static const Remedies all{{"returned", {reversed, other_start}},
                             {"no_start", {damping_depth, other_start, curve_of_balance}},
+                            {"ended", {other_start, reversed}},
                             {"lost", {damping_depth, smaller_step}},
                             {"point_limit", {more_curve_points}}};
   return all;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "analysis/impact_parts.hpp"
+#include "analysis/exact_parts.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
@@ -60,33 +60,31 @@ class MotionMeasurer {
         points_(scene.analysis.output_points),
         periods_(periods),
         over_amplitude_(scene.analysis.type == AnalysisType::amplitude_sweep),
+        impacts_alone_(solves_by_impacts(scene)),
         problem_(std::move(problem)),
         times_(time_fractions(points_)),
         rows_(rows_of_outputs(outputs, scene, model)) {}
 
-  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
-    return measured(motion.displacement(times_), motion.force(times_), [&] {
-      return solvers::structure_phases(held_at(point), motion, points_, {.tolerance = phases_left_out});
-    });
-  }
-
   /// The force of an impact is not known.
-  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ImpactMotion& motion) {
-    const solvers::ContactSource source{
-        [&](int count) { return motion.force_harmonics(count); },
-        [&](const Eigen::VectorXd& times) { return motion.displacement(times); }};
-    return measured(motion.displacement(times_), Eigen::MatrixXd(), [&] {
-      return solvers::structure_motion_of(
-          held_at(point), source, points_,
-          {.tolerance = impacts_left_out, .max_harmonics = most_impact_harmonics});
-    });
+  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_.rows(), points_);
+    if (!rows_.isZero(0.0))
+      rows = rows_ * solvers::structure_phases(held_at(point), motion, points_, precision_of(motion))
+                         .motion.displacement;
+    const Eigen::MatrixXd contacts = motion.displacement(times_);
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (outputs_[i].is_contact()) rows.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
+    const bool impulses = impacts_alone_ && motion.phases.empty();
+    return measure(outputs_, rows, impulses ? Eigen::MatrixXd() : motion.force(times_), harmonics_, periods_);
   }
 
  private:
   // Relative errors of the displacements of contacts by the harmonics left out, below what a picture shows.
   // Harmonics fall like 1 / n^4 with elastic contacts and like 1 / n^2 with impacts.
-  static constexpr double phases_left_out = 1e-6, impacts_left_out = 1e-4;
-  static constexpr int most_impact_harmonics = 2048;
+  static solvers::StructurePhasesOptions precision_of(const solvers::PhaseMotion& motion) {
+    if (motion.impacts.empty()) return {.tolerance = 1e-6};
+    return {.tolerance = 1e-4, .max_harmonics = 2048};
+  }
 
   solvers::CondensedProblem& held_at(const solvers::SweepPoint& point) {
     solvers::CondensedProblem& problem = problem_.condensed();
@@ -95,19 +93,9 @@ class MotionMeasurer {
     return problem;
   }
 
-  template <class Structure>
-  MeasuredPoint measured(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& force,
-                         const Structure& structure) {
-    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rows_.rows(), points_);
-    if (!rows_.isZero(0.0)) motion = rows_ * structure().motion.displacement;
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].is_contact()) motion.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
-    return measure(outputs_, motion, force, harmonics_, periods_);
-  }
-
   const std::vector<Output>& outputs_;
   int harmonics_, points_, periods_;
-  bool over_amplitude_;
+  bool over_amplitude_, impacts_alone_;
   solvers::ContactProblem problem_;
   Eigen::VectorXd times_;
   Eigen::MatrixXd rows_;
@@ -138,8 +126,8 @@ std::vector<MeasuredPoint> along_balances(const Scene& scene, const StructureMod
 }
 
 /// Of a curve whose points have these motions.
-template <class Motion>
-std::vector<MeasuredPoint> along_motions(MotionMeasurer&& measurer, const std::vector<Motion>& motions,
+std::vector<MeasuredPoint> along_motions(MotionMeasurer&& measurer,
+                                         const std::vector<solvers::PhaseMotion>& motions,
                                          const solvers::FrequencySweep& curve, const Observer& observer,
                                          bool& cancelled) {
   return along(motions.size(), observer, cancelled,
@@ -156,16 +144,13 @@ std::vector<std::vector<MeasuredPoint>> along_curves(const Scene& scene, const S
   const auto periods_of = [&](std::size_t i) { return i == 0 ? 1 : sweep.branches[i - 1].periods; };
   std::vector<std::vector<MeasuredPoint>> curves;
   for (std::size_t i = 0; i <= sweep.branches.size(); ++i)
-    if (!sweep.impact_motions.empty()) {
+    if (!sweep.exact_motions.empty()) {
       const int periods = sweep.periods * periods_of(i);
-      MotionMeasurer measurer(scene, model, outputs, impacts_problem(scene, model).over_periods(periods),
-                              periods);
+      solvers::ContactProblem problem = exact_problem(scene, model);
+      MotionMeasurer measurer(scene, model, outputs,
+                              periods == 1 ? std::move(problem) : problem.over_periods(periods), periods);
       curves.push_back(
-          along_motions(std::move(measurer), sweep.impact_motions[i], curve_of(i), observer, cancelled));
-    } else if (!sweep.exact_motions.empty()) {
-      MotionMeasurer measurer(scene, model, outputs, exact_problem(scene, model), 1);
-      curves.push_back(
-          along_motions(std::move(measurer), sweep.exact_motions, curve_of(i), observer, cancelled));
+          along_motions(std::move(measurer), sweep.exact_motions[i], curve_of(i), observer, cancelled));
     } else {
       curves.push_back(along_balances(i == 0 ? scene : with_longer_period(scene, periods_of(i)), model,
                                       outputs, curve_of(i), observer, cancelled));

@@ -4,26 +4,25 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 /// Where contact lasts, and from when on, though no motion was found in which it does.
 void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& response, double frequency) {
-  using solvers::ImpactStatus;
-  const solvers::ImpactMotion& motion = response.motion;
-  const bool chatters = motion.status == ImpactStatus::chattering;
-  if (response.lasts() || (!chatters && motion.status != ImpactStatus::lasting_contact)) return;
+  using solvers::PhasesStatus;
+  const bool chatters = response.motion.status == PhasesStatus::chattering;
+  if (!chatters && response.motion.status != PhasesStatus::lasting_contact) return;
   record.warnings.push_back(fmt::format(
       "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. No periodic "
       "motion with this contact closed was found.",
       chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound is pressed on",
-      motion.chattering_contact + 1, motion.chattering_end / frequency));
+      response.chattering_contact + 1, response.chattering_end / frequency));
 }
 
 /// contact, begin, end (fractions of the motion's period): obstacles with impacts on which a contact rests.
@@ -37,33 +36,16 @@ Table lasting_table(const Scene& scene, const Response& response) {
   return table;
 }
 
-template <class Motion>
-double highest_of(const Motion& motion, const std::vector<solvers::Impact>& impacts) {
-  double largest = -std::numeric_limits<double>::infinity();
-  for (const solvers::Impact& one : impacts)
-    largest = std::max(largest, motion.displacement(Eigen::VectorXd::Constant(1, one.time))(one.contact));
-  return largest;
-}
-
 /// The largest displacement of the leading contact, at the samples and at its impacts.
 double highest(const Response& response) {
-  std::vector<solvers::Impact> own;
-  for (const solvers::Impact& one : response.struck)
-    if (one.contact == response.contact) own.push_back(one);
-  double at_impacts = response.displacement().maxCoeff();
-  if (response.phases && response.phases->motion.parts)
-    at_impacts = std::max(at_impacts, highest_of(response.phases->motion, own));
-  else if (response.impacts)
-    at_impacts = std::max(at_impacts, highest_of(response.impacts->motion, own));
-  return at_impacts;
+  const double sampled = response.displacement().maxCoeff();
+  const bool known = response.phases && response.phases->motion.parts;
+  if (!known && !response.impacts) return sampled;
+  const solvers::PhaseMotion& motion = known ? response.phases->motion : response.impacts->motion;
+  return std::max(sampled, highest_at_impacts(motion, response.contact));
 }
 
 }  // namespace
-
-double highest_at_impacts(const solvers::ImpactResponse& response) {
-  return response.lasts() ? highest_of(response.lasting, response.impacts())
-                          : highest_of(response.motion, response.impacts());
-}
 
 Table impacts_table(const Scene& scene, const std::vector<solvers::Impact>& impacts) {
   const std::vector<SceneContact> contacts = contacts_of(scene);

@@ -9,8 +9,6 @@ namespace wavebalance::app {
 /// impact, time_fraction, contact, velocity_before_m_per_s, velocity_after_m_per_s, impulse_Ns,
 /// energy_lost_J: a row for each impact of the motion's period, by time; contacts are counted from 1.
 Table impacts_table(const Scene& scene, const std::vector<solvers::Impact>& impacts);
-/// m, the largest displacement of a contact at its impact.
-double highest_at_impacts(const solvers::ImpactResponse& response);
 
 /// What impacts do in a response: how many there are, the largest impulse, the energy that they take in a
 /// period of the load, impacts.csv, and where there is no such motion what happens in its place.

@@ -11,6 +11,7 @@
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/motions.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
@@ -27,7 +28,7 @@ double largest_force(const FoundMotion& one) {
 /// The largest displacement, at samples and at impacts, which lie between them.
 double largest_displacement(const FoundMotion& one) {
   double largest = one.contacts.displacement.maxCoeff();
-  return one.impacts ? std::max(largest, highest_at_impacts(*one.impacts)) : largest;
+  return one.impacts ? std::max(largest, highest_at_impacts(one.impacts->motion)) : largest;
 }
 
 Table motions_table(const Motions& all) {
@@ -62,7 +63,7 @@ void append_files(Record& record, const Scene& scene, const StructureModel& mode
     record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
                             about + ": every contact"});
   if (motion.impacts)
-    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(scene, motion.impacts->impacts())),
+    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(scene, motion.impacts->motion.impacts)),
                             about + ": its impacts"});
   for (RecordFile& file : motion_files(model, motion.structure, name)) {
     file.about = about + ": the whole structure";

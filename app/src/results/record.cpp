@@ -289,10 +289,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                    const StartMotion& start) {
   const bool over_amplitude = scene.analysis.type == AnalysisType::amplitude_sweep;
-  if (solves_by_impacts(scene)) return impact_sweep(scene, model, observer);
-  if (scene.analysis.exact) {
+  if (scene.analysis.exact || solves_by_impacts(scene)) {
     Sweep sweep = exact_sweep(scene, model, observer, start);
-    add_isolas(scene, model, sweep, observer);
+    if (scene.analysis.exact) add_isolas(scene, model, sweep, observer);
     return sweep;
   }
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer, start)

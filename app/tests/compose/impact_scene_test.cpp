@@ -74,8 +74,7 @@ TEST(ImpactScene, LosesAsMuchEnergyAsTheLoadBringsBesideTheDamping) {
     constexpr int points = 200000;
     const Eigen::VectorXd times =
         (Eigen::VectorXd::LinSpaced(points, 0.0, points - 1.0).array() + 0.5).matrix() / points;
-    const Eigen::MatrixXd velocity = response.impacts->lasts() ? response.impacts->lasting.velocity(times)
-                                                               : response.impacts->motion.velocity(times);
+    const Eigen::MatrixXd velocity = response.impacts->motion.velocity(times);
     double work = 0.0;
     const int periods = response.impacts->load_periods;
     for (int k = 0; k < points; ++k)

@@ -23,15 +23,16 @@ void CurveTracer::run() {
   if (!turns_as_it_ends()) curve_.status = SweepStatus::lost;
 }
 
-// A curve that ends ahead or is closed turns an even number of times, one that returns an odd one. Else a
-// fold is missing.
+// A curve that ends where it goes at first, or is closed, turns an even number of times, another one an odd
+// one. Else a fold is missing.
 bool CurveTracer::turns_as_it_ends() const {
-  const auto folds = std::count_if(curve_.events.begin(), curve_.events.end(), [](const ExactEvent& event) {
-    return event.type == SpecialPointType::fold;
+  const auto turns = std::count_if(curve_.events.begin(), curve_.events.end(), [](const ExactEvent& event) {
+    return event.type == SpecialPointType::fold || event.turns;
   });
-  if (curve_.status == SweepStatus::reached_end || curve_.status == SweepStatus::closed)
-    return folds % 2 == 0;
-  return curve_.status != SweepStatus::returned || folds % 2 == 1;
+  const bool back = (first_->slope > 0.0) != (options().to > options().from);
+  if (curve_.status == SweepStatus::reached_end) return turns % 2 == (back ? 1 : 0);
+  if (curve_.status == SweepStatus::returned) return turns % 2 == (back ? 0 : 1);
+  return curve_.status != SweepStatus::closed || turns % 2 == 0;
 }
 
 bool CurveTracer::within(double value) const {
@@ -50,16 +51,21 @@ void CurveTracer::accept(PointOnCurve point) {
   added.slope = point->slope;
   added.multipliers = multipliers_of(*point);
   added.unstable = unstable_of(added.multipliers);
+  multipliers_ = added.multipliers;
   operations_ += operations_of(*point);
   points_.push_back(std::move(point));
   if (points_.size() > most) points_.pop_front();
 }
 
+void CurveTracer::go_on_from(PointOnCurve point, Eigen::VectorXcd multipliers) {
+  points_.assign(1, std::move(point));
+  multipliers_ = std::move(multipliers);
+}
+
 void CurveTracer::append_changes(const CurvePoint&, std::vector<PlacedEvent>&) {}
 
 void CurveTracer::note_events(const CurvePoint& next) {
-  EventsBetween between =
-      events_between(path_, *points_.back(), next, curve_.points.back().multipliers, multipliers_of(next));
+  EventsBetween between = events_between(path_, *points_.back(), next, multipliers_, multipliers_of(next));
   append_changes(next, between.events);
   if (path_.cancelled()) return;  // some may be missing
   if (!between.explained) curve_.unexplained.push_back(curve_.points.size());

@@ -34,6 +34,8 @@ class CurveTracer {
   bool within(double value) const;
   Eigen::VectorXcd multipliers_of(const CurvePoint& point) const;
   void accept(PointOnCurve point);
+  /// Goes on from a point that is none of the curve, with its multipliers where they are known.
+  void go_on_from(PointOnCurve point, Eigen::VectorXcd multipliers);
   void go_to(PointOnCurve next);
   /// The curve leaves its interval between its last point and this one.
   void end_before(const CurvePoint& next);
@@ -54,6 +56,7 @@ class CurveTracer {
   double operations_ = 0.0;
   const PointOnCurve first_;
   std::deque<PointOnCurve> points_;
+  Eigen::VectorXcd multipliers_;  // of the last one
 };
 
 }  // namespace wavebalance::solvers::detail

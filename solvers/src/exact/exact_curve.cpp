@@ -6,6 +6,7 @@
 #include <string>
 
 #include "exact/curve_tracer.hpp"
+#include "exact/impact_curve.hpp"
 #include "exact/map_curve.hpp"
 #include "exact/phase_switch.hpp"
 #include "linalg/index.hpp"
@@ -147,6 +148,14 @@ class PhaseTracer : public detail::CurveTracer {
   double growth_ = 1.5, arc_ = 0.0;
 };
 
+// Whether it is one of impact_motion().
+bool is_of_impacts(const PhaseFamily& family, const PhaseMotion& motion) {
+  if (motion.parts == nullptr || motion.parts->start || !motion.phases.empty()) return false;
+  for (int c = 0; c < family.dynamics().contacts(); ++c)
+    if (!family.laws()[c].restitution()) return false;
+  return true;
+}
+
 }  // namespace
 
 void ExactCurveOptions::validate() const {
@@ -178,7 +187,8 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
   if (first.parts == nullptr)
     throw std::invalid_argument("exact_curve: first has the status " + std::string(to_string(first.status)) +
                                 "; it must be a motion");
-  if (first.parts->multipliers) return detail::map_curve(family, first, options);  // a motion of the flow
+  if (first.parts->start) return detail::map_curve(family, first, options);  // a motion of the flow
+  if (is_of_impacts(family, first)) return detail::impact_curve(family, first, options);
   ExactCurve curve;
   PathModel model(family, first, options);
   std::optional<PathPoint> start =
@@ -196,6 +206,14 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
     if (other.status == SweepStatus::cancelled) curve.status = other.status;
   }
   return curve;
+}
+
+ExactCurve doubled_curve(const PhaseFamily& family, const ExactEvent& event,
+                         const ExactCurveOptions& options) {
+  options.validate();
+  if (event.type != SpecialPointType::period_doubling || !is_of_impacts(family, event.motion))
+    throw std::invalid_argument("doubled_curve: the event is no period doubling of motions of impacts alone");
+  return detail::doubled_impacts(family, event, options);
 }
 
 }  // namespace wavebalance::solvers

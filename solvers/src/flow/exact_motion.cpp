@@ -68,7 +68,7 @@ class MotionSearch {
 
   PhaseMotion run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
-      if (!refine(tolerance) || is_accurate()) break;
+      if (!refine(tolerance) || error_ <= options_.tolerance) break;
     const bool found = std::isfinite(error_);  // by two solutions at least
     if (found)
       set_multipliers(motion_, multipliers_of(*flow_, found_));
@@ -95,28 +95,9 @@ class MotionSearch {
     return !exhausted_ && !cancelled_;
   }
 
-  // Whether the motion also passes where the flow does: where almost nothing holds a structure, the position
-  // that its forces give it is far from the one that the flow has.
-  bool is_accurate() {
-    constexpr int points = 8;
-    if (error_ > options_.tolerance) return false;
-    Eigen::MatrixXd passed(problem_.dynamics.contacts(), points);
-    Eigen::VectorXd times(points);
-    Index next = 0;
-    flow_->start(found_.state, found_.contacts);
-    flow_->perturb(Eigen::MatrixXd(found_.state.size(), 0));
-    flow_->advance_period(points, [&](const FlowSample& sample) {
-      times[next] = from_.begin + sample.time * problem_.frequency;
-      passed.col(next++) = sample.displacement;
-    });
-    const Eigen::MatrixXd given = motion_.displacement(times.head(next));
-    error_ = std::max(error_, (given - passed.leftCols(next)).norm() / given.norm());
-    return error_ <= options_.tolerance;
-  }
-
   // The motion with a tolerance of the flow, and how far it lies from the one before.
   bool refine(double tolerance) {
-    constexpr double safety = 3.0, rounding = 1e-13;
+    constexpr double safety = 3.0, least = 1e-13, rounding = std::numeric_limits<double>::epsilon();
     const FlowOptions flow_options;
     exhausted_ = operations_left_ < flow_options.panels * operations_of_panel;
     if (exhausted_) return false;
@@ -134,7 +115,10 @@ class MotionSearch {
     if (!closed.found) return false;
     motion_ = motion_of(original_, flow, {from_.begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
-    if (found_.found) error_ = std::max(safety * (now - displacement_).norm() / now.norm(), rounding);
+    // A large static deflection without contact is rounded before contacts take it back.
+    const double size = now.norm() / std::sqrt(double(times_.size())),
+                 rounded = rounding * problem_.contact_free.rowwise().norm().maxCoeff() / size;
+    if (found_.found) error_ = std::max({safety * (now - displacement_).norm() / now.norm(), rounded, least});
     displacement_ = now;
     found_ = std::move(closed);
     flow_ = std::move(flow);

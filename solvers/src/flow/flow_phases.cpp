@@ -118,16 +118,28 @@ std::vector<Impact> impacts_of(const ContactFlow& flow, double begin) {
 
 namespace {
 
+int boundary_near(const CellGrid& grid, double time) {
+  const auto away = [&](double boundary) { return std::abs(boundary - time - std::round(boundary - time)); };
+  const auto nearest = std::min_element(grid.boundaries.begin(), grid.boundaries.end(),
+                                        [&](double a, double b) { return away(a) < away(b); });
+  return int(nearest - grid.boundaries.begin());
+}
+
 // Each impact is where two panels meet.
 void set_impulses(CellGrid& grid, const std::vector<Impact>& impacts, double frequency) {
-  for (const Impact& one : impacts) {
-    const auto away = [&](double boundary) {
-      return std::abs(boundary - one.time - std::round(boundary - one.time));
-    };
-    const auto nearest = std::min_element(grid.boundaries.begin(), grid.boundaries.end(),
-                                          [&](double a, double b) { return away(a) < away(b); });
-    grid.impulses.push_back({one.contact, int(nearest - grid.boundaries.begin()), one.impulse * frequency});
+  for (const Impact& one : impacts)
+    grid.impulses.push_back({one.contact, boundary_near(grid, one.time), one.impulse * frequency});
+}
+
+// ContactFlow::state() by the poles.
+Eigen::VectorXcd by_pole(const ContactDynamics& dynamics, const Eigen::VectorXd& state) {
+  Eigen::VectorXcd states(Index(dynamics.poles().size()));
+  Index i = 0, j = 0;
+  for (const ContactPole& pole : dynamics.poles()) {
+    const double real = state[i++], imaginary = pole.exponent.imag() != 0.0 ? state[i++] : 0.0;
+    states[j++] = {real, imaginary};
   }
+  return states;
 }
 
 PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
@@ -158,8 +170,10 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
   motion.impacts = impacts_of(flow, begin);
   set_impulses(grid, motion.impacts, problem.frequency);
   const LegendreNodes nodes(panel_nodes);
-  const PanelForces forces = forces_of(grid, nodes, values);
-  PhaseMotion::Parts parts{PhaseModel(problem, 1.0), PhaseIterate{{}, forces}, nodes, {}, {}};
+  PhaseMotion::Parts parts{PhaseModel(problem, 1.0), {}, nodes, {}, {}};
+  grid.begin = {boundary_near(grid, begin),
+                parts.model.response.states(by_pole(problem.dynamics, start.state))};
+  parts.iterate.forces = forces_of(grid, nodes, values);
   parts.start = start;
   motion.parts = PhaseMotion::Parts::complete(std::move(parts));
   return motion;
@@ -167,7 +181,7 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
 
 void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers) {
   PhaseMotion::Parts parts = *motion.parts;
-  parts.multipliers = std::move(multipliers);
+  parts.multipliers = [known = std::move(multipliers)] { return known; };
   motion.parts = PhaseMotion::Parts::complete(std::move(parts));
 }
 

@@ -20,6 +20,19 @@ PhaseMotion exact_from(const PhasesProblem& problem, const PeriodStart& state, i
   return start ? flow_motion_from(longer, *start, options) : PhaseMotion();
 }
 
+// Sets the motion near the closest return of a period, if it is found.
+bool set_nearest(const PhasesProblem& problem, double begin, const ContactPhasesOptions& options,
+                 SettledExact& result) {
+  PeriodStart nearest = result.settled.nearest;
+  if (nearest.state.size() == 0) return false;
+  nearest.begin = begin;
+  PhaseMotion found = exact_from(problem, nearest, 1, options);
+  if (!found.converged()) return false;
+  result.motion = std::move(found);
+  result.load_periods = 1;
+  return true;
+}
+
 }  // namespace
 
 PhasesProblem over_periods(const PhasesProblem& problem, int times) {
@@ -34,6 +47,7 @@ SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions st
                             const ContactPhasesOptions& options, const std::optional<PoleStart>& start) {
   const double begin = start ? start->begin : 0.0;
   const PhasesProblem shifted = detail::begun_at(problem, begin);
+  constexpr int most_periods = 8;
   SettledExact result;
   for (const double near : {1e-3, 1e-7}) {
     stepping.period_tolerance = near;
@@ -46,6 +60,7 @@ SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions st
     }
     const int periods = settled.stepping.attractor_periods;
     if (periods < 1) break;
+    if (periods > most_periods && set_nearest(problem, begin, options, result)) return result;
     PhaseMotion found = exact_from(problem, {begin, settled.state, settled.states}, periods, options);
     if (found.parts == nullptr && result.motion.parts != nullptr) break;
     result.motion = std::move(found);
@@ -53,13 +68,7 @@ SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions st
     if (result.motion.status == PhasesStatus::cancelled) return result;
     if (result.motion.parts != nullptr && result.motion.count_unstable() <= 0) break;
   }
-  if (result.motion.converged() || result.settled.nearest.state.size() == 0) return result;
-  PeriodStart nearest = result.settled.nearest;
-  nearest.begin = begin;
-  PhaseMotion found = exact_from(problem, nearest, 1, options);
-  if (!found.converged()) return result;
-  result.motion = std::move(found);
-  result.load_periods = 1;
+  if (!result.motion.converged()) set_nearest(problem, begin, options, result);
   return result;
 }
 

@@ -36,12 +36,12 @@ Eigen::VectorXcd Flight::state_at(double seconds) const {
   return model_.growth(seconds).cwiseProduct(state_);
 }
 
-ContactState Flight::motion_at(double seconds) const {
+ContactsAt Flight::motion_at(double seconds) const {
   return model_.motion(state_at(seconds), begin_ + seconds / model_.period());
 }
 
-Flight::Verdict Flight::verdict(int contact, const ContactState& at, double third, double cell) const {
-  const double u = at.displacement[contact] - model_.problem().gaps[contact], v = at.velocity[contact],
+Flight::Verdict Flight::verdict(int contact, const ContactsAt& at, double third, double cell) const {
+  const double u = at.displacement[contact] - model_.gaps()[contact], v = at.velocity[contact],
                a = at.acceleration[contact];
   if (largest_of_parabola(u, v, a, cell) + third * cell * cell * cell / 6.0 <= allowed_)
     return Verdict::clear;
@@ -54,7 +54,7 @@ Touch Flight::first_touch() { return in_cell(state_, 0.0, 0); }
 // A cell begins at `from` with a state, and ends a share 2^-level of the flight later.
 Touch Flight::in_cell(const Eigen::VectorXcd& state, double from, int level) {
   const double cell = std::ldexp(length_, -level);
-  const ContactState at = model_.motion(state, begin_ + from / model_.period());
+  const ContactsAt at = model_.motion(state, begin_ + from / model_.period());
   Eigen::VectorXd third = model_.third_moduli() * state.cwiseAbs();
   third = third * std::exp(growth_ * cell) + model_.free_third();
   Touch touch;
@@ -78,8 +78,8 @@ Touch Flight::in_cell(const Eigen::VectorXcd& state, double from, int level) {
 // where it ends at most as far above the gap as is allowed.
 double Flight::crossing(int contact, double from, double to) const {
   constexpr int most_steps = 100;
-  const double gap = model_.problem().gaps[contact];
-  ContactState at = motion_at(to);
+  const double gap = model_.gaps()[contact];
+  ContactsAt at = motion_at(to);
   if (at.displacement[contact] - gap <= allowed_) return std::numeric_limits<double>::infinity();
   double low = from, high = to, time = to;
   for (int step = 0; step < most_steps; ++step) {
@@ -96,7 +96,7 @@ double Flight::crossing(int contact, double from, double to) const {
 
 Flight::Peak Flight::peak_after(const Touch& touch) const {
   constexpr int samples = 512;
-  const double gap = model_.problem().gaps[touch.contact];
+  const double gap = model_.gaps()[touch.contact];
   Peak best{0.0, touch.time};
   bool inside = false;
   for (int k = 1; k <= samples; ++k) {

@@ -30,7 +30,7 @@ class Flight {
   Touch first_touch();
   /// The state at a time in s after the beginning.
   Eigen::VectorXcd state_at(double seconds) const;
-  ContactState motion_at(double seconds) const;
+  ContactsAt motion_at(double seconds) const;
   /// The highest point of a contact that rises above its gap at a time: displacement less gap (m), and where
   /// it is, s after the beginning, up to the end of the flight.
   struct Peak {
@@ -41,7 +41,7 @@ class Flight {
  private:
   enum class Verdict { clear, rises, unknown };
   Touch in_cell(const Eigen::VectorXcd& state, double from, int level);
-  Verdict verdict(int contact, const ContactState& at, double third, double cell) const;
+  Verdict verdict(int contact, const ContactsAt& at, double third, double cell) const;
   double crossing(int contact, double from, double to) const;
   const Eigen::VectorXcd& halved(int level);
 

@@ -27,10 +27,10 @@ void ImpactEquations::add_free(Index i) {
   const Index k = impacts();
   const int c = contacts_[static_cast<std::size_t>(i)];
   const double length = model_.displacement_scale(), speed = model_.velocity_scale();
-  const ContactState free = model_.free_motion(unknowns_[i]);
-  residual_[i] = (free.displacement[c] - model_.problem().gaps[c]) / length;
+  const ContactsAt free = model_.free_motion(unknowns_[i]);
+  residual_[i] = (free.displacement[c] - model_.gaps()[c]) / length;
   residual_[k + i] = -free.velocity[c] / speed;
-  rounding_[i] = (model_.free_magnitude(c, 0) + std::abs(model_.problem().gaps[c])) / length;
+  rounding_[i] = (model_.free_magnitude(c, 0) + std::abs(model_.gaps()[c])) / length;
   rounding_[k + i] = model_.free_magnitude(c, 1) / speed;
   matrix_(i, i) += model_.period() * free.velocity[c] / length;
   matrix_(k + i, i) -= model_.period() * free.acceleration[c] / speed;
@@ -70,7 +70,7 @@ void ImpactEquations::evaluate(const Eigen::VectorXd& unknowns) {
     add_free(i);
     for (Index j = 0; j < k; ++j) add_impact(i, j);
     const double by_impulse = impulse_scale_ * model_.inverse_mass()(c, c) /
-                              ((1.0 + model_.problem().restitution[c]) * model_.velocity_scale());
+                              ((1.0 + model_.restitution()[c]) * model_.velocity_scale());
     residual_[k + i] += by_impulse * unknowns_[k + i];
     rounding_[k + i] += by_impulse * std::abs(unknowns_[k + i]);
     matrix_(k + i, k + i) += by_impulse;

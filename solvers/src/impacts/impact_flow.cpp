@@ -35,7 +35,7 @@ void ImpactFlow::start_clear() {
   double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd above;
   for (int k = 0; k < instants; ++k) {
-    const Eigen::VectorXd now = model_.free_motion(double(k) / instants).displacement - model_.problem().gaps;
+    const Eigen::VectorXd now = model_.free_motion(double(k) / instants).displacement - model_.gaps();
     if (!(now.maxCoeff() < least)) continue;
     least = now.maxCoeff();
     above = now;
@@ -52,7 +52,7 @@ void ImpactFlow::forget_before(double time) {
 // The impact of a contact at its gap now. False where the motion ends here.
 bool ImpactFlow::rebound(int contact) {
   constexpr double vanishing = 1e-6;
-  const double restitution = model_.problem().restitution[contact];
+  const double restitution = model_.restitution()[contact];
   const double before = model_.motion(state_, time_).velocity[contact];
   const double impulse = (1.0 + restitution) * before / model_.inverse_mass()(contact, contact);
   state_ -= impulse * model_.left().row(contact).transpose();
@@ -61,7 +61,7 @@ bool ImpactFlow::rebound(int contact) {
   const double pressing = model_.motion(state_, time_).acceleration[contact];
   const bool vanishes = before <= vanishing * fastest_;
   if (!(pressing > 0.0) || !(restitution == 0.0 || (vanishes && restitution < 1.0))) return true;
-  end_ = restitution == 0.0 ? ImpactStatus::lasting_contact : ImpactStatus::chattering;
+  end_ = restitution == 0.0 ? PhasesStatus::lasting_contact : PhasesStatus::chattering;
   end_contact_ = contact;
   end_time_ = time_ + 2.0 * restitution * before / ((1.0 - restitution) * pressing * model_.period());
   return false;
@@ -74,7 +74,7 @@ bool ImpactFlow::comes_to_rest(double time) {
   if (events_.empty() || time - events_.back().time > shortly) return false;
   const Event& last = events_.back();
   const double speed = last.impulse * model_.inverse_mass()(last.contact, last.contact) /
-                       (1.0 + model_.problem().restitution[last.contact]);
+                       (1.0 + model_.restitution()[last.contact]);
   if (speed > slow * fastest_) return false;
   end_contact_ = last.contact;
   end_time_ = time;
@@ -96,8 +96,8 @@ bool ImpactFlow::advance_to(double time) {
     Flight flight(model_, state_, time_, length, allowed_penetration(model_));
     const Touch touch = flight.first_touch();
     if (touch.kind == Touch::Kind::unresolved) {
-      end_ = comes_to_rest(time_ + touch.time / model_.period()) ? ImpactStatus::chattering
-                                                                 : ImpactStatus::grazing;
+      end_ = comes_to_rest(time_ + touch.time / model_.period()) ? PhasesStatus::chattering
+                                                                 : PhasesStatus::grazing;
       return false;
     }
     const bool free = touch.kind == Touch::Kind::none;
@@ -106,7 +106,7 @@ bool ImpactFlow::advance_to(double time) {
     if (free) return state_.allFinite();
     if (!rebound(touch.contact)) return false;
   }
-  end_ = ImpactStatus::too_many_impacts;
+  end_ = PhasesStatus::too_many_impacts;
   return false;
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "impacts/flight.hpp"
-#include "wavebalance/solvers/impacts/impact_motion.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -26,7 +26,7 @@ class ImpactFlow {
   /// Goes on for a period, after which the time is again what it was before, and those of all events are one
   /// less. False where it ends within, by what end() says.
   bool advance_period();
-  ImpactStatus end() const { return end_; }
+  PhasesStatus end() const { return end_; }
   /// When chattering ends, or lasting contact begins.
   double end_time() const { return end_time_; }
   int end_contact() const { return end_contact_; }
@@ -46,7 +46,7 @@ class ImpactFlow {
   Eigen::VectorXcd state_;
   double time_ = 0.0, fastest_ = 0.0;
   std::vector<Event> events_;
-  ImpactStatus end_ = ImpactStatus::not_settled;
+  PhasesStatus end_ = PhasesStatus::not_settled;
   double end_time_ = missing;
   int end_contact_ = -1;
 };

@@ -4,8 +4,13 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "linalg/index.hpp"
+#include "linalg/one_less_exp.hpp"
+#include "linalg/option_checks.hpp"
+#include "wavebalance/solvers/impacts/impact_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -13,17 +18,39 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// 1 - exp(z) without cancellation.
-Complex one_less_exp(Complex z) {
-  const double half = std::sin(0.5 * z.imag());
-  return {-std::expm1(z.real()) * std::cos(z.imag()) + 2.0 * half * half,
-          -std::exp(z.real()) * std::sin(z.imag())};
+// The velocities (derivative 1) or displacements (0) of the contacts at once by unit impulses.
+Eigen::MatrixXd at_once(const ContactDynamics& dynamics, int derivative) {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dynamics.contacts(), dynamics.contacts());
+  for (const ContactPole& pole : dynamics.poles()) {
+    const double weight = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
+    const std::complex<double> rate = derivative == 0 ? 1.0 : pole.exponent;
+    sum += weight * (rate * pole.residue * pole.shape * pole.left.transpose()).real();
+  }
+  return sum;
+}
+
+// A contact without mass is displaced at once.
+void require_mass(const ContactDynamics& dynamics) {
+  constexpr double rounding = 1e-9;
+  const Eigen::MatrixXd displaced = at_once(dynamics, 0), moved = at_once(dynamics, 1);
+  double fastest = 0.0;
+  for (const ContactPole& pole : dynamics.poles()) fastest = std::max(fastest, std::abs(pole.exponent));
+  for (Index c = 0; c < moved.rows(); ++c) {
+    const bool mass = dynamics.constant()(c, c) == 0.0 && moved(c, c) > 0.0 &&
+                      std::abs(displaced(c, c)) * fastest <= rounding * moved(c, c) * double(moved.rows());
+    if (!mass)
+      throw std::invalid_argument("impact_motion: contact " + std::to_string(c) +
+                                  " has no mass, so that an impact there has no impulse; it must have mass");
+  }
 }
 
 }  // namespace
 
-ImpactModel::ImpactModel(const ImpactsProblem& problem)
-    : problem_(problem), period_(1.0 / problem.frequency) {
+ImpactModel::ImpactModel(const PhasesProblem& problem)
+    : problem_(problem),
+      gaps_(problem.laws.gaps(problem.dynamics.contacts())),
+      restitution_(problem.laws.restitution(problem.dynamics.contacts())),
+      period_(1.0 / problem.frequency) {
   const auto& poles = problem.dynamics.poles();
   const auto count = Index(poles.size());
   const Index contacts = problem.dynamics.contacts();
@@ -51,7 +78,7 @@ ImpactModel::ImpactModel(const ImpactsProblem& problem)
   }
   inverse_mass_ = inverse_contact_mass(problem.dynamics);
   for (int c = 0; c < contacts; ++c) {
-    displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(problem.gaps[c]));
+    displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(gaps_[c]));
     velocity_scale_ = std::max(velocity_scale_, free_magnitude(c, 1));
   }
   velocity_scale_ = std::max(velocity_scale_, turn * problem.frequency * displacement_scale_ * 1e-3);
@@ -72,9 +99,9 @@ bool ImpactModel::is_resonant() const {
   return false;
 }
 
-ContactState ImpactModel::free_motion(double time) const {
+ContactsAt ImpactModel::free_motion(double time) const {
   const Index contacts = shapes_.rows();
-  ContactState state{Eigen::VectorXd(contacts), Eigen::VectorXd(contacts), Eigen::VectorXd(contacts)};
+  ContactsAt state{Eigen::VectorXd(contacts), Eigen::VectorXd(contacts), Eigen::VectorXd(contacts)};
   for (Index c = 0; c < contacts; ++c) {
     const auto [displacement, velocity, acceleration, third] = free_[static_cast<std::size_t>(c)].at(time);
     state.displacement[c] = displacement;
@@ -118,8 +145,8 @@ Eigen::VectorXcd ImpactModel::growth(double seconds) const {
   return (exponents_ * seconds).array().exp().matrix();
 }
 
-ContactState ImpactModel::motion(const Eigen::VectorXcd& state, double time) const {
-  ContactState result = free_motion(time);
+ContactsAt ImpactModel::motion(const Eigen::VectorXcd& state, double time) const {
+  ContactsAt result = free_motion(time);
   const Index contacts = shapes_.rows();
   const Eigen::VectorXd own = (outputs_ * state).real();
   result.displacement += own.head(contacts);
@@ -128,4 +155,35 @@ ContactState ImpactModel::motion(const Eigen::VectorXcd& state, double time) con
   return result;
 }
 
+void require_impacts(const PhasesProblem& problem) {
+  const char* who = "impact_motion";
+  const ContactDynamics& dynamics = problem.dynamics;
+  require_positive(who, "frequency", problem.frequency);
+  const int contacts = dynamics.contacts();
+  if (problem.contact_free.rows() != contacts || problem.contact_free.cols() < 1)
+    throw std::invalid_argument("impact_motion: there are " + std::to_string(problem.contact_free.rows()) +
+                                " motions without contact for " + std::to_string(contacts) +
+                                " contacts; there must be one each");
+  problem.laws.require(contacts);
+  for (const double one : problem.laws.restitution(contacts))
+    if (!(one >= 0.0 && one <= 1.0)) reject(who, "restitution", one, "in 0..1");
+  if (!problem.laws.gaps(contacts).allFinite())
+    throw std::invalid_argument("impact_motion: a gap is not finite; all must be");
+  if (dynamics.structurally_damped())
+    throw std::invalid_argument(
+        "impact_motion: the structure has structural damping, which has no equation in time; the damping "
+        "must be viscous");
+  if (dynamics.holding() > 0.0)
+    throw std::invalid_argument(
+        "impact_motion: the structure is free to move, so that impacts have no periodic Green function; it "
+        "must be held");
+  require_mass(dynamics);
+}
+
 }  // namespace wavebalance::solvers::detail
+
+namespace wavebalance::solvers {
+
+Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics) { return detail::at_once(dynamics, 1); }
+
+}  // namespace wavebalance::solvers

@@ -3,12 +3,12 @@
 #include <vector>
 
 #include "flow/harmonic_series.hpp"
-#include "wavebalance/solvers/impacts/impacts_problem.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers::detail {
 
 /// Displacement (m), velocity (m/s) and acceleration (m/s^2) of each of C contacts.
-struct ContactState {
+struct ContactsAt {
   Eigen::VectorXd displacement, velocity, acceleration;
 };
 
@@ -26,10 +26,12 @@ struct GreenValues {
 class ImpactModel {
  public:
   /// Keeps no reference but that to the dynamics.
-  explicit ImpactModel(const ImpactsProblem& problem);
+  explicit ImpactModel(const PhasesProblem& problem);
 
-  const ImpactsProblem& problem() const { return problem_; }
-  double period() const { return period_; }  ///< s
+  const PhasesProblem& problem() const { return problem_; }
+  const Eigen::VectorXd& gaps() const { return gaps_; }                ///< C, m
+  const Eigen::VectorXd& restitution() const { return restitution_; }  ///< C
+  double period() const { return period_; }                            ///< s
   int contacts() const { return static_cast<int>(shapes_.rows()); }
   Eigen::Index poles() const { return exponents_.size(); }
   const Eigen::VectorXcd& exponents() const { return exponents_; }  ///< 1/s, one for each pair
@@ -45,7 +47,7 @@ class ImpactModel {
   double velocity_scale() const { return velocity_scale_; }              ///< m/s
 
   /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
-  ContactState free_motion(double time) const;
+  ContactsAt free_motion(double time) const;
   double free_magnitude(int c, int derivative) const;
   /// Whether the structure without contact has a motion of this period of its own.
   bool is_resonant() const;
@@ -59,12 +61,13 @@ class ImpactModel {
   /// exp(lambda t) for a time in s.
   Eigen::VectorXcd growth(double seconds) const;
   /// The whole motion of the contacts in a state at a time in periods.
-  ContactState motion(const Eigen::VectorXcd& state, double time) const;
+  ContactsAt motion(const Eigen::VectorXcd& state, double time) const;
 
  private:
   std::complex<double> periodic(Eigen::Index pole, double share) const;
 
-  ImpactsProblem problem_;
+  PhasesProblem problem_;
+  Eigen::VectorXd gaps_, restitution_;
   double period_;
   std::vector<HarmonicSeries> free_;         // of each contact
   Eigen::VectorXcd exponents_, difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
@@ -74,5 +77,8 @@ class ImpactModel {
   Eigen::MatrixXd inverse_mass_;
   double displacement_scale_ = 0.0, velocity_scale_ = 0.0;
 };
+
+/// Throws std::invalid_argument as impact_motion() does for a problem.
+void require_impacts(const PhasesProblem& problem);
 
 }  // namespace wavebalance::solvers::detail

@@ -2,40 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
+#include <future>
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 
 #include "impacts/impact_equations.hpp"
 #include "impacts/impact_parts.hpp"
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
-#include "linalg/enum_table.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
+#include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers {
-
-std::string_view to_string(ImpactStatus status) {
-  using enum ImpactStatus;
-  return detail::name_in<ImpactStatus>({{converged, "converged"},
-                                        {iteration_limit, "iteration_limit"},
-                                        {singular, "singular"},
-                                        {wrong_order, "wrong_order"},
-                                        {pulling, "pulling"},
-                                        {penetrating, "penetrating"},
-                                        {grazing, "grazing"},
-                                        {resonant, "resonant"},
-                                        {chattering, "chattering"},
-                                        {lasting_contact, "lasting_contact"},
-                                        {not_settled, "not_settled"},
-                                        {too_many_impacts, "too_many_impacts"},
-                                        {cancelled, "cancelled"}},
-                                       status);
-}
 
 void ImpactMotionOptions::validate() const {
   detail::require_at_least("ImpactMotionOptions", "max_iterations", max_iterations, 1);
@@ -79,17 +59,9 @@ class ImpactSystem {
   const Observer& observer_;
 };
 
-ImpactStatus status_of(detail::NewtonEnd end) {
-  switch (end) {
-    case detail::NewtonEnd::solved:
-      return ImpactStatus::converged;
-    case detail::NewtonEnd::singular:
-      return ImpactStatus::singular;
-    case detail::NewtonEnd::cancelled:
-      return ImpactStatus::cancelled;
-    default:
-      return ImpactStatus::iteration_limit;
-  }
+PhasesStatus status_of(detail::NewtonEnd end) {
+  if (end == detail::NewtonEnd::solved) return PhasesStatus::converged;
+  return end == detail::NewtonEnd::cancelled ? PhasesStatus::cancelled : PhasesStatus::not_found;
 }
 
 // Steps that gain what rounding leaves, after the equations hold to their rounding errors.
@@ -108,7 +80,7 @@ void polish(ImpactSystem& system, Eigen::VectorXd& unknowns) {
   }
 }
 
-void check_start(const ImpactsProblem& problem, const std::vector<ImpactGuess>& start) {
+void check_start(const PhasesProblem& problem, const std::vector<ImpactGuess>& start) {
   for (const ImpactGuess& guess : start) {
     if (guess.contact < 0 || guess.contact >= problem.dynamics.contacts())
       detail::reject("impact_motion", "contact", guess.contact, "a contact of the structure");
@@ -117,20 +89,7 @@ void check_start(const ImpactsProblem& problem, const std::vector<ImpactGuess>& 
   }
 }
 
-// The states of all poles right after each impact.
-Eigen::MatrixXcd states_after(const detail::ImpactModel& model, const std::vector<Impact>& impacts) {
-  const auto count = Index(impacts.size());
-  Eigen::MatrixXcd states = Eigen::MatrixXcd::Zero(model.poles(), count);
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j) {
-      const Impact& other = impacts[static_cast<std::size_t>(j)];
-      const double share = impacts[static_cast<std::size_t>(i)].time - other.time + (j > i ? 1.0 : 0.0);
-      states.col(i) += other.impulse * model.state_after(other.contact, share);
-    }
-  return states;
-}
-
-void check_flights(ImpactMotion& motion) {
+void check_flights(detail::ImpactSolution& motion) {
   const double allowed = detail::allowed_penetration(motion);
   const std::size_t flights = std::max<std::size_t>(1, motion.impacts.size());
   for (std::size_t i = 0; i < flights; ++i) {
@@ -138,7 +97,7 @@ void check_flights(ImpactMotion& motion) {
     const detail::Touch touch = flight.first_touch();
     if (touch.kind == detail::Touch::Kind::none) continue;
     const bool unknown = touch.kind == detail::Touch::Kind::unresolved;
-    motion.status = unknown ? ImpactStatus::grazing : ImpactStatus::penetrating;
+    motion.status = unknown ? PhasesStatus::grazing : PhasesStatus::penetrating;
     if (unknown) return;
     const auto peak = flight.peak_after(touch);
     if (!(peak.height > allowed) || peak.height <= motion.penetration) continue;
@@ -164,9 +123,24 @@ double impulse_scale_of(const ImpactModel& model) {
   return model.velocity_scale() / model.inverse_mass().diagonal().minCoeff();
 }
 
+namespace {
+
+// Cells from impact to impact, without forces.
+CellGrid grid_of(const std::vector<Impact>& impacts, double frequency) {
+  CellGrid grid;
+  for (const Impact& one : impacts) {
+    if (grid.boundaries.empty() || one.time > grid.boundaries.back()) grid.boundaries.push_back(one.time);
+    grid.impulses.push_back({one.contact, int(grid.boundaries.size()) - 1, one.impulse * frequency});
+  }
+  if (impacts.empty()) grid.boundaries.push_back(0.0);
+  return grid;
+}
+
+}  // namespace
+
 double allowed_penetration(const ImpactModel& model) { return 1e-12 * model.displacement_scale(); }
 
-double allowed_penetration(const ImpactMotion& motion) {
+double allowed_penetration(const ImpactSolution& motion) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon(), soon = 1e-3;
   const ImpactModel& model = *motion.model;
   double largest = 0.0;
@@ -195,15 +169,27 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
   return unknowns;
 }
 
-ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns,
-                       ImpactMotion found) {
+Eigen::MatrixXcd states_after(const ImpactModel& model, const std::vector<Impact>& impacts) {
+  const auto count = Index(impacts.size());
+  Eigen::MatrixXcd states = Eigen::MatrixXcd::Zero(model.poles(), count);
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j < count; ++j) {
+      const Impact& other = impacts[static_cast<std::size_t>(j)];
+      const double share = impacts[static_cast<std::size_t>(i)].time - other.time + (j > i ? 1.0 : 0.0);
+      states.col(i) += other.impulse * model.state_after(other.contact, share);
+    }
+  return states;
+}
+
+ImpactSolution solution_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns) {
+  ImpactSolution found;
   const auto count = Index(unknowns.contacts.size());
   for (Index i = 0; i < count; ++i) {
     Impact impact;
     impact.contact = unknowns.contacts[static_cast<std::size_t>(i)];
     impact.time = unknowns.values[i];
     impact.impulse = unknowns.impulse_scale * unknowns.values[count + i];
-    const double restitution = model->problem().restitution[impact.contact];
+    const double restitution = model->restitution()[impact.contact];
     impact.velocity_before =
         impact.impulse * model->inverse_mass()(impact.contact, impact.contact) / (1.0 + restitution);
     impact.velocity_after = -restitution * impact.velocity_before;
@@ -213,11 +199,11 @@ ImpactMotion motion_of(std::shared_ptr<const ImpactModel> model, const ImpactUnk
   found.states = states_after(*model, found.impacts);
   found.model = std::move(model);
   const auto pulls = [](const Impact& impact) { return !(impact.impulse > 0.0); };
-  found.status = ImpactStatus::converged;
+  found.status = PhasesStatus::converged;
   if (!in_order(unknowns))
-    found.status = ImpactStatus::wrong_order;
+    found.status = PhasesStatus::wrong_order;
   else if (std::ranges::any_of(found.impacts, pulls))
-    found.status = ImpactStatus::pulling;
+    found.status = PhasesStatus::pulling;
   else
     check_flights(found);
   // The first impact of the period is the first of the list.
@@ -245,14 +231,13 @@ bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>&
   });
 }
 
-int repeats_after(const ImpactMotion& motion, int load_periods) {
+int repeats_after(const std::vector<Impact>& impacts, int load_periods) {
   for (int k = 1; k < load_periods; ++k)
-    if (load_periods % k == 0 && same_impacts_later(motion.impacts, motion.impacts, double(k) / load_periods))
-      return k;
+    if (load_periods % k == 0 && same_impacts_later(impacts, impacts, double(k) / load_periods)) return k;
   return load_periods;
 }
 
-Flight flight_after(const ImpactMotion& motion, std::size_t i) {
+Flight flight_after(const ImpactSolution& motion, std::size_t i) {
   const ImpactModel& model = *motion.model;
   const double allowed = allowed_penetration(motion);
   if (motion.impacts.empty())
@@ -263,83 +248,72 @@ Flight flight_after(const ImpactMotion& motion, std::size_t i) {
   return {model, motion.states.col(Index(i)), begin, (end - begin) * model.period(), allowed};
 }
 
-}  // namespace detail
+ContactsAt ImpactSolution::at(double time) const {
+  if (impacts.empty()) return model->free_motion(time);
+  const double share = within_period(time);
+  const auto after = std::ranges::upper_bound(impacts, share, {}, &Impact::time);
+  const bool before_all = after == impacts.begin();
+  const auto last = before_all ? std::prev(impacts.end()) : std::prev(after);
+  const double since = share - last->time + (before_all ? 1.0 : 0.0);
+  return model->motion(
+      model->growth(since * model->period()).cwiseProduct(states.col(last - impacts.begin())), share);
+}
 
-ImpactMotion impact_motion(const ImpactsProblem& problem, const std::vector<ImpactGuess>& start,
-                           const ImpactMotionOptions& options) {
+ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
+                               const ImpactMotionOptions& options) {
   constexpr double smallest_step = 1e-6;
-  problem.validate();
-  options.validate();
   check_start(problem, start);
-  const auto model = std::make_shared<const detail::ImpactModel>(problem);
-  ImpactMotion found;
+  const auto model = std::make_shared<const ImpactModel>(problem);
+  ImpactSolution found;
   if (!start.empty() && model->is_resonant()) {
-    found.status = ImpactStatus::resonant;
+    found.status = PhasesStatus::resonant;
     return found;
   }
-  detail::ImpactUnknowns unknowns = detail::unknowns_of(*model, start);
+  ImpactUnknowns unknowns = unknowns_of(*model, start);
   ImpactSystem system(*model, unknowns, options.observer);
-  const detail::NewtonRun run =
-      detail::damped_newton(system, unknowns.values, options.max_iterations, smallest_step);
+  const NewtonRun run = damped_newton(system, unknowns.values, options.max_iterations, smallest_step);
+  if (run.end == NewtonEnd::solved) {
+    polish(system, unknowns.values);
+    found = solution_of(model, unknowns);
+  } else {
+    found.status = status_of(run.end);
+  }
   found.iterations = run.iterations;
   found.residual = system.largest();
-  found.status = status_of(run.end);
-  if (found.status != ImpactStatus::converged) return found;
-  polish(system, unknowns.values);
-  found.residual = system.largest();
-  return detail::motion_of(model, unknowns, std::move(found));
+  return found;
 }
 
-namespace {
-
-const detail::ImpactModel& model_of(const ImpactMotion& motion) {
-  if (!motion.has_solution()) throw std::invalid_argument("ImpactMotion: there is no solution to evaluate");
-  return *motion.model;
+PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution) {
+  PhaseMotion motion;
+  motion.status = solution->status;
+  motion.impacts = solution->impacts;
+  motion.unknowns = 2 * int(solution->impacts.size());
+  motion.iterations = solution->iterations;
+  motion.residual = solution->residual;
+  if (!solution->converged()) return motion;
+  constexpr int nodes = 2;  // of no panels
+  const PhasesProblem& problem = solution->model->problem();
+  PhaseMotion::Parts parts{PhaseModel(problem, 1.0), {}, LegendreNodes(nodes), {}, {}};
+  CellGrid grid = grid_of(motion.impacts, problem.frequency);
+  if (!motion.impacts.empty())
+    grid.begin = {grid.cells() - 1, parts.model.response.states(solution->states.rightCols(1))};
+  parts.iterate.forces = PanelForces(std::move(grid), parts.nodes, {});
+  if (!motion.impacts.empty())  // once they are asked for
+    parts.multipliers = [known = std::async(std::launch::deferred, [solution] {
+                                   return multipliers_of(*solution);
+                                 }).share()] { return known.get(); };
+  motion.parts = PhaseMotion::Parts::complete(std::move(parts));
+  return motion;
 }
 
-detail::ContactState motion_at(const ImpactMotion& motion, double time) {
-  const detail::ImpactModel& model = model_of(motion);
-  if (motion.impacts.empty()) return model.free_motion(time);
-  const double share = within_period(time);
-  const auto after = std::ranges::upper_bound(motion.impacts, share, {}, &Impact::time);
-  const bool before_all = after == motion.impacts.begin();
-  const auto last = before_all ? std::prev(motion.impacts.end()) : std::prev(after);
-  const double since = share - last->time + (before_all ? 1.0 : 0.0);
-  const Eigen::VectorXcd state = motion.states.col(last - motion.impacts.begin());
-  return model.motion(model.growth(since * model.period()).cwiseProduct(state), share);
-}
+}  // namespace detail
 
-}  // namespace
-
-Eigen::MatrixXd ImpactMotion::displacement(const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd values(model_of(*this).contacts(), times.size());
-  for (Index k = 0; k < times.size(); ++k) values.col(k) = motion_at(*this, times[k]).displacement;
-  return values;
-}
-
-Eigen::MatrixXd ImpactMotion::velocity(const Eigen::VectorXd& times) const {
-  Eigen::MatrixXd values(model_of(*this).contacts(), times.size());
-  for (Index k = 0; k < times.size(); ++k) values.col(k) = motion_at(*this, times[k]).velocity;
-  return values;
-}
-
-double ImpactMotion::frequency() const { return model_of(*this).problem().frequency; }
-
-double ImpactMotion::energy_lost() const {
-  double sum = 0.0;
-  for (const Impact& impact : impacts) sum += impact.energy_lost;
-  return sum;
-}
-
-Eigen::MatrixXcd ImpactMotion::force_harmonics(int count) const {
-  detail::require_at_least("ImpactMotion", "count", count, 1);
-  const detail::ImpactModel& own = model_of(*this);
-  Eigen::MatrixXcd harmonics = Eigen::MatrixXcd::Zero(own.contacts(), count);
-  for (const Impact& impact : impacts)
-    for (int n = 0; n < count; ++n)
-      harmonics(impact.contact, n) += (n == 0 ? 1.0 : 2.0) * impact.impulse / own.period() *
-                                      std::polar(1.0, -2.0 * std::numbers::pi * n * impact.time);
-  return harmonics;
+PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
+                          const ImpactMotionOptions& options) {
+  options.validate();
+  detail::require_impacts(problem);
+  return detail::motion_of(
+      std::make_shared<const detail::ImpactSolution>(detail::impact_solution(problem, start, options)));
 }
 
 }  // namespace wavebalance::solvers

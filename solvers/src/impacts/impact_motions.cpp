@@ -9,6 +9,7 @@
 #include "impacts/impact_search.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 
 namespace wavebalance::solvers {
 
@@ -20,23 +21,28 @@ void ImpactMotionsOptions::validate() const {
 namespace {
 
 bool same_motion(const ImpactResponse& a, const ImpactResponse& b) {
-  if (a.load_periods != b.load_periods || a.lasting.phases.size() != b.lasting.phases.size() ||
-      a.impacts().size() != b.impacts().size())
+  const std::vector<Impact>&of_a = a.motion.impacts, &of_b = b.motion.impacts;
+  if (a.load_periods != b.load_periods || a.motion.phases.size() != b.motion.phases.size() ||
+      of_a.size() != of_b.size())
     return false;
   for (int k = 0; k < a.load_periods; ++k)
-    if (detail::same_impacts_later(a.impacts(), b.impacts(), double(k) / a.load_periods)) return true;
+    if (detail::same_impacts_later(of_a, of_b, double(k) / a.load_periods)) return true;
   return false;
 }
 
-// The radii of the discs of random states.
+// The radii of the discs of random states: those after an impact with the speed of the motion without
+// contact, and after the impacts of the first motion alone.
 Eigen::VectorXd radii_of(const detail::ImpactModel& model, const ImpactResponse& first) {
   constexpr double wider = 2.0;
   Eigen::VectorXd radii = Eigen::VectorXd::Zero(model.poles());
   for (Index c = 0; c < model.contacts(); ++c)
     radii = radii.cwiseMax(model.left().row(c).transpose().cwiseAbs() *
                            (model.velocity_scale() / model.inverse_mass()(c, c)));
-  if (first.motion.converged() && first.motion.states.cols() > 0)
-    radii = radii.cwiseMax(first.motion.states.cwiseAbs().rowwise().maxCoeff());
+  if (first.motion.converged() && !first.motion.impacts.empty() && !first.lasts()) {
+    const detail::ImpactModel longer(over_periods(model.problem(), first.load_periods));
+    radii =
+        radii.cwiseMax(detail::states_after(longer, first.motion.impacts).cwiseAbs().rowwise().maxCoeff());
+  }
   return wider * radii;
 }
 
@@ -54,7 +60,7 @@ Eigen::VectorXcd random_state(const detail::ImpactModel& model, const Eigen::Vec
       const bool real = model.exponents()[i].imag() == 0.0;
       state[i] = real ? std::complex<double>(modulus * std::cos(angle)) : std::polar(modulus, angle);
     }
-    const Eigen::VectorXd above = model.motion(state, 0.0).displacement - model.problem().gaps;
+    const Eigen::VectorXd above = model.motion(state, 0.0).displacement - model.gaps();
     if (above.maxCoeff() < 0.0 || k >= 32 * most) return state;
   }
 }
@@ -76,13 +82,15 @@ class ImpactCollection {
   std::vector<CoexistingImpacts> motions_;
 };
 
-bool is_settled(const ImpactResponse& response) { return response.converged() && response.unstable == 0; }
+bool is_settled(const ImpactResponse& response) {
+  return response.motion.converged() && response.unstable == 0;
+}
 
 }  // namespace
 
-ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsOptions& options) {
+ImpactMotions impact_motions(const PhasesProblem& problem, const ImpactMotionsOptions& options) {
   options.validate();
-  problem.validate();
+  detail::require_impacts(problem);
   const detail::ImpactModel model(problem);
   ImpactCollection found;
   ImpactMotions result;
@@ -95,8 +103,8 @@ ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsO
     if (start >= 0) how.start = random_state(model, radii, generator);
     detail::ImpactSearch search(problem, how);
     ImpactResponse response = search.run();
-    if (response.motion.status == ImpactStatus::cancelled) {
-      result.status = ImpactStatus::cancelled;
+    if (response.motion.status == PhasesStatus::cancelled) {
+      result.status = PhasesStatus::cancelled;
       break;
     }
     if (start < 0) radii = radii_of(model, response);
@@ -104,10 +112,10 @@ ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsO
     if (start < 0) result.status = response.motion.status;
     if (start >= 0) {
       ++result.starts;
-      const bool unstable = response.converged();
-      if (!settled) ++result.none[unstable ? ImpactStatus::not_settled : response.motion.status];
+      const bool unstable = response.motion.converged();
+      if (!settled) ++result.none[unstable ? PhasesStatus::not_settled : response.motion.status];
     }
-    if (response.converged()) {
+    if (response.motion.converged()) {
       CoexistingImpacts& one = found.add(std::move(response));
       one.from_random = one.from_random || (settled && !one.settled && start >= 0);
       one.settled = one.settled || settled;
@@ -116,8 +124,8 @@ ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsO
     found.add_all(search.near_returns());
   }
   result.motions = found.take();
-  if (!result.motions.empty() && result.status != ImpactStatus::cancelled)
-    result.status = ImpactStatus::converged;
+  if (!result.motions.empty() && result.status != PhasesStatus::cancelled)
+    result.status = PhasesStatus::converged;
   return result;
 }
 

@@ -13,8 +13,8 @@ void ImpactResponseOptions::validate() const {
   newton.validate();
 }
 
-ImpactResponse impact_response(const ImpactsProblem& problem, const ImpactResponseOptions& options) {
-  problem.validate();
+ImpactResponse impact_response(const PhasesProblem& problem, const ImpactResponseOptions& options) {
+  detail::require_impacts(problem);
   options.validate();
   if (options.start.size() != 0 && options.start.size() != Eigen::Index(problem.dynamics.poles().size()))
     detail::reject("ImpactResponseOptions", "the size of start", options.start.size(),

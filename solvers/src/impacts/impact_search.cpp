@@ -6,22 +6,11 @@
 
 #include "impacts/impact_parts.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
-#include "wavebalance/solvers/impacts/impact_stability.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
-
-// The law of a contact of the problem.
-struct Obstacle {
-  double distance, rebound;
-
-  double force(double u) const { return u < distance ? 0.0 : std::numeric_limits<double>::infinity(); }
-  double tangent(double u) const { return force(u); }
-  double potential(double u) const { return force(u); }
-  double gap() const { return distance; }
-  std::optional<double> restitution() const { return rebound; }
-};
 
 Eigen::VectorXd velocity_weights(const ImpactModel& model) {
   return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
@@ -29,7 +18,7 @@ Eigen::VectorXd velocity_weights(const ImpactModel& model) {
 
 }  // namespace
 
-ImpactSearch::ImpactSearch(const ImpactsProblem& problem, const ImpactResponseOptions& options)
+ImpactSearch::ImpactSearch(const PhasesProblem& problem, const ImpactResponseOptions& options)
     : problem_(problem),
       options_(options),
       model_(problem),
@@ -45,14 +34,14 @@ ImpactResponse ImpactSearch::run() {
     flow_.start(options_.start, 0.0);
   states_.push_front(flow_.state());
   for (period_ = 1; period_ <= options_.max_periods; ++period_) {
-    if (!goes_on(options_.observer, progress())) return ended(ImpactStatus::cancelled);
+    if (!goes_on(options_.observer, progress())) return ended(PhasesStatus::cancelled);
     if (!flow_.advance_period()) return ended(flow_.end());
     states_.push_front(flow_.state());
     if (states_.size() > best_.size() + 1) states_.pop_back();
     flow_.forget_before(flow_.time() - options_.longest);
     if (look_back()) return finished(found_);
   }
-  return ended(ImpactStatus::not_settled);
+  return ended(PhasesStatus::not_settled);
 }
 
 Progress ImpactSearch::progress() const {
@@ -104,25 +93,26 @@ ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
   ImpactResponse response;
   response.load_periods = start.periods;
   response.distance = start.distance;
-  response.motion = impact_motion(problem_.over_periods(start.periods), start.impacts, options_.newton);
+  response.motion = impact_motion(over_periods(problem_, start.periods), start.impacts, options_.newton);
   if (!response.motion.converged()) return response;
-  if (const int fewer = repeats_after(response.motion, start.periods); fewer < start.periods) {
+  if (const int fewer = repeats_after(response.motion.impacts, start.periods); fewer < start.periods) {
     NearReturn shorter{fewer, start.distance, {}};
     for (const Impact& impact : response.motion.impacts)
       if (impact.time * start.periods < fewer)
         shorter.impacts.push_back({impact.contact, impact.time * start.periods / fewer, impact.impulse});
     return solve(shorter);
   }
-  response.multipliers = impact_multipliers(response.motion);
-  if (response.multipliers.size() > 0) response.unstable = unstable_count(response.multipliers);
+  set_multipliers(response);
   return response;
 }
 
+void ImpactSearch::set_multipliers(ImpactResponse& response) {
+  response.multipliers = response.motion.multipliers();
+  response.unstable = count_outside(response.multipliers);
+}
+
 // The exact motion with contact that lasts, from the first state.
-ImpactResponse ImpactSearch::resting(ImpactStatus status) const {
-  std::vector<AnyContactLaw> laws;
-  for (Index c = 0; c < problem_.gaps.size(); ++c)
-    laws.emplace_back(Obstacle{problem_.gaps[c], problem_.restitution[c]});
+ImpactResponse ImpactSearch::resting(PhasesStatus status) const {
   TimeSteppingOptions stepping;
   stepping.max_periods = options_.max_periods;
   stepping.longest = options_.longest;
@@ -132,17 +122,15 @@ ImpactResponse ImpactSearch::resting(ImpactStatus status) const {
     clear.start_clear();
   else
     clear.start(options_.start, 0.0);
-  SettledExact settled = settled_motion(
-      {problem_.dynamics, ContactLaws(std::move(laws)), problem_.contact_free, problem_.frequency}, stepping,
-      {.observer = options_.observer}, PoleStart{clear.time(), clear.state()});
+  SettledExact settled = settled_motion(problem_, stepping, {.observer = options_.observer},
+                                        PoleStart{clear.time(), clear.state()});
   ImpactResponse response = none(status);
   response.integrated = settled.settled.stepping.periods;
   response.load_periods = settled.load_periods;
-  if (settled.motion.status == PhasesStatus::cancelled) response.motion.status = ImpactStatus::cancelled;
+  if (settled.motion.status == PhasesStatus::cancelled) response.motion.status = PhasesStatus::cancelled;
   if (settled.motion.parts == nullptr) return response;
-  response.multipliers = settled.motion.multipliers();
-  response.unstable = unstable_count(response.multipliers);
-  response.lasting = std::move(settled.motion);
+  response.motion = std::move(settled.motion);
+  set_multipliers(response);
   return response;
 }
 
@@ -163,12 +151,12 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 }
 
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
-ImpactResponse ImpactSearch::ended(ImpactStatus status) {
-  const bool named = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact ||
-                     status == ImpactStatus::grazing;
-  if (status == ImpactStatus::cancelled) return none(status);
+ImpactResponse ImpactSearch::ended(PhasesStatus status) {
+  const bool named = status == PhasesStatus::chattering || status == PhasesStatus::lasting_contact ||
+                     status == PhasesStatus::grazing;
+  if (status == PhasesStatus::cancelled) return none(status);
   const ImpactResponse rests = named ? resting(status) : none(status);
-  if (rests.lasting.converged() || rests.motion.status == ImpactStatus::cancelled) return rests;
+  if (rests.motion.converged() || rests.motion.status == PhasesStatus::cancelled) return rests;
   for (const NearReturn& start : best_) {
     if (found_.motion.converged()) break;
     if (!std::isfinite(start.distance) || start.impacts.empty()) continue;
@@ -178,13 +166,13 @@ ImpactResponse ImpactSearch::ended(ImpactStatus status) {
   return found_.motion.converged() ? finished(found_) : rests;
 }
 
-ImpactResponse ImpactSearch::none(ImpactStatus status) const {
+ImpactResponse ImpactSearch::none(PhasesStatus status) const {
   ImpactResponse response;
   response.motion.status = status;
-  const bool lasts = status == ImpactStatus::chattering || status == ImpactStatus::lasting_contact;
+  const bool lasts = status == PhasesStatus::chattering || status == PhasesStatus::lasting_contact;
   if (lasts) {
-    response.motion.chattering_end = period_ + flow_.end_time();
-    response.motion.chattering_contact = flow_.end_contact();
+    response.chattering_end = period_ + flow_.end_time();
+    response.chattering_contact = flow_.end_contact();
   }
   return finished(std::move(response));
 }

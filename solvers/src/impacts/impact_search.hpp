@@ -19,7 +19,7 @@ struct NearReturn {
 class ImpactSearch {
  public:
   /// Both must outlive it.
-  ImpactSearch(const ImpactsProblem& problem, const ImpactResponseOptions& options);
+  ImpactSearch(const PhasesProblem& problem, const ImpactResponseOptions& options);
 
   /// From the state of the options on.
   ImpactResponse run();
@@ -33,12 +33,13 @@ class ImpactSearch {
   bool look_back();
   bool is_motion(const NearReturn& start);
   ImpactResponse solve(const NearReturn& start) const;
-  ImpactResponse resting(ImpactStatus status) const;
+  static void set_multipliers(ImpactResponse& response);
+  ImpactResponse resting(PhasesStatus status) const;
   ImpactResponse finished(ImpactResponse response) const;
-  ImpactResponse ended(ImpactStatus status);
-  ImpactResponse none(ImpactStatus status) const;
+  ImpactResponse ended(PhasesStatus status);
+  ImpactResponse none(PhasesStatus status) const;
 
-  const ImpactsProblem& problem_;
+  const PhasesProblem& problem_;
   const ImpactResponseOptions& options_;
   ImpactModel model_;
   ImpactFlow flow_;

@@ -1,11 +1,6 @@
-#include "wavebalance/solvers/impacts/impact_stability.hpp"
+#include <vector>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
-#include "impacts/impact_model.hpp"
-#include "linalg/dense.hpp"
+#include "impacts/impact_parts.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
 #include "stability/pole_states.hpp"
@@ -13,21 +8,13 @@
 namespace wavebalance::solvers {
 namespace {
 
-using Complex = std::complex<double>;
-
-void require_motion(const ImpactMotion& motion) {
-  if (motion.converged()) return;
-  throw std::invalid_argument("impact_multipliers: the motion has the status " +
-                              std::string(to_string(motion.status)) + "; it must have converged");
-}
-
 // What an impact does to perturbations: alpha b + beta A b is taken from the states, alpha = velocity_gain v
 // + alpha_gain u and beta = beta_gain u, with displacement u and velocity v of the contact.
 struct ImpactSlopes {
   double velocity_gain, alpha_gain, beta_gain;
 };
 
-ImpactSlopes slopes_of(const ImpactMotion& motion, std::size_t i) {
+ImpactSlopes slopes_of(const detail::ImpactSolution& motion, std::size_t i) {
   const detail::ImpactModel& model = *motion.model;
   const Impact& impact = motion.impacts[i];
   const int c = impact.contact;
@@ -36,7 +23,7 @@ ImpactSlopes slopes_of(const ImpactMotion& motion, std::size_t i) {
   const double since = impact.time - last.time + (i == 0 ? 1.0 : 0.0);
   const Eigen::VectorXcd state = model.growth(since * model.period()).cwiseProduct(motion.states.col(before));
   const double acceleration = model.motion(state, impact.time).acceleration[c];
-  const double gain = (1.0 + model.problem().restitution[c]) / model.inverse_mass()(c, c);
+  const double gain = (1.0 + model.restitution()[c]) / model.inverse_mass()(c, c);
   return {gain, -gain * acceleration / impact.velocity_before, impact.impulse / impact.velocity_before};
 }
 
@@ -58,7 +45,7 @@ struct LongestFlight {
   double length = 0.0;
 };
 
-LongestFlight longest_flight(const ImpactMotion& motion) {
+LongestFlight longest_flight(const detail::ImpactSolution& motion) {
   LongestFlight longest;
   for (std::size_t i = 0; i < motion.impacts.size(); ++i) {
     const double before = i == 0 ? motion.impacts.back().time - 1.0 : motion.impacts[i - 1].time;
@@ -68,18 +55,8 @@ LongestFlight longest_flight(const ImpactMotion& motion) {
   return longest;
 }
 
-Eigen::VectorXcd free_multipliers(const detail::ImpactModel& model) {
-  std::vector<Complex> all;
-  for (const Complex exponent : model.exponents()) {
-    const Complex multiplier = detail::free_multiplier(exponent * model.period());
-    all.push_back(multiplier);
-    if (exponent.imag() != 0.0) all.push_back(std::conj(multiplier));
-  }
-  return Eigen::Map<const Eigen::VectorXcd>(all.data(), Index(all.size()));
-}
-
 // Of the states that are left, from right before the impact at the end of the longest flight on.
-Eigen::MatrixXd monodromy_of(const ImpactMotion& motion) {
+Eigen::MatrixXd monodromy_of(const detail::ImpactSolution& motion) {
   const ContactDynamics& dynamics = motion.model->problem().dynamics;
   const PoleStates poles(dynamics, motion.model->period());
   const Eigen::MatrixXd impulse = poles.after_impulse(0.0),
@@ -101,63 +78,14 @@ Eigen::MatrixXd monodromy_of(const ImpactMotion& motion) {
   return states(left, Eigen::all);
 }
 
-// By an impulse at contact d, how a perturbation of contact c grows: displacement, velocity and acceleration
-// a share of the period later, the impulse being repeated z-fold in each period.
-struct GrowingGreen {
-  Complex value, rate, second;
-};
-
-GrowingGreen growing_green(const detail::ImpactModel& model, int c, int d, double share, Complex z) {
-  GrowingGreen sum{};
-  const auto add = [&](Complex weight, Complex exponent) {
-    const Complex term = weight * std::exp(exponent * share * model.period()) /
-                         (1.0 - std::exp(exponent * model.period()) / z);
-    sum.value += term;
-    sum.rate += exponent * term;
-    sum.second += exponent * exponent * term;
-  };
-  for (Index l = 0; l < model.poles(); ++l) {
-    const Complex exponent = model.exponents()[l];
-    const double half = exponent.imag() == 0.0 ? 1.0 : 0.5;  // the other half is the conjugate's
-    const Complex weight = half * model.outputs()(c, l) * model.left()(d, l);
-    add(weight, exponent);
-    if (exponent.imag() != 0.0) add(std::conj(weight), std::conj(exponent));
-  }
-  return sum;
-}
-
 }  // namespace
 
-Eigen::VectorXcd impact_multipliers(const ImpactMotion& motion) {
-  require_motion(motion);
-  Eigen::VectorXcd all = motion.impacts.empty() ? free_multipliers(*motion.model)
-                                                : detail::map_multipliers(monodromy_of(motion));
-  if (!all.allFinite()) return {};
-  std::ranges::stable_sort(all, [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
-  return all;
+namespace detail {
+
+Eigen::VectorXcd multipliers_of(const ImpactSolution& motion) {
+  Eigen::VectorXcd all = map_multipliers(monodromy_of(motion));
+  return all.allFinite() ? all : Eigen::VectorXcd();
 }
 
-int unstable_count(const Eigen::VectorXcd& multipliers) { return detail::count_outside(multipliers); }
-
-Complex impact_determinant(const ImpactMotion& motion, Complex z) {
-  require_motion(motion);
-  if (z == 0.0) throw std::invalid_argument("impact_determinant: z is 0; it must not be");
-  const auto count = Index(motion.impacts.size());
-  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Identity(2 * count, 2 * count);
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j) {
-      const Impact &at = motion.impacts[static_cast<std::size_t>(i)],
-                   &from = motion.impacts[static_cast<std::size_t>(j)];
-      const double share = at.time - from.time + (j >= i ? 1.0 : 0.0);
-      const Complex repeated = j >= i ? 1.0 / z : 1.0;
-      const GrowingGreen green = growing_green(*motion.model, at.contact, from.contact, share, z);
-      const ImpactSlopes slopes = slopes_of(motion, static_cast<std::size_t>(j));
-      matrix(i, j) += repeated * (green.value * slopes.alpha_gain + green.rate * slopes.beta_gain);
-      matrix(i, count + j) += repeated * green.value * slopes.velocity_gain;
-      matrix(count + i, j) += repeated * (green.rate * slopes.alpha_gain + green.second * slopes.beta_gain);
-      matrix(count + i, count + j) += repeated * green.rate * slopes.velocity_gain;
-    }
-  return count > 0 ? std::exp(detail::Lu<Complex>(matrix).log_determinant()) : Complex(1.0);
-}
-
+}  // namespace detail
 }  // namespace wavebalance::solvers

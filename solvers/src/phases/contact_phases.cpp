@@ -292,6 +292,14 @@ std::string_view to_string(PhasesStatus status) {
                                         {slip_in_a_plane, "slip_in_a_plane"},
                                         {law_over_period, "law_over_period"},
                                         {undetermined, "undetermined"},
+                                        {wrong_order, "wrong_order"},
+                                        {pulling, "pulling"},
+                                        {penetrating, "penetrating"},
+                                        {grazing, "grazing"},
+                                        {chattering, "chattering"},
+                                        {lasting_contact, "lasting_contact"},
+                                        {not_settled, "not_settled"},
+                                        {too_many_impacts, "too_many_impacts"},
                                         {cancelled, "cancelled"}},
                                        status);
 }

@@ -91,10 +91,18 @@ Eigen::MatrixXd PhaseMotion::force(const Eigen::VectorXd& times) const {
   return forces;
 }
 
+double PhaseMotion::frequency() const { return parts->model.frequency; }
+
+double PhaseMotion::energy_lost() const {
+  double sum = 0.0;
+  for (const Impact& impact : impacts) sum += impact.energy_lost;
+  return sum;
+}
+
 bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
 
 Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
-  if (parts->multipliers) return *parts->multipliers;
+  if (parts->multipliers) return parts->multipliers();
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
   if (!parts->iterate.forces.panels().empty()) {
     const auto map = map_of(*parts);
@@ -108,7 +116,7 @@ Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
 }
 
 int PhaseMotion::count_unstable(int max_evaluations) const {
-  if (parts->multipliers) return detail::count_outside(*parts->multipliers);
+  if (parts->multipliers) return detail::count_outside(parts->multipliers());
   if (parts->iterate.forces.panels().empty())
     return detail::count_outside(parts->model.response.free_multipliers());
   const auto map = map_of(*parts);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 
 #include "phases/phase_newton.hpp"
@@ -17,9 +18,9 @@ struct PhaseMotion::Parts {
   detail::PhaseModel model;
   detail::PhaseIterate iterate;
   detail::LegendreNodes nodes;
-  detail::PanelForces tangent, damping;              // slopes of the laws, N/m and N s/m
-  std::optional<Eigen::VectorXcd> multipliers = {};  // where they are known without these slopes
-  std::optional<PeriodStart> start = {};             // of a motion of the flow
+  detail::PanelForces tangent, damping;                // slopes of the laws, N/m and N s/m
+  std::function<Eigen::VectorXcd()> multipliers = {};  // where they need no such slopes
+  std::optional<PeriodStart> start = {};               // of a motion of the flow
   std::shared_ptr<const detail::PeriodCells> period = {};
 };
 

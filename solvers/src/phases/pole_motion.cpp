@@ -54,7 +54,7 @@ class StatesAtPoints {
 
 }  // namespace
 
-// poles x cells: the periodic states at the boundaries.
+// poles x cells: the states at the boundaries, which are periodic or go on from those that are known.
 Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
                                                     const Eigen::MatrixXd& coefficients) const {
   const auto& grid = period.grid;
@@ -74,10 +74,18 @@ Eigen::MatrixXcd PoleResponse::states_at_boundaries(const PeriodCells& period,
         next += one.size * left_.row(one.contact).transpose();
     return next;
   };
-  Eigen::VectorXcd from_rest = Eigen::VectorXcd::Zero(exponents_.size());
-  for (Index j = 0; j < states.cols(); ++j) from_rest = advance(from_rest, j);
-  if (states.cols() > 0) states.col(0) = periodic_.cwiseProduct(from_rest);
-  for (Index j = 1; j < states.cols(); ++j) states.col(j) = advance(states.col(j - 1), j - 1);
+  int first = 0;
+  Eigen::VectorXcd begin = Eigen::VectorXcd::Zero(exponents_.size());
+  if (grid.begin) {
+    first = grid.begin->boundary;
+    begin = grid.begin->states;
+  } else {
+    for (Index j = 0; j < states.cols(); ++j) begin = advance(begin, j);
+    begin.array() *= periodic_.array();
+  }
+  if (states.cols() > 0) states.col(first) = begin;
+  for (int j = first, left = grid.cells(); left > 1; --left, j = grid.next(j))
+    states.col(grid.next(j)) = advance(states.col(j), j);
   return states;
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "linalg/dense.hpp"
+#include "linalg/one_less_exp.hpp"
 #include "phases/pole_response_parts.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -13,28 +14,34 @@ double CellGrid::length(int cell) const {
   return cell + 1 == cells() ? boundaries[0] + 1.0 - boundaries[j] : boundaries[j + 1] - boundaries[j];
 }
 
-PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period) : constant_(dynamics.constant()) {
+PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period)
+    : order_(dynamics.poles().size()), period_(period), constant_(dynamics.constant()) {
   const Index contacts = constant_.rows();
-  std::vector<ContactPole> poles = dynamics.poles();
-  std::stable_sort(poles.begin(), poles.end(), [](const ContactPole& a, const ContactPole& b) {
-    return a.exponent.real() > b.exponent.real();
+  const std::vector<ContactPole>& poles = dynamics.poles();
+  std::iota(order_.begin(), order_.end(), Index{0});
+  std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) {
+    return poles[std::size_t(a)].exponent.real() > poles[std::size_t(b)].exponent.real();
   });
   const auto count = Index(poles.size());
   exponents_.resize(count);
   shapes_.resize(contacts, count);
   left_.resize(contacts, count);
   for (Index r = 0; r < count; ++r) {
-    const ContactPole& pole = poles[static_cast<std::size_t>(r)];
+    const ContactPole& pole = poles[std::size_t(order_[std::size_t(r)])];
     const double weight = pole.exponent.imag() > 0.0 ? 2.0 : 1.0;
     exponents_[r] = period * pole.exponent;
     shapes_.col(r) = weight * period * pole.residue * pole.shape;
     left_.col(r) = pole.left;
   }
-  periodic_ = (1.0 - exponents_.array().exp()).inverse();
+  periodic_ = exponents_.unaryExpr(&one_less_exp).cwiseInverse();
   jump_ = (shapes_ * left_.transpose()).real();
   constexpr double rounding = 1e-9;
   const Eigen::MatrixXd size = shapes_.cwiseAbs() * left_.cwiseAbs().transpose();
   jump_ = (jump_.array().abs() > rounding * size.array()).select(jump_, 0.0);
+}
+
+Eigen::VectorXcd PoleResponse::states(const Eigen::VectorXcd& by_pole) const {
+  return -by_pole(order_) / period_;
 }
 
 double PoleResponse::acceleration_at_once(int c) const {

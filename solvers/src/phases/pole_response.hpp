@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "phases/cell_waves.hpp"
@@ -40,6 +41,14 @@ struct CellGrid {
   std::vector<Panel> panels;
   std::vector<Mark> marks;
   std::vector<Impulse> impulses = {};
+
+  /// The states at a boundary, where they are known better than from the forces, whose errors those that
+  /// almost nothing holds have many times: PoleResponse::states().
+  struct Begin {
+    int boundary = 0;
+    Eigen::VectorXcd states;
+  };
+  std::optional<Begin> begin = {};
 
   int cells() const { return static_cast<int>(boundaries.size()); }
   double length(int cell) const;
@@ -116,6 +125,9 @@ class PoleResponse {
   }
   /// The multipliers of all states without forces, exp(exponent), both of each pair.
   Eigen::VectorXcd free_multipliers() const;
+  /// CellGrid::Begin::states by states y of ContactDynamics::poles(), N s, of which a force f on contacts
+  /// takes y' = exponent y - left f.
+  Eigen::VectorXcd states(const Eigen::VectorXcd& by_pole) const;
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
   /// (poles + C q)).
   ContactMotion motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
@@ -157,10 +169,12 @@ class PoleResponse {
                  const Eigen::MatrixXd& forces, const States& states, ContactMotion& result) const;
   Eigen::VectorXcd weights(int displaced, int forced) const;
 
-  Eigen::VectorXcd exponents_;      // per period, one for each pair, by rising decay
-  Eigen::VectorXcd periodic_;       // 1 / (1 - exp(exponent))
-  Eigen::MatrixXcd shapes_, left_;  // C x poles; weight, residue and period are in shapes_
-  Eigen::MatrixXd constant_;        // C x C, m/N
+  Eigen::VectorXcd exponents_;       // per period, one for each pair, by rising decay
+  std::vector<Eigen::Index> order_;  // of the poles in ContactDynamics::poles()
+  double period_;                    // s
+  Eigen::VectorXcd periodic_;        // 1 / (1 - exp(exponent))
+  Eigen::MatrixXcd shapes_, left_;   // C x poles; weight, residue and period are in shapes_
+  Eigen::MatrixXd constant_;         // C x C, m/N
   Eigen::MatrixXd jump_;  // C x C: of the velocity, m per period, by a force of 1 N; zero with masses
 };
 

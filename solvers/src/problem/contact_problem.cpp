@@ -124,6 +124,9 @@ Motion ContactProblem::structure_motion(const PeriodicResponse& response, int po
 }
 
 PhasesProblem ContactProblem::phases_problem_here() {
+  if (dynamics() == nullptr)
+    throw std::invalid_argument(
+        "exact motions are solved for by the modes of the structure, and it has none to compute");
   if (!free_contacts_)
     free_contacts_ = std::make_shared<detail::FreeContacts>(structure(), condensed_.load_harmonics(),
                                                             dynamics()->holding());
@@ -219,6 +222,11 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
 
 PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                         const ResponseStart& start) {
+  if (has_impacts_alone()) {
+    ImpactResponse found = impact_response(phases_problem_here(), {.observer = how.observer});
+    if (!found.lasts() || found.load_periods == 1) return std::move(found.motion);
+    return {};  // the curve is of motions of one period
+  }
   if (moves_by_events()) {
     TimeSteppingOptions stepping;
     stepping.observer = how.observer;
@@ -263,6 +271,17 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
   const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
   if (first.parts == nullptr) return without_points(cancelled, first.status);
   return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, first, options);
+}
+
+std::vector<ExactCurve> ContactProblem::doubled_curves(const ExactCurve& curve, SweepParameter parameter,
+                                                       double frequency, const ExactCurveOptions& options) {
+  load_fully(frequency);
+  const PhaseFamily family(condensed_, laws_, *dynamics(), parameter);
+  std::vector<ExactCurve> doubled;
+  for (const ExactEvent& event : curve.events)
+    if (event.type == SpecialPointType::period_doubling)
+      doubled.push_back(doubled_curve(family, event, options));
+  return doubled;
 }
 
 ExactCurve ContactProblem::exact_curve_from(double frequency, const PhaseMotion& motion,
@@ -330,6 +349,22 @@ void ContactProblem::require_no_impacts() const {
   if (laws_.have_impacts())
     throw std::invalid_argument(
         "the laws have a restitution, whose motions are integrated from impact to impact; take impacts()");
+}
+
+bool ContactProblem::has_impacts_alone() const {
+  for (int row = 0; row < contacts(); ++row)
+    if (!laws_[row].restitution()) return false;
+  return dynamics()->holding() == 0.0;
+}
+
+ImpactResponse ContactProblem::impacts(double frequency, const ImpactResponseOptions& options) {
+  load_fully(frequency);
+  return impact_response(phases_problem_here(), options);
+}
+
+ImpactMotions ContactProblem::coexisting_impacts(double frequency, const ImpactMotionsOptions& options) {
+  load_fully(frequency);
+  return impact_motions(phases_problem_here(), options);
 }
 
 SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& options) {

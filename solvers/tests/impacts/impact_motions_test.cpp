@@ -28,7 +28,7 @@ TEST(ImpactMotionsTest, FindTheStableMotionOfTwoPeriodsThatTheTableHas) {
   const ImpactScene scene = impact_oscillator(0.05, 0.0, 0.8, 3.7);
   const ContactDynamics dynamics(scene.structure());
   const ImpactMotions found = impact_motions(scene.problem(dynamics));
-  ASSERT_EQ(found.status, ImpactStatus::converged) << to_string(found.status);
+  ASSERT_EQ(found.status, PhasesStatus::converged) << to_string(found.status);
   int seen = 0, arrivals = 0;
   for (const testing::KnownImpacts& known : testing::known_impacts()) {
     if (known.scene.omega != 3.7 || std::abs(known.multipliers.front()) > 1.0) continue;
@@ -51,7 +51,7 @@ TEST(ImpactMotionsTest, AreEachThereOnceAlsoWherePeriodsOfTheLoadLieBetween) {
   const ImpactMotions found = impact_motions(scene.problem(dynamics));
   for (std::size_t i = 0; i < found.motions.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const ImpactMotion &a = found.motions[i].response.motion, &b = found.motions[j].response.motion;
+      const PhaseMotion &a = found.motions[i].response.motion, &b = found.motions[j].response.motion;
       const bool alike = a.impacts.size() == b.impacts.size() &&
                          std::abs(a.frequency() - b.frequency()) < 1e-12 &&
                          std::abs(a.energy_lost() - b.energy_lost()) < 1e-9 * (1.0 + a.energy_lost());
@@ -79,7 +79,7 @@ TEST(ImpactMotionsTest, StopWhereTheirObserverSaysSoAndRefuseOptionsOutOfRange) 
   const ContactDynamics dynamics(scene.structure());
   ImpactMotionsOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 3; };
-  EXPECT_EQ(impact_motions(scene.problem(dynamics), options).status, ImpactStatus::cancelled);
+  EXPECT_EQ(impact_motions(scene.problem(dynamics), options).status, PhasesStatus::cancelled);
   EXPECT_EQ(testing::refusal([&] { impact_motions(scene.problem(dynamics), {.random_starts = -1}); }),
             "ImpactMotionsOptions: random_starts is -1; it must be at least 0");
 }

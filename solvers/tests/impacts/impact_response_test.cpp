@@ -10,7 +10,6 @@
 #include "support/impact_oracle.hpp"
 #include "support/impact_table.hpp"
 #include "support/refusal.hpp"
-#include "wavebalance/solvers/impacts/impact_stability.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -40,13 +39,13 @@ TEST(ImpactResponseTest, NamesChatteringWithItsEnd) {
   // A static load presses the oscillator against its stop, against which it comes to rest within a period.
   const ImpactScene scene = impact_oscillator(0.1, 0.0, 0.5, 0.2);
   const ContactDynamics dynamics(scene.structure());
-  ImpactsProblem problem = scene.problem(dynamics);
+  PhasesProblem problem = scene.problem(dynamics);
   const ImpactResponse found = impact_response(problem);
-  ASSERT_EQ(found.motion.status, ImpactStatus::chattering) << to_string(found.motion.status);
-  EXPECT_EQ(found.motion.chattering_contact, 0);
+  EXPECT_TRUE(found.lasts());
+  ASSERT_EQ(found.chattering_contact, 0);
   // The instants of impacts in time end where the geometric series of the last three does.
   const ImpactOracle oracle(scene, 20000);
-  const double period = oracle.load_period(), end = found.motion.chattering_end;
+  const double period = oracle.load_period(), end = found.chattering_end;
   double lowest = 0.0;  // of 64 instants, where the product begins
   for (int k = 0; k < 64; ++k)
     if (oracle.free_state(k * period / 64.0)[0] < oracle.free_state(lowest * period)[0]) lowest = k / 64.0;
@@ -71,7 +70,7 @@ TEST(ImpactResponseTest, StopsWhereItsObserverSaysSo) {
   const ContactDynamics dynamics(scene.structure());
   ImpactResponseOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 2; };
-  EXPECT_EQ(impact_response(scene.problem(dynamics), options).motion.status, ImpactStatus::cancelled);
+  EXPECT_EQ(impact_response(scene.problem(dynamics), options).motion.status, PhasesStatus::cancelled);
 }
 
 }  // namespace

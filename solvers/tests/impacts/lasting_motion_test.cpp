@@ -10,20 +10,13 @@
 #include "linalg/dense.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "support/impact_scenes.hpp"
-#include "support/rigid_law.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using testing::impact_oscillator, testing::ImpactScene, testing::lumped_bar;
-
-struct Obstacle : testing::Rigid {
-  Obstacle(double gap, double share) : Rigid{gap}, rebound(share) {}
-  std::optional<double> restitution() const { return rebound; }
-  double rebound;
-};
+using testing::impact_oscillator, testing::ImpactScene, testing::lumped_bar, testing::Obstacle;
 
 // x'' + 0.1 x' + x = cos w t from x = gap, x' = 0 on, by small steps of Runge and Kutta, until x = gap again.
 struct Arrival {
@@ -53,18 +46,18 @@ TEST(LastingContactTest, OfAnOscillatorOpensWhereTheLoadNoLongerPressesAndCloses
     const ImpactScene scene = impact_oscillator(damping, gap, 0.0, omega);
     const ContactDynamics dynamics(scene.structure());
     const ImpactResponse found = impact_response(scene.problem(dynamics));
-    ASSERT_TRUE(found.lasting.converged()) << to_string(found.motion.status);
-    ASSERT_EQ(found.lasting.phases.size(), 1u);
-    const ContactPhase& closed = found.lasting.phases.front();
+    ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+    ASSERT_EQ(found.motion.phases.size(), 1u);
+    const ContactPhase& closed = found.motion.phases.front();
     const double opens = std::acos(gap) / two_pi;  // cos w t = gap
     EXPECT_NEAR(closed.end - 1.0, opens, 1e-12);
     const Arrival back = flight_of_oscillator(damping, gap, omega, opens * two_pi / omega);
-    const Impact& first = found.impacts().front();
+    const Impact& first = found.motion.impacts.front();
     EXPECT_NEAR(first.time, back.time * omega / two_pi, 1e-9);
     EXPECT_NEAR(first.velocity_before, back.velocity, 1e-9);
     EXPECT_EQ(found.unstable, 0);
     const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(997, 0.0, 0.998);
-    const Eigen::MatrixXd u = found.lasting.displacement(times), force = found.lasting.force(times);
+    const Eigen::MatrixXd u = found.motion.displacement(times), force = found.motion.force(times);
     EXPECT_LE(u.maxCoeff() - gap, 1e-12);
     EXPECT_GE(force.minCoeff(), 0.0);
     for (Eigen::Index k = 0; k < times.size(); ++k) {
@@ -82,7 +75,7 @@ TEST(LastingContactTest, OfABarHasForcesThatMakeItsMotion) {
   constexpr int points = 1 << 16;
   const ImpactScene scene = lumped_bar(10, 0.0, 0.02, 0.5, 0.0, 0.7);
   const ContactDynamics dynamics(scene.structure());
-  const PhaseMotion motion = impact_response(scene.problem(dynamics)).lasting;
+  const PhaseMotion motion = impact_response(scene.problem(dynamics)).motion;
   ASSERT_TRUE(motion.converged()) << to_string(motion.status);
   ASSERT_EQ(motion.phases.size(), 2u);
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
@@ -109,8 +102,8 @@ TEST(LastingContactTest, HasTheMultipliersOfDifferencesOfItsMotions) {
   const ImpactScene scene = lumped_bar(6, 0.0, 0.02, 0.5, 0.0, 0.7);
   const ContactDynamics dynamics(scene.structure());
   const ImpactResponse found = impact_response(scene.problem(dynamics));
-  ASSERT_TRUE(found.lasting.converged()) << to_string(found.motion.status);
-  const PeriodStart start = *found.lasting.parts->start;
+  ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+  const PeriodStart start = *found.motion.parts->start;
   ContactFlow flow(detail::begun_at({dynamics, ContactLaws(Obstacle{0.5, 0.0}),
                                      scene.problem(dynamics).contact_free, scene.problem(dynamics).frequency},
                                     start.begin),
@@ -138,7 +131,7 @@ TEST(LastingContactTest, OfABarTendsToALimitAsItsElementsAreRefined) {
   for (const int elements : {10, 20, 40}) {
     const ImpactScene scene = lumped_bar(elements, 0.0, 0.02, 0.5, 0.0, 0.7);
     const ContactDynamics dynamics(scene.structure());
-    const PhaseMotion motion = impact_response(scene.problem(dynamics)).lasting;
+    const PhaseMotion motion = impact_response(scene.problem(dynamics)).motion;
     ASSERT_TRUE(motion.converged()) << elements;
     const double mean = motion.force_harmonics(1)(0, 0).real();
     if (last != 0.0) {
@@ -153,7 +146,7 @@ TEST(LastingContactTest, OfABarTendsToALimitAsItsElementsAreRefined) {
 TEST(SettledMotionTest, OfImpactsAloneIsThatOfTheirEquations) {
   const ImpactScene scene = lumped_bar(6, 0.5, 0.02, 0.8, 0.8, 0.9);
   const ContactDynamics dynamics(scene.structure());
-  const ImpactsProblem problem = scene.problem(dynamics);
+  const PhasesProblem problem = scene.problem(dynamics);
   const ImpactResponse found = impact_response(problem);
   ASSERT_TRUE(found.motion.converged() && found.load_periods == 1);
   const SettledExact settled = settled_motion(
@@ -172,14 +165,14 @@ TEST(LastingContactTest, FollowsImpactsThatFollowEachOtherEverFaster) {
   const ImpactScene scene = impact_oscillator(0.1, 0.0, 0.3, 0.5);
   const ContactDynamics dynamics(scene.structure());
   const ImpactResponse found = impact_response(scene.problem(dynamics));
-  ASSERT_TRUE(found.lasting.converged()) << to_string(found.motion.status);
-  EXPECT_GT(found.impacts().size(), 8u);
+  ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
+  EXPECT_GT(found.motion.impacts.size(), 8u);
   EXPECT_EQ(found.unstable, 0);
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(997, 0.0, 0.998);
-  EXPECT_LE(found.lasting.displacement(times).maxCoeff(), 1e-9);
-  EXPECT_GE(found.lasting.force(times).minCoeff(), -1e-12);
+  EXPECT_LE(found.motion.displacement(times).maxCoeff(), 1e-9);
+  EXPECT_GE(found.motion.force(times).minCoeff(), -1e-12);
   const double opens = std::acos(0.0) / two_pi;  // where the load passes zero
-  EXPECT_NEAR(found.lasting.phases.back().end - 1.0, opens, 1e-10);
+  EXPECT_NEAR(found.motion.phases.back().end - 1.0, opens, 1e-10);
 }
 
 }  // namespace

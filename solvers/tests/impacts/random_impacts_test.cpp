@@ -43,7 +43,7 @@ ImpactScene random_scene(unsigned seed) {
   return scene;
 }
 
-std::vector<ImpactOracle::Event> events_of(const ImpactMotion& motion, double period) {
+std::vector<ImpactOracle::Event> events_of(const PhaseMotion& motion, double period) {
   std::vector<ImpactOracle::Event> events;
   for (const Impact& impact : motion.impacts)
     events.push_back({impact.contact, impact.time * period, impact.velocity_before, impact.impulse});
@@ -71,7 +71,7 @@ TEST(RandomImpacts, AgreeWithMotionsInTimeOfRandomChains) {
     const ImpactScene scene = random_scene(seed);
     const ContactDynamics dynamics(scene.structure());
     const ImpactResponse found = impact_response(scene.problem(dynamics));
-    if (!found.motion.converged()) continue;
+    if (!found.motion.converged() || found.lasts()) continue;
     ++answered;
     const ImpactOracle oracle(scene);
     const double period = found.load_periods * oracle.load_period();

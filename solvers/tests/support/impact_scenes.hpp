@@ -2,12 +2,28 @@
 #include <Eigen/Core>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "linalg/dense.hpp"
+#include "support/rigid_law.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
 
 namespace wavebalance::solvers::testing {
+
+/// A rigid obstacle with a restitution.
+struct Obstacle : Rigid {
+  Obstacle(double gap, double share) : Rigid{gap}, rebound(share) {}
+  std::optional<double> restitution() const { return rebound; }
+  double rebound;
+};
+
+inline ContactLaws obstacles(const Eigen::VectorXd& gaps, double restitution) {
+  std::vector<AnyContactLaw> laws;
+  for (const double gap : gaps) laws.emplace_back(Obstacle(gap, restitution));
+  return {std::move(laws)};
+}
 
 /// M x'' + C x' + K x = load cos(omega t) against rigid obstacles, S x <= gaps.
 struct ImpactScene {
@@ -37,9 +53,9 @@ struct ImpactScene {
     return detail::Lu<std::complex<double>>(impedance).solve(
         Eigen::VectorXcd(load.cast<std::complex<double>>()));
   }
-  ImpactsProblem problem(const ContactDynamics& dynamics) const {
-    ImpactsProblem result{dynamics, Eigen::MatrixXcd::Zero(contacts.rows(), 2), frequency(), gaps,
-                          Eigen::VectorXd::Constant(contacts.rows(), restitution)};
+  ContactLaws laws() const { return obstacles(gaps, restitution); }
+  PhasesProblem problem(const ContactDynamics& dynamics) const {
+    PhasesProblem result{dynamics, laws(), Eigen::MatrixXcd::Zero(contacts.rows(), 2), frequency()};
     result.contact_free.col(1) = contacts * free_amplitudes();
     return result;
   }

@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
@@ -37,6 +39,10 @@ int leading_contact(const solvers::Motion& contacts, const Eigen::VectorXd& gaps
 /// The same of a scene: where that is a direction of a contact with tangents, the one of them that vibrates
 /// most, since a static normal displacement shows no motion.
 int leading_contact(const Scene& scene, const solvers::Motion& contacts, const Eigen::VectorXd& gaps);
+
+/// m, the largest displacement of contacts, or of one, at their impacts, which samples miss; -infinity
+/// without.
+double highest_at_impacts(const solvers::PhaseMotion& motion, std::optional<int> contact = {});
 
 /// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
 /// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not

@@ -11,7 +11,6 @@
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/impacts/impact_motion.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -64,10 +63,8 @@ struct Sweep {
   std::vector<std::vector<PointImpacts>> impacts = {};
   /// Of scenes with friction: of each point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
-  /// The motions of the points of an exact curve; with impacts, where the scene has outputs, of each point of
-  /// the curve, then of each branch.
-  std::vector<solvers::PhaseMotion> exact_motions = {};
-  std::vector<std::vector<solvers::ImpactMotion>> impact_motions = {};
+  /// The motions of the points of an exact curve, then of each branch.
+  std::vector<std::vector<solvers::PhaseMotion>> exact_motions = {};
   std::vector<double> unexplained = {};  ///< of an exact curve: ExactCurve::unexplained, values of the points
   std::string start_status = {};         ///< of impacts and exact curves: why there is no first motion
   /// Set by add_phases() with analysis.stability: the special points of the structure.
@@ -128,17 +125,14 @@ Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                       const StartMotion& start = {});
 
-/// The scene's curve over frequency or amplitude with analysis.exact: motions of the structure themselves, by
-/// phases of contact, with their stability and special points. Turning points are its folds, and the errors
-/// of its phases are those that are estimated. Starts as frequency_sweep() does.
+/// The scene's curve over frequency or amplitude with analysis.exact or of impacts alone: motions of the
+/// structure themselves, with their stability and special points. Turning points are its folds, and the
+/// errors of its phases are those that are estimated. Starts as frequency_sweep() does; impacts begin with
+/// the motion that the structure settles to, and with analysis.branches have the motions of twice as many
+/// periods that begin at period doublings. What an impact passes on is an impulse and not a force, so that
+/// points of impacts alone have no contact force.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
-
-/// The scene's curve over frequency or amplitude with contact.restitution: motions with impacts, with their
-/// stability, special points and, with analysis.branches, the motions of twice as many periods that begin at
-/// period doublings. It begins with the motion that the structure settles to. What an impact passes on is an
-/// impulse and not a force, so that points have no contact force.
-Sweep impact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {});
 
 /// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of

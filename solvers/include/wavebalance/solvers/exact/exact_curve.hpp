@@ -48,6 +48,7 @@ struct ExactEvent {
   std::complex<double> multiplier{missing, missing};  ///< the one at the unit circle, Im >= 0
   PhaseMotion motion;
   std::size_t next_point = 0;  ///< index of the first point of the curve behind it
+  bool turns = false;  ///< of a grazing of impacts: the parameter reverses there, as it does at a fold
 };
 
 /// A curve of motions of the structure.
@@ -80,11 +81,19 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 /// lost, the curve is followed by the map of a period of the flow from event to event instead, with the same
 /// results. A slider that sticks all the time is then in the middle of the positions in which it does.
 ///
+/// From a motion of impact_motion() the curve is followed by its equations, also over several periods of the
+/// load; where impacts vanish or appear the grazing motion is solved for.
+///
 /// Throws std::invalid_argument for options out of range and a first motion that is not known. `lost` where
 /// rigid contact begins or ends. O(n^3 + n^2 poles) for each Newton step of n unknowns, O(s^3) for the
 /// multipliers of s states; by the map some twenty periods of the flow for each point, one of them with all
 /// perturbations.
 ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+
+/// The curve of motions of twice as many periods that begins at a period doubling of a curve of impacts with
+/// `options`. `no_start` where none is found beside it. Throws as exact_curve(), and for another event.
+ExactCurve doubled_curve(const PhaseFamily& family, const ExactEvent& event,
+                         const ExactCurveOptions& options);
 
 /// The curve through a motion at a value within the interval, from one of its ends to the other, or once
 /// around: followed to options.to, and unless it is closed to options.from. Its status is `reached_end` where

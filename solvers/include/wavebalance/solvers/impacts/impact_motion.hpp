@@ -1,33 +1,11 @@
 #pragma once
 #include <Eigen/Core>
-#include <memory>
-#include <string_view>
 #include <vector>
 
-#include "wavebalance/solvers/impacts/impacts_problem.hpp"
-#include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
-
-enum class ImpactStatus {
-  converged,
-  iteration_limit,   ///< Newton's method on instants and impulses did not converge
-  singular,          ///< its matrix is, as where impacts graze
-  wrong_order,       ///< the equations have a solution in which impacts have passed each other
-  pulling,           ///< their solution has an impulse that would pull
-  penetrating,       ///< their solution passes an obstacle between impacts
-  grazing,           ///< it cannot be told whether the solution passes an obstacle
-  resonant,          ///< the structure without contact has a motion of this period of its own
-  chattering,        ///< infinitely many impacts in a finite time, then contact that lasts
-  lasting_contact,   ///< contact lasts from an impact without rebound on, as load or motion press it
-  not_settled,       ///< no periodic motion was found within the options' limits
-  too_many_impacts,  ///< more than max_impacts in a period of the load
-  cancelled          ///< the observer returned false
-};
-
-std::string_view to_string(ImpactStatus status);
 
 /// An impact to start from.
 struct ImpactGuess {
@@ -44,49 +22,10 @@ struct ImpactMotionOptions {
   void validate() const;
 };
 
-namespace detail {
-class ImpactModel;
-}  // namespace detail
-
-/// A periodic motion with impacts, to rounding.
-///
-/// Immutable; copies share it.
-class ImpactMotion {
- public:
-  ImpactStatus status = ImpactStatus::not_settled;
-  std::vector<Impact> impacts;  ///< by time; the solution of the equations also where it is no motion
-  int iterations = 0;
-  /// Largest error of the equations over the scales of displacement and velocity.
-  double residual = missing;
-  /// Where the status is `penetrating`: the largest penetration between impacts (m), its contact and its time
-  /// in periods.
-  double penetration = missing, penetration_time = missing;
-  int penetrating_contact = -1;
-  /// Where the status is `chattering` or `lasting_contact`: the contact, and when its impacts end, in periods
-  /// of the load after t = 0 of the integration.
-  double chattering_end = missing;
-  int chattering_contact = -1;
-
-  bool converged() const { return status == ImpactStatus::converged; }
-  bool has_solution() const { return model != nullptr; }
-  /// Hz, 1 / its period. Throws std::invalid_argument without a solution.
-  double frequency() const;
-  /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods; at an impact the
-  /// velocity after it. Throw std::invalid_argument without a solution. O(K (log impacts + C poles)).
-  Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
-  Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
-  /// J per period, of all impacts.
-  double energy_lost() const;
-  /// Complex amplitudes of the contact forces, N, C x count: column n belongs to Re(a exp(2 pi i n t)). They
-  /// do not decay. O(count impacts).
-  Eigen::MatrixXcd force_harmonics(int count) const;
-
-  std::shared_ptr<const detail::ImpactModel> model;
-  Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact
-};
-
-/// The periodic motion near the impacts of a start, in any order. With the periodic Green function G of the
-/// contacts, made of their poles,
+/// The periodic motion near the impacts of a start, in any order, of contacts that all have a restitution:
+/// contact c stays at or below its gap, and where it reaches it with the velocity v > 0, an impulse p along
+/// its direction leaves it with the velocity -e_c v. With J = S M^-1 S^T, p J_cc = (1 + e_c) v, and with the
+/// periodic Green function G of the contacts, made of their poles,
 ///
 ///   u(t) = u0(t) - sum_i p_i G(t - t_i),  u_i(t_i) = gap_i,  p_i J_ii = (1 + e) v_i(t_i-),
 ///
@@ -94,11 +33,22 @@ class ImpactMotion {
 /// Shaw, P. J. Holmes, J. Sound Vib. 90, 1983, doi:10.1016/0022-460X(83)90407-8, for one degree of freedom].
 /// Without impacts it is the motion without contact. `converged` means: the equations hold to rounding,
 /// impulses push, and between impacts no contact passes its gap, which a bound on the third derivative of
-/// the motion proves to 1e-12 of its size.
+/// the motion proves to 1e-12 of its size. Its multipliers are the eigenvalues of the product of exact
+/// flights and of the saltation matrices
 ///
-/// Throws std::invalid_argument as ImpactsProblem::validate(), and for a contact that does not exist or a
-/// number that is not finite. O(K^2 poles + K^3) for each step.
-ImpactMotion impact_motion(const ImpactsProblem& problem, const std::vector<ImpactGuess>& start,
-                           const ImpactMotionOptions& options = {});
+///   I - (1 + e) / J b v' + ((1 + e) a- / J b - p A b) u' / v-
+///
+/// of the impacts [P. C. Muller, Chaos Solitons Fractals 5, 1995, doi:10.1016/0960-0779(94)00170-U], y' = A y
+/// the states of the poles, b those after a unit impulse, u' and v' displacement and velocity of the contact
+/// by the states, and a- its acceleration before the impact.
+///
+/// Throws std::invalid_argument for sizes that do not fit, numbers out of their range, structural damping, a
+/// structure that is free to move, a contact without mass, which has no impacts, and a start with a contact
+/// that does not exist or a number that is not finite. O(K^2 poles + K^3) for each step.
+PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
+                          const ImpactMotionOptions& options = {});
+
+/// C x C, 1/kg: S M^-1 S^T, the velocities of the contacts by impulses of 1 N s. O(C^2 poles).
+Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics);
 
 }  // namespace wavebalance::solvers

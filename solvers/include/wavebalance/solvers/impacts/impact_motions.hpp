@@ -29,11 +29,11 @@ struct CoexistingImpacts {
 struct ImpactMotions {
   /// Converged where there are motions; else what became of the motion that is clear of all obstacles at
   /// first.
-  ImpactStatus status = ImpactStatus::not_settled;
+  PhasesStatus status = PhasesStatus::not_settled;
   std::vector<CoexistingImpacts> motions;  ///< in the order in which they were found
   int starts = 0;                          ///< random ones that were taken
   /// How many of these settle to no motion that is solved for, by what they ended with.
-  std::map<ImpactStatus, int> none;
+  std::map<PhasesStatus, int> none;
 };
 
 /// The periodic motions with impacts of one load: those that impact_response() settles to, from where the
@@ -46,6 +46,6 @@ struct ImpactMotions {
 ///
 /// Throws std::invalid_argument as impact_response() and for options out of range. An impact_response() for
 /// each start.
-ImpactMotions impact_motions(const ImpactsProblem& problem, const ImpactMotionsOptions& options = {});
+ImpactMotions impact_motions(const PhasesProblem& problem, const ImpactMotionsOptions& options = {});
 
 }  // namespace wavebalance::solvers

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
+#include "wavebalance/solvers/linalg/missing.hpp"
 
 namespace wavebalance::solvers {
 
@@ -24,19 +25,22 @@ struct ImpactResponseOptions {
 
 /// A forced response with impacts.
 struct ImpactResponse {
-  ImpactMotion motion;  ///< over load_periods periods of the load
-  /// Where a contact rests: the exact motion with impacts and contact that lasts, over as many; `motion` then
-  /// says why it is none of impacts alone.
-  PhaseMotion lasting;
+  /// Over load_periods periods of the load; where a contact rests with phases, too. Without a motion its
+  /// status says what the structure does: `chattering`, `lasting_contact`, `grazing`, `not_settled`,
+  /// `too_many_impacts` or `cancelled`.
+  PhaseMotion motion;
   int load_periods = 1;          ///< after which it repeats
-  Eigen::VectorXcd multipliers;  ///< empty unless the motion has converged
-  int unstable = -1;             ///< unstable_count(); -1 where not known
+  Eigen::VectorXcd multipliers;  ///< empty without a motion
+  int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
   int integrated = 0;            ///< periods of the load
   double distance = missing;     ///< relative change of the integrated state over the motion's period
+  /// Where its impacts chatter, or its contact lasts from one on: the contact, and when its impacts end, in
+  /// periods of the load after t = 0 of the integration.
+  double chattering_end = missing;
+  int chattering_contact = -1;
 
-  bool lasts() const { return lasting.parts != nullptr; }
-  bool converged() const { return motion.converged() || lasting.converged(); }
-  const std::vector<Impact>& impacts() const { return lasts() ? lasting.impacts : motion.impacts; }
+  bool moves() const { return motion.parts != nullptr; }
+  bool lasts() const { return !motion.phases.empty(); }
 };
 
 /// The motion with impacts that a structure settles to under its load, of which `problem` has one period: by
@@ -47,10 +51,10 @@ struct ImpactResponse {
 ///
 /// Where a contact without rebound is pressed after its impact, and where impacts of a contact follow each
 /// other ever faster, their velocity below 1e-6 of the largest, the contact rests: settled_motion() from the
-/// same state then leads to `lasting`. Where it leads to none, `motion` has the status lasting_contact or
-/// chattering with the instant at which the first such impacts end, the sum of a geometric series.
+/// same state then leads to the motion. Where it leads to none, the status is lasting_contact or chattering,
+/// with the instant at which the first such impacts end, the sum of a geometric series.
 ///
 /// Throws as impact_motion() and for options out of range. O(cells C poles) per period.
-ImpactResponse impact_response(const ImpactsProblem& problem, const ImpactResponseOptions& options = {});
+ImpactResponse impact_response(const PhasesProblem& problem, const ImpactResponseOptions& options = {});
 
 }  // namespace wavebalance::solvers

@@ -54,6 +54,14 @@ enum class PhasesStatus {
   slip_in_a_plane,       ///< friction along two tangents
   law_over_period,       ///< a law that acts over a period and has no states
   undetermined,          ///< a body is free to be elsewhere: of a curve, whose points would be any of them
+  wrong_order,           ///< the equations have a solution in which impacts have passed each other
+  pulling,               ///< their solution has an impulse that would pull
+  penetrating,           ///< their solution passes an obstacle between impacts
+  grazing,               ///< it cannot be told whether the solution passes an obstacle
+  chattering,            ///< infinitely many impacts in a finite time, then contact that lasts
+  lasting_contact,       ///< contact lasts from an impact without rebound on, as load or motion press it
+  not_settled,           ///< no periodic motion was found within the options' limits
+  too_many_impacts,      ///< more than max_impacts in a period of the load
   cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 
@@ -107,6 +115,10 @@ class PhaseMotion {
   double start_error = 0.0;  ///< relative rms distance of the start's displacements from the motion
 
   bool converged() const { return status == PhasesStatus::converged; }
+  /// Hz, 1 / its period.
+  double frequency() const;
+  /// J per period, of all impacts.
+  double energy_lost() const;
   /// Whether a force depends on the velocity.
   bool depends_on_velocity() const;
   /// Whether a law is rigid, so that it has no slopes.

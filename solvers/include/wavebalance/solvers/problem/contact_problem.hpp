@@ -6,7 +6,6 @@
 
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
-#include "wavebalance/solvers/impacts/impact_curve.hpp"
 #include "wavebalance/solvers/impacts/impact_motions.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
@@ -118,6 +117,10 @@ class ContactProblem {
                          const ResponseStart& start = {});
   ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
                                    const ForcedResponseOptions& how = {}, const ResponseStart& start = {});
+  /// The curves of twice as many periods, doubled_curve(), from the period doublings of an exact curve of
+  /// impacts over a parameter that was traced with `options`, an amplitude sweep at a frequency.
+  std::vector<ExactCurve> doubled_curves(const ExactCurve& curve, SweepParameter parameter, double frequency,
+                                         const ExactCurveOptions& options);
   /// exact_curve_through() over the frequency, from a motion that has converged at a frequency within the
   /// interval; without points without modes.
   ExactCurve exact_curve_from(double frequency, const PhaseMotion& motion, const ExactCurveOptions& options);
@@ -135,21 +138,10 @@ class ContactProblem {
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 
-  /// impact_response() at a frequency of the load, impact_motions(), and impact_curve() from what a structure
-  /// settles to at options.from, or at a frequency over the load scale. The curve has the status `no_start`
-  /// where it settles to no motion; `first` says what it settles to. Throw std::invalid_argument for laws
+  /// impact_response() at a frequency of the load, and impact_motions(). Throw std::invalid_argument for laws
   /// without restitution, a structure without modes, and as these do.
   ImpactResponse impacts(double frequency, const ImpactResponseOptions& options = {});
   ImpactMotions coexisting_impacts(double frequency, const ImpactMotionsOptions& options = {});
-  ImpactCurve impact_sweep(ImpactCurveOptions options, ImpactResponse* first = nullptr);
-  ImpactCurve impact_amplitude_sweep(double frequency, ImpactCurveOptions options,
-                                     ImpactResponse* first = nullptr);
-  /// The curves of twice as many periods from the period doublings of a curve that was traced with `options`.
-  std::vector<ImpactCurve> impact_branches(const ImpactCurve& curve, SweepParameter parameter,
-                                           double frequency, const ImpactCurveOptions& options);
-  /// The motion of all degrees of freedom, structure_phases() of one with impacts.
-  StructurePhases structure_motion(double frequency, const ImpactMotion& motion, int points,
-                                   const StructurePhasesOptions& options = {});
 
   /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
@@ -158,10 +150,7 @@ class ContactProblem {
  private:
   void require_well_posed() const;
   void require_no_impacts() const;
-  const ContactDynamics& dynamics_of_impacts() const;
-  ImpactsProblem impacts_here() const;
-  ImpactFamily impact_family(SweepParameter parameter) const;
-  ImpactCurve traced_impacts(SweepParameter parameter, ImpactCurveOptions options, ImpactResponse* first);
+  bool has_impacts_alone() const;
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);

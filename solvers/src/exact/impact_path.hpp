@@ -7,9 +7,12 @@
 #include "impacts/impact_equations.hpp"
 #include "impacts/impact_parts.hpp"
 #include "wavebalance/solvers/continuation/curve_corrector.hpp"
-#include "wavebalance/solvers/impacts/impact_curve.hpp"
+#include "wavebalance/solvers/exact/phase_family.hpp"
 
 namespace wavebalance::solvers::detail {
+
+/// Instants and impulses of impacts and a parameter, with their tangent.
+using ImpactPoint = solvers::CurvePoint;
 
 /// What does not change along a curve of motions with impacts.
 struct ImpactPathScales {
@@ -24,9 +27,9 @@ class ImpactCurveEquations {
  public:
   struct Pieces {};
 
-  ImpactCurveEquations(const ImpactFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
+  ImpactCurveEquations(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
 
-  double evaluate(const CurvePoint& at, const Pieces*);
+  double evaluate(const ImpactPoint& at, const Pieces*);
   const Eigen::VectorXd& residual() const { return equations_->residual(); }
   bool solve_bordered(const Eigen::VectorXd& row, double number, const Eigen::VectorXd& right,
                       double right_number, Eigen::VectorXd& change, double& parameter_change);
@@ -42,11 +45,11 @@ class ImpactCurveEquations {
   double height_slope(Eigen::Index i, const Eigen::VectorXd& tangent, double parameter_tangent) const;
   /// The unit vector of unknowns that changes the equations least, where they were evaluated last.
   Eigen::VectorXd null_direction() const;
-  /// The motion at the place evaluated last, and whether it is one of the structure.
-  ImpactMotion motion(const CurvePoint& at) const;
+  /// The solution at the place evaluated last, and whether it is a motion of the structure.
+  ImpactSolution solution(const ImpactPoint& at) const;
 
  private:
-  const ImpactFamily& family_;
+  const PhaseFamily& family_;
   ImpactPathScales scales_;
   std::vector<int> contacts_;
   std::shared_ptr<const ImpactModel> model_;
@@ -54,34 +57,36 @@ class ImpactCurveEquations {
   Eigen::VectorXd slope_;  // of the residual by the parameter, where it was evaluated last
 };
 
-/// A place of a curve with K impacts, and the motion there.
+/// A place of a curve with K impacts, and the solution there.
 struct ImpactPlace {
-  CurvePoint point;
-  ImpactMotion motion;
+  ImpactPoint point;
+  ImpactSolution solution;
 };
 
 /// The curve of K impacts.
 class ImpactPath : private CurveCorrector<ImpactCurveEquations> {
  public:
-  ImpactPath(const ImpactFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
+  ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
 
   const std::vector<int>& contacts() const { return curve().contacts(); }
   /// The unknowns of impacts in ascending order.
   Eigen::VectorXd unknowns_of(const std::vector<Impact>& impacts) const;
+  /// Unknowns by their arc lengths.
+  Eigen::VectorXd lengths(const Eigen::VectorXd& unknowns) const;
   using CurveCorrector::chord;
   using CurveCorrector::inner;
   using CurveCorrector::normalize;
 
   /// The place at a value of the parameter, without a tangent.
-  std::optional<ImpactPlace> at_value(CurvePoint start, double value);
+  std::optional<ImpactPlace> at_value(ImpactPoint start, double value);
   /// The place near a start at which impact i has no impulse, without a tangent.
-  std::optional<ImpactPlace> at_grazing(CurvePoint start, Eigen::Index i);
+  std::optional<ImpactPlace> at_grazing(ImpactPoint start, Eigen::Index i);
   /// The place at an arc length along the tangent of another, with its tangent; how many corrections it took.
-  std::optional<ImpactPlace> ahead(const CurvePoint& from, double step, int* corrections = nullptr);
+  std::optional<ImpactPlace> ahead(const ImpactPoint& from, double step, int* corrections = nullptr);
   /// Sets the tangent at a place that was solved for last, on the side of `along`.
-  bool set_tangent(CurvePoint& at, const CurvePoint& along);
+  bool set_tangent(ImpactPoint& at, const ImpactPoint& along);
   /// As of ImpactCurveEquations, where it was solved for last.
-  double height_slope(Eigen::Index i, const CurvePoint& tangent) const;
+  double height_slope(Eigen::Index i, const ImpactPoint& tangent) const;
   Eigen::VectorXd null_direction() const { return curve().null_direction(); }
 
  private:

@@ -1,4 +1,4 @@
-#include "impacts/impact_path.hpp"
+#include "exact/impact_path.hpp"
 
 #include <Eigen/SVD>
 #include <algorithm>
@@ -6,6 +6,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "wavebalance/solvers/flow/settled_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -14,20 +15,25 @@ constexpr double instant_scale = 0.05;  // periods
 
 }  // namespace
 
-ImpactCurveEquations::ImpactCurveEquations(const ImpactFamily& family, const ImpactPathScales& scales,
+ImpactCurveEquations::ImpactCurveEquations(const PhaseFamily& family, const ImpactPathScales& scales,
                                            std::vector<int> contacts)
     : family_(family), scales_(scales), contacts_(std::move(contacts)) {}
 
-double ImpactCurveEquations::evaluate(const CurvePoint& at, const Pieces*) {
+double ImpactCurveEquations::evaluate(const ImpactPoint& at, const Pieces*) {
+  constexpr double share = 1e-5;
   const bool over_frequency = family_.parameter() == SweepParameter::frequency;
   if (!at.displacement.allFinite() || !std::isfinite(at.parameter) ||
       (over_frequency && !(at.parameter > 0.0)))
     return missing;
-  model_ = std::make_shared<const ImpactModel>(family_.at(at.parameter, scales_.periods));
+  const auto problem_at = [&](double value) { return over_periods(family_.at(value), scales_.periods); };
+  model_ = std::make_shared<const ImpactModel>(problem_at(at.parameter));
   equations_.emplace(*model_, contacts_, scales_.impulse);
   equations_->evaluate(at.displacement);
+  const double step = share * (at.parameter == 0.0 ? scales_.parameter : at.parameter);
+  const Eigen::MatrixXcd after = problem_at(at.parameter + step).contact_free,
+                         before = problem_at(at.parameter - step).contact_free;
   slope_ = equations_->by_parameter(
-      {family_.contact_free_slope(at.parameter, scales_.periods), family_.frequency_slope(scales_.periods)});
+      {(after - before) / (2.0 * step), over_frequency ? model_->problem().frequency / at.parameter : 0.0});
   double largest = 0.0;
   for (Index i = 0; i < residual().size(); ++i)
     largest = std::max(largest, std::abs(residual()[i]) / equations_->rounding()[i]);
@@ -69,13 +75,13 @@ Eigen::VectorXd ImpactCurveEquations::null_direction() const {
   return decomposition.matrixV().rightCols(1);
 }
 
-ImpactMotion ImpactCurveEquations::motion(const CurvePoint& at) const {
-  ImpactMotion found;
+ImpactSolution ImpactCurveEquations::solution(const ImpactPoint& at) const {
+  ImpactSolution found = solution_of(model_, {contacts_, at.displacement, scales_.impulse});
   found.residual = residual().size() > 0 ? residual().cwiseAbs().maxCoeff() : 0.0;
-  return motion_of(model_, {contacts_, at.displacement, scales_.impulse}, std::move(found));
+  return found;
 }
 
-ImpactPath::ImpactPath(const ImpactFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
+ImpactPath::ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
     : CurveCorrector(ImpactCurveEquations(family, scales, std::move(contacts))), scales_(scales) {}
 
 Eigen::VectorXd ImpactPath::unknowns_of(const std::vector<Impact>& impacts) const {
@@ -88,37 +94,43 @@ Eigen::VectorXd ImpactPath::unknowns_of(const std::vector<Impact>& impacts) cons
   return unknowns;
 }
 
-std::optional<ImpactPlace> ImpactPath::at_value(CurvePoint start, double value) {
+Eigen::VectorXd ImpactPath::lengths(const Eigen::VectorXd& unknowns) const {
+  Eigen::VectorXd result = unknowns;
+  result.head(curve().impacts()) /= instant_scale;
+  return result;
+}
+
+std::optional<ImpactPlace> ImpactPath::at_value(ImpactPoint start, double value) {
   constexpr double rounding = 1e-14;
   const CurvePlane plane{Eigen::VectorXd::Zero(start.displacement.size()), 1.0 / scales_.parameter,
                          value / scales_.parameter,
                          rounding * std::max(1.0, std::abs(value) / scales_.parameter)};
   int corrections = 0;
   if (!solve_in(plane, nullptr, start, corrections)) return std::nullopt;
-  return ImpactPlace{start, curve().motion(start)};
+  return ImpactPlace{start, curve().solution(start)};
 }
 
-std::optional<ImpactPlace> ImpactPath::at_grazing(CurvePoint start, Index i) {
+std::optional<ImpactPlace> ImpactPath::at_grazing(ImpactPoint start, Index i) {
   constexpr double rounding = 1e-14;
   const Index count = curve().impacts();
   const CurvePlane plane{Eigen::VectorXd::Unit(2 * count, count + i), 0.0, 0.0, rounding};
   int corrections = 0;
   if (!solve_in(plane, nullptr, start, corrections)) return std::nullopt;
-  return ImpactPlace{start, curve().motion(start)};
+  return ImpactPlace{start, curve().solution(start)};
 }
 
-std::optional<ImpactPlace> ImpactPath::ahead(const CurvePoint& from, double step, int* corrections) {
-  CurvePoint to;
+std::optional<ImpactPlace> ImpactPath::ahead(const ImpactPoint& from, double step, int* corrections) {
+  ImpactPoint to;
   int taken = 0;
   if (!correct(from, step, nullptr, to, taken)) return std::nullopt;
   if (corrections != nullptr) *corrections = taken;
-  ImpactMotion motion = curve().motion(to);
-  return ImpactPlace{std::move(to), std::move(motion)};
+  ImpactSolution solution = curve().solution(to);
+  return ImpactPlace{std::move(to), std::move(solution)};
 }
 
-bool ImpactPath::set_tangent(CurvePoint& at, const CurvePoint& along) { return tangent_at(at, along); }
+bool ImpactPath::set_tangent(ImpactPoint& at, const ImpactPoint& along) { return tangent_at(at, along); }
 
-double ImpactPath::height_slope(Index i, const CurvePoint& tangent) const {
+double ImpactPath::height_slope(Index i, const ImpactPoint& tangent) const {
   return curve().height_slope(i, tangent.displacement_tangent, tangent.parameter_tangent);
 }
 

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/impacts/impact_curve.hpp"
+#include "wavebalance/solvers/exact/exact_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
-#include "wavebalance/solvers/impacts/impact_stability.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -28,19 +27,17 @@ class TracedImpacts {
         dynamics_(structure_),
         problem_(testing::fourier_pair(7, 32), structure_, cosine_load()) {}
 
-  ImpactFamily family(double frequency, SweepParameter parameter = SweepParameter::frequency) {
+  PhaseFamily family(double frequency, SweepParameter parameter = SweepParameter::frequency) {
     problem_.set_frequency(frequency);
-    return {problem_, dynamics_, scene_.gaps,
-            Eigen::VectorXd::Constant(scene_.gaps.size(), scene_.restitution), parameter};
+    return {problem_, scene_.laws(), dynamics_, parameter};
   }
   /// Over the angular frequency.
-  ImpactCurve over_omega(double from, double to, ImpactCurveOptions options = {}) {
+  ExactCurve over_omega(double from, double to, ExactCurveOptions options = {}) {
     options.from = from / two_pi;
     options.to = to / two_pi;
-    const ImpactFamily over = family(options.from);
+    const PhaseFamily over = family(options.from);
     const ImpactResponse first = impact_response(over.at(options.from));
-    options.periods = first.load_periods;
-    return impact_curve(over, first.motion, options);
+    return exact_curve(over, first.motion, options);
   }
   const ContactDynamics& dynamics() const { return dynamics_; }
 
@@ -51,9 +48,9 @@ class TracedImpacts {
   CondensedProblem problem_;
 };
 
-std::vector<double> places_of(const ImpactCurve& curve, Type type) {
+std::vector<double> places_of(const ExactCurve& curve, Type type) {
   std::vector<double> places;
-  for (const ImpactEvent& event : curve.events)
+  for (const ExactEvent& event : curve.events)
     if (event.type == type) places.push_back(event.value);
   return places;
 }
@@ -61,7 +58,7 @@ std::vector<double> places_of(const ImpactCurve& curve, Type type) {
 TEST(ImpactCurveTest, BeginsToTouchWhereTheMotionWithoutContactReachesTheGap) {
   constexpr double damping = 0.1, gap = 2.0;
   const ImpactScene scene = impact_oscillator(damping, gap, 0.8, 0.5);
-  const ImpactCurve curve = TracedImpacts(scene).over_omega(0.5, 1.0);
+  const ExactCurve curve = TracedImpacts(scene).over_omega(0.5, 1.0);
   EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
   // (1 - w^2)^2 + c^2 w^2 = 1 / gap^2
   const double half = 1.0 - 0.5 * damping * damping;
@@ -77,11 +74,11 @@ TEST(ImpactCurveTest, BeginsToTouchAtTheLoadWhoseMotionReachesTheGap) {
   const ImpactScene scene = impact_oscillator(0.1, 2.0, 0.8, 0.9);
   TracedImpacts traced(scene);
   const double frequency = scene.frequency();
-  const ImpactFamily family = traced.family(frequency, SweepParameter::load_scale);
+  const PhaseFamily family = traced.family(frequency, SweepParameter::load_scale);
   const double reach = std::abs(scene.free_amplitudes()[0]);
   const double from = 0.5 * 2.0 / reach, to = 2.0 * 2.0 / reach;
-  const ImpactCurve curve =
-      impact_curve(family, impact_motion(family.at(from), {}), {.from = from, .to = to});
+  const ExactCurve curve =
+      exact_curve(family, impact_motion(family.at(from), {}), {.from = from, .to = to});
   EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
   ASSERT_FALSE(places_of(curve, Type::grazing).empty());
   EXPECT_NEAR(places_of(curve, Type::grazing).front(), 2.0 / reach, 1e-12);
@@ -93,16 +90,16 @@ TEST(ImpactCurveTest, HasTheClosedFormOfTheOscillatorWithoutDampingAtEveryPoint)
   const ImpactScene scene = impact_oscillator(0.0, gap, restitution, 2.6);
   TracedImpacts traced(scene);
   const double from = scene.frequency();
-  const ImpactFamily family = traced.family(from);
+  const PhaseFamily family = traced.family(from);
   const double reach = std::abs(scene.free_amplitudes()[0]), first_period = two_pi / scene.omega;
   const double turn = 0.5 * (1.0 + restitution) * std::sin(first_period) / (1.0 - std::cos(first_period)),
                rest = 0.5 * (1.0 - restitution) / scene.omega, speed = reach / std::hypot(turn, rest);
-  const ImpactMotion first =
+  const PhaseMotion first =
       impact_motion(family.at(from), {{0, std::atan2(rest, -turn) / two_pi, (1.0 + restitution) * speed}});
   ASSERT_TRUE(first.converged()) << to_string(first.status);
-  const ImpactCurve curve = impact_curve(family, first, {.from = from, .to = 3.0 / two_pi});
+  const ExactCurve curve = exact_curve(family, first, {.from = from, .to = 3.0 / two_pi});
   ASSERT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  for (const ImpactPoint& point : curve.points) {
+  for (const ExactPoint& point : curve.points) {
     const double omega = two_pi * point.value, period = two_pi / omega,
                  amplitude = 1.0 / (1.0 - omega * omega);
     ASSERT_EQ(point.motion.impacts.size(), 1u);
@@ -117,15 +114,15 @@ TEST(ImpactCurveTest, HasTheClosedFormOfTheOscillatorWithoutDampingAtEveryPoint)
 TEST(ImpactCurveTest, PassesMotionsOfEachFrequency) {
   const ImpactScene scene = two_masses_with_impacts(0.3, 0.7, 0.8);
   TracedImpacts traced(scene);
-  const ImpactCurve curve = traced.over_omega(0.8, 2.0);
+  const ExactCurve curve = traced.over_omega(0.8, 2.0);
   EXPECT_GE(curve.points.size(), 10u);
-  for (const ImpactPoint& point : curve.points) {
+  for (const ExactPoint& point : curve.points) {
     std::vector<ImpactGuess> start;
     for (const Impact& impact : point.motion.impacts)
       start.push_back({impact.contact, impact.time + 1e-6, impact.impulse * (1.0 + 1e-6)});
-    const ImpactFamily family = traced.family(point.value);
+    const PhaseFamily family = traced.family(point.value);
     const int periods = static_cast<int>(std::lround(point.value / point.motion.frequency()));
-    const ImpactMotion motion = impact_motion(family.at(point.value, periods), start);
+    const PhaseMotion motion = impact_motion(over_periods(family.at(point.value), periods), start);
     ASSERT_TRUE(motion.converged()) << to_string(motion.status);
     ASSERT_EQ(motion.impacts.size(), point.motion.impacts.size());
     for (std::size_t i = 0; i < motion.impacts.size(); ++i)
@@ -138,8 +135,8 @@ TEST(ImpactCurveTest, HasTheMultiplierOfEachSpecialPointOnTheCircle) {
   for (const double gap : {0.1, 0.5})
     for (const double restitution : {0.7, 0.8}) {
       TracedImpacts traced(impact_oscillator(0.1, gap, restitution, 3.0));
-      const ImpactCurve curve = gap < 0.2 ? traced.over_omega(3.0, 1.2) : traced.over_omega(2.2, 1.2);
-      for (const ImpactEvent& event : curve.events) {
+      const ExactCurve curve = gap < 0.2 ? traced.over_omega(3.0, 1.2) : traced.over_omega(2.2, 1.2);
+      for (const ExactEvent& event : curve.events) {
         if (event.type == Type::grazing) continue;
         EXPECT_NEAR(std::abs(event.multiplier), 1.0, 1e-7) << to_string(event.type);
         EXPECT_TRUE(event.motion.converged());
@@ -155,24 +152,24 @@ TEST(ImpactCurveTest, HasTheMultiplierOfEachSpecialPointOnTheCircle) {
 }
 
 TEST(ImpactCurveTest, FollowsTheMotionsOfTwoPeriodsFromADoubling) {
-  ImpactCurveOptions options;
+  ExactCurveOptions options;
   TracedImpacts traced(impact_oscillator(0.1, 0.1, 0.8, 3.0));
-  const ImpactCurve curve = traced.over_omega(3.0, 1.2);
+  const ExactCurve curve = traced.over_omega(3.0, 1.2);
   options.from = 3.0 / two_pi;
   options.to = 1.2 / two_pi;
-  const ImpactFamily family = traced.family(options.from);
+  const PhaseFamily family = traced.family(options.from);
   int followed = 0;
-  for (const ImpactEvent& event : curve.events) {
+  for (const ExactEvent& event : curve.events) {
     if (event.type != Type::period_doubling) continue;
-    options.periods = static_cast<int>(std::lround(event.value / event.motion.frequency()));
-    const ImpactCurve doubled = doubled_curve(family, event, options);
+    const double periods = std::round(event.value / event.motion.frequency());
+    const ExactCurve doubled = doubled_curve(family, event, options);
     if (doubled.status == SweepStatus::no_start) continue;
     ++followed;
     EXPECT_GE(doubled.points.size(), 3u);
     EXPECT_NEAR(doubled.points.front().value, event.value, 1e-2 * event.value);
-    for (const ImpactPoint& point : doubled.points) {
+    for (const ExactPoint& point : doubled.points) {
       EXPECT_TRUE(point.motion.converged());
-      EXPECT_NEAR(point.motion.frequency(), point.value / (2 * options.periods), 1e-12);
+      EXPECT_NEAR(point.motion.frequency(), point.value / (2.0 * periods), 1e-12);
     }
   }
   EXPECT_GE(followed, 1);
@@ -182,10 +179,10 @@ TEST(ImpactCurveTest, FollowsTheMotionsOfTwoPeriodsFromADoubling) {
 TEST(ImpactCurveTest, PassesTheMotionsThatTheStructureSettlesTo) {
   const ImpactScene scene = oscillator_between_stops(0.2, 0.4, 0.7, 0.5);
   TracedImpacts traced(scene);
-  const ImpactCurve curve = traced.over_omega(0.7, 2.5);
+  const ExactCurve curve = traced.over_omega(0.7, 2.5);
   int compared = 0;
   for (std::size_t i = 0; i < curve.points.size(); i += 7) {
-    const ImpactPoint& point = curve.points[i];
+    const ExactPoint& point = curve.points[i];
     if (point.unstable != 0) continue;
     const ImpactResponse settled = impact_response(traced.family(point.value).at(point.value));
     if (settled.load_periods != 1 || settled.motion.impacts.size() != point.motion.impacts.size()) continue;
@@ -197,17 +194,17 @@ TEST(ImpactCurveTest, PassesTheMotionsThatTheStructureSettlesTo) {
 
 TEST(ImpactCurveTest, FollowsABarOfManyModes) {
   const ImpactScene scene = lumped_bar(30, 0.5, 0.02, 0.8, 0.6, 0.6);
-  const ImpactCurve curve = TracedImpacts(scene).over_omega(0.6, 1.0);
+  const ExactCurve curve = TracedImpacts(scene).over_omega(0.6, 1.0);
   EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  for (const ImpactPoint& point : curve.points) EXPECT_TRUE(point.motion.converged());
-  for (const ImpactEvent& event : curve.events)
+  for (const ExactPoint& point : curve.points) EXPECT_TRUE(point.motion.converged());
+  for (const ExactEvent& event : curve.events)
     EXPECT_TRUE(event.type == Type::grazing || std::abs(std::abs(event.multiplier) - 1.0) < 1e-6);
 }
 
 TEST(ImpactCurveTest, StopsWhereItsObserverSaysSo) {
-  ImpactCurveOptions options;
+  ExactCurveOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 4; };
-  const ImpactCurve curve =
+  const ExactCurve curve =
       TracedImpacts(impact_oscillator(0.1, 0.5, 0.8, 1.2)).over_omega(1.2, 3.2, options);
   EXPECT_EQ(curve.status, SweepStatus::cancelled);
   EXPECT_EQ(curve.points.size(), 4u);
@@ -216,16 +213,15 @@ TEST(ImpactCurveTest, StopsWhereItsObserverSaysSo) {
 TEST(ImpactCurveTest, RefusesOptionsOutOfRangeAndAMotionThatIsNotKnown) {
   TracedImpacts traced(impact_oscillator(0.1, 0.5, 0.8, 1.2));
   const double from = 1.2 / two_pi;
-  const ImpactFamily family = traced.family(from);
-  const ImpactMotion first = impact_response(family.at(from)).motion;
-  const auto words = [&](const ImpactMotion& motion, const ImpactCurveOptions& options) {
-    return testing::refusal([&] { impact_curve(family, motion, options); });
+  const PhaseFamily family = traced.family(from);
+  const PhaseMotion first = impact_response(family.at(from)).motion;
+  const auto words = [&](const PhaseMotion& motion, const ExactCurveOptions& options) {
+    return testing::refusal([&] { exact_curve(family, motion, options); });
   };
-  EXPECT_EQ(words(first, {.from = 0.25, .to = 0.25}),
-            "ImpactCurveOptions: to is 0.25; it must be finite and other than from");
-  EXPECT_EQ(words({}, {.from = from, .to = 0.3}), "impact_curve: the first motion has not converged");
-  EXPECT_EQ(words(first, {.from = 0.6, .to = 0.7}),
-            "impact_curve: near the first motion the family has none at options.from");
+  EXPECT_EQ(words(first, {.from = 0.25, .to = 0.25}), "exact_curve: from and to are the same");
+  EXPECT_EQ(words({}, {.from = from, .to = 0.3}),
+            "exact_curve: first has the status not_found; it must be a motion");
+  EXPECT_EQ(exact_curve(family, first, {.from = 0.6, .to = 0.7}).start, PhasesStatus::not_found);
 }
 
 }  // namespace

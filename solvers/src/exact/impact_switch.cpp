@@ -1,4 +1,4 @@
-#include "impacts/impact_switch.hpp"
+#include "exact/impact_switch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,20 +11,20 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 // Whether a place lies near the step.
-bool lies_near(const ImpactStep& step, const CurvePoint& at) {
+bool lies_near(const ImpactStep& step, const ImpactPoint& at) {
   constexpr double twice = 2.0;
-  const CurvePoint way = ImpactPath::chord(step.last.point, step.next.point),
+  const ImpactPoint way = ImpactPath::chord(step.last.point, step.next.point),
                    part = ImpactPath::chord(step.last.point, at);
   return step.path.inner(part, part) <= twice * twice * step.path.inner(way, way);
 }
 
-void reverse(CurvePoint& point) {
+void reverse(ImpactPoint& point) {
   point.displacement_tangent *= -1.0;
   point.parameter_tangent *= -1.0;
 }
 
-CurvePoint start_at(Eigen::VectorXd unknowns, double value) {
-  CurvePoint start;
+ImpactPoint start_at(Eigen::VectorXd unknowns, double value) {
+  ImpactPoint start;
   start.displacement = std::move(unknowns);
   start.parameter = value;
   return start;
@@ -43,15 +43,15 @@ std::pair<Index, double> first_to_vanish(const ImpactStep& step) {
 }
 
 // Towards growing parameters.
-CurvePoint upwards(const ImpactStep& step, const CurvePoint& at) {
-  CurvePoint along = at;
+ImpactPoint upwards(const ImpactStep& step, const ImpactPoint& at) {
+  ImpactPoint along = at;
   along.displacement_tangent = Eigen::VectorXd::Zero(at.displacement.size());
   along.parameter_tangent = step.scales.parameter;
   return along;
 }
 
 // The impacts without an impulse at a place: several of equal contacts vanish together. The last one first.
-std::vector<Index> without_impulse(const CurvePoint& at) {
+std::vector<Index> without_impulse(const ImpactPoint& at) {
   constexpr double rounding = 1e-9;  // of the impulses' scale
   const Index count = at.displacement.size() / 2;
   std::vector<Index> gone;
@@ -63,7 +63,7 @@ std::vector<Index> without_impulse(const CurvePoint& at) {
 std::optional<ImpactSwitch> vanishing(const ImpactStep& step) {
   const auto [first, share] = first_to_vanish(step);
   if (first < 0) return std::nullopt;
-  CurvePoint start = step.last.point;
+  ImpactPoint start = step.last.point;
   start.displacement += share * (step.next.point.displacement - start.displacement);
   start.parameter += share * (step.next.point.parameter - start.parameter);
   const std::optional<ImpactPlace> grazing = step.path.at_grazing(start, first);
@@ -76,11 +76,11 @@ std::optional<ImpactSwitch> vanishing(const ImpactStep& step) {
     unknowns = without_impact(unknowns, i);
   }
   ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}};
-  const CurvePoint at = start_at(unknowns, grazing->point.parameter);
+  const ImpactPoint at = start_at(unknowns, grazing->point.parameter);
   std::optional<ImpactPlace> place = found.path->at_value(at, at.parameter);
   if (!place || !found.path->set_tangent(place->point, upwards(step, at))) return std::nullopt;
   // Where the contact is below its gap it touches no more.
-  CurvePoint whole = place->point;
+  ImpactPoint whole = place->point;
   for (auto i = gone.rbegin(); i != gone.rend(); ++i)
     whole.displacement_tangent = with_impact(whole.displacement_tangent, *i, 0.0);
   if (step.path.height_slope(first, whole) > 0.0) reverse(place->point);
@@ -106,16 +106,16 @@ std::pair<Index, double> place_of_touch(const Eigen::VectorXd& unknowns, double 
 
 // The contacts that touch their obstacles without an impulse in a motion, but for its impacts and one known
 // touch: equal contacts graze together. Those of highest points that reach the gap.
-std::vector<Contact> touches_beside(const ImpactMotion& motion, const Contact& known) {
+std::vector<Contact> touches_beside(const ImpactSolution& motion, const Contact& known) {
   constexpr int instants = 1024;
   constexpr double same = 1e-4, rounding = 1e-8;  // periods, of the motion
   const ImpactModel& model = *motion.model;
   const auto near = [](double a, double b) { return std::abs(a - b - std::round(a - b)) < same; };
   const auto height = [&](int contact, double time) {
-    return motion.displacement(Eigen::VectorXd::Constant(1, time))(contact) - model.problem().gaps[contact];
+    return motion.at(time).displacement[contact] - model.gaps()[contact];
   };
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / instants);
-  const Eigen::MatrixXd u = motion.displacement(times);
+  Eigen::MatrixXd u(model.contacts(), instants);
+  for (int k = 0; k < instants; ++k) u.col(k) = motion.at(double(k) / instants).displacement;
   std::vector<Contact> found;
   for (int c = 0; c < model.contacts(); ++c)
     for (Index k = 0; k < instants; ++k) {
@@ -148,7 +148,7 @@ struct Added {
   std::vector<Index> numbers;  // of all that were added, in the order of their insertion
 };
 
-Added with_touches(const ImpactStep& step, const CurvePoint& at, const std::vector<Contact>& touches) {
+Added with_touches(const ImpactStep& step, const ImpactPoint& at, const std::vector<Contact>& touches) {
   Added added;
   std::vector<int> contacts = step.path.contacts();
   Eigen::VectorXd unknowns = at.displacement;
@@ -165,35 +165,35 @@ Added with_touches(const ImpactStep& step, const CurvePoint& at, const std::vect
   return added;
 }
 
-CurvePoint without(const CurvePoint& at, const std::vector<Index>& numbers) {
+ImpactPoint without(const ImpactPoint& at, const std::vector<Index>& numbers) {
   Eigen::VectorXd unknowns = at.displacement;
   for (auto i = numbers.rbegin(); i != numbers.rend(); ++i) unknowns = without_impact(unknowns, *i);
   return start_at(unknowns, at.parameter);
 }
 
 std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
-  const ImpactMotion& beyond = step.next.motion;
+  const ImpactSolution& beyond = step.next.solution;
   if (beyond.penetrating_contact < 0) return std::nullopt;
   std::vector<Contact> touches{{beyond.penetrating_contact, beyond.penetration_time}};
   Added added = with_touches(step, step.next.point, touches);
   if (!added.grazing) return std::nullopt;
   // Without the impact that has no impulse it is a motion of the present path.
-  CurvePoint at = without(added.grazing->point, added.numbers);
+  ImpactPoint at = without(added.grazing->point, added.numbers);
   if (!lies_near(step, at)) return std::nullopt;
   std::optional<ImpactPlace> present = step.path.at_value(at, at.parameter);
   if (!present) return std::nullopt;
   touches.front().time = added.grazing->point.displacement[added.first];
-  for (const Contact& other : touches_beside(present->motion, touches.front())) touches.push_back(other);
+  for (const Contact& other : touches_beside(present->solution, touches.front())) touches.push_back(other);
   if (touches.size() > 1)
     if (Added all = with_touches(step, present->point, touches); all.grazing) added = std::move(all);
   std::optional<ImpactPlace>& grazing = added.grazing;
-  CurvePoint along = grazing->point;
+  ImpactPoint along = grazing->point;
   const auto count = Index(added.path->contacts().size());
   along.displacement_tangent = Eigen::VectorXd::Unit(2 * count, count + added.first);
   along.parameter_tangent = 0.0;
   if (!added.path->set_tangent(grazing->point, along)) return std::nullopt;
   if (grazing->point.displacement_tangent[count + added.first] < 0.0) reverse(grazing->point);
-  grazing->motion = std::move(present->motion);
+  grazing->solution = std::move(present->solution);
   return ImpactSwitch{std::move(added.path), std::move(*grazing)};
 }
 
@@ -209,9 +209,9 @@ std::optional<ImpactSwitch> passing(const ImpactStep& step) {
   for (const Index i : order) all.push_back(count + i);
   if (contacts == step.path.contacts()) return std::nullopt;
   ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}, false};
-  const CurvePoint at = start_at(unknowns(all), step.next.point.parameter);
+  const ImpactPoint at = start_at(unknowns(all), step.next.point.parameter);
   std::optional<ImpactPlace> place = found.path->at_value(at, at.parameter);
-  CurvePoint along = at;
+  ImpactPoint along = at;
   along.displacement_tangent = step.last.point.displacement_tangent(all);
   along.parameter_tangent = step.last.point.parameter_tangent;
   if (!place || !found.path->set_tangent(place->point, along)) return std::nullopt;
@@ -220,12 +220,12 @@ std::optional<ImpactSwitch> passing(const ImpactStep& step) {
 }
 
 std::optional<ImpactSwitch> switch_of(const ImpactStep& step) {
-  switch (step.next.motion.status) {
-    case ImpactStatus::pulling:
+  switch (step.next.solution.status) {
+    case PhasesStatus::pulling:
       return vanishing(step);
-    case ImpactStatus::penetrating:
+    case PhasesStatus::penetrating:
       return appearing(step);
-    case ImpactStatus::wrong_order:
+    case PhasesStatus::wrong_order:
       return passing(step);
     default:
       return std::nullopt;
@@ -236,7 +236,7 @@ std::optional<ImpactSwitch> switch_of(const ImpactStep& step) {
 
 std::optional<ImpactSwitch> impact_switch(const ImpactStep& step) {
   std::optional<ImpactSwitch> found = switch_of(step);
-  if (found && !found->place.motion.converged()) found.reset();
+  if (found && !found->place.solution.converged()) found.reset();
   return found;
 }
 

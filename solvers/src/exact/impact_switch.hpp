@@ -2,7 +2,7 @@
 #include <memory>
 #include <optional>
 
-#include "impacts/impact_path.hpp"
+#include "exact/impact_path.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -15,7 +15,7 @@ struct ImpactSwitch {
 
 /// A step along a path, from a place with a tangent to one that is no motion of the structure.
 struct ImpactStep {
-  const ImpactFamily& family;
+  const PhaseFamily& family;
   const ImpactPathScales& scales;
   ImpactPath& path;
   const ImpactPlace &last, &next;
