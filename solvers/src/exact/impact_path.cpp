@@ -26,7 +26,7 @@ double ImpactCurveEquations::evaluate(const ImpactPoint& at, const Pieces*) {
       (over_frequency && !(at.parameter > 0.0)))
     return missing;
   const auto problem_at = [&](double value) { return over_periods(family_.at(value), scales_.periods); };
-  model_ = std::make_shared<const ImpactModel>(problem_at(at.parameter));
+  model_ = std::make_shared<const ImpactModel>(problem_at(at.parameter), model_.get());
   equations_.emplace(*model_, contacts_, scales_.impulse);
   equations_->evaluate(at.displacement);
   const double step = share * (at.parameter == 0.0 ? scales_.parameter : at.parameter);

@@ -46,38 +46,43 @@ void require_mass(const ContactDynamics& dynamics) {
 
 }  // namespace
 
-ImpactModel::ImpactModel(const PhasesProblem& problem)
+ImpactModel::Poles::Poles(const ContactDynamics& dynamics) {
+  const auto count = Index(dynamics.poles().size());
+  const Index contacts = dynamics.contacts();
+  exponents.resize(count);
+  shapes.resize(contacts, count);
+  left.resize(contacts, count);
+  for (Index l = 0; l < count; ++l) {
+    const ContactPole& pole = dynamics.poles()[static_cast<std::size_t>(l)];
+    exponents[l] = pole.exponent;
+    shapes.col(l) = (pole.exponent.imag() == 0.0 ? 1.0 : 2.0) * pole.residue * pole.shape;
+    left.col(l) = pole.left;
+  }
+  outputs.resize(3 * contacts, count);
+  outputs.topRows(contacts) = shapes;
+  outputs.middleRows(contacts, contacts) = shapes * exponents.asDiagonal();
+  outputs.bottomRows(contacts) = outputs.middleRows(contacts, contacts) * exponents.asDiagonal();
+  third_moduli = (outputs.bottomRows(contacts) * exponents.asDiagonal()).cwiseAbs();
+  inverse_mass = at_once(dynamics, 1);
+}
+
+ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
     : problem_(problem),
       gaps_(problem.laws.gaps(problem.dynamics.contacts())),
       restitution_(problem.laws.restitution(problem.dynamics.contacts())),
-      period_(1.0 / problem.frequency) {
-  const auto& poles = problem.dynamics.poles();
-  const auto count = Index(poles.size());
-  const Index contacts = problem.dynamics.contacts();
-  exponents_.resize(count);
-  difference_.resize(count);
-  shapes_.resize(contacts, count);
-  left_.resize(contacts, count);
-  for (Index l = 0; l < count; ++l) {
-    const ContactPole& pole = poles[static_cast<std::size_t>(l)];
-    exponents_[l] = pole.exponent;
-    const Complex step = pole.exponent * period_;
+      period_(1.0 / problem.frequency),
+      poles_(like != nullptr ? like->poles_ : std::make_shared<const Poles>(problem.dynamics)) {
+  difference_.resize(poles());
+  last_.resize(poles());
+  for (Index l = 0; l < poles(); ++l) {
+    const Complex step = exponents()[l] * period_;
     difference_[l] = step.real() > 0.0 ? -one_less_exp(-step) : one_less_exp(step);
-    shapes_.col(l) = (pole.exponent.imag() == 0.0 ? 1.0 : 2.0) * pole.residue * pole.shape;
-    left_.col(l) = pole.left;
+    last_[l] = periodic(l, 1.0);
   }
-  outputs_.resize(3 * contacts, count);
-  outputs_.topRows(contacts) = shapes_;
-  outputs_.middleRows(contacts, contacts) = shapes_ * exponents_.asDiagonal();
-  outputs_.bottomRows(contacts) = outputs_.middleRows(contacts, contacts) * exponents_.asDiagonal();
-  third_moduli_ = (outputs_.bottomRows(contacts) * exponents_.asDiagonal()).cwiseAbs();
-  free_third_.resize(contacts);
-  for (int c = 0; c < contacts; ++c) {
+  free_third_.resize(contacts());
+  for (int c = 0; c < contacts(); ++c) {
     free_third_[c] = free_magnitude(c, 3);
     free_.emplace_back(problem.contact_free.row(c).transpose(), turn * problem.frequency);
-  }
-  inverse_mass_ = inverse_contact_mass(problem.dynamics);
-  for (int c = 0; c < contacts; ++c) {
     displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(gaps_[c]));
     velocity_scale_ = std::max(velocity_scale_, free_magnitude(c, 1));
   }
@@ -95,12 +100,12 @@ double ImpactModel::free_magnitude(int c, int derivative) const {
 bool ImpactModel::is_resonant() const {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   for (Index l = 0; l < poles(); ++l)
-    if (std::abs(difference_[l]) <= 64.0 * eps * (1.0 + std::abs(exponents_[l] * period_))) return true;
+    if (std::abs(difference_[l]) <= 64.0 * eps * (1.0 + std::abs(exponents()[l] * period_))) return true;
   return false;
 }
 
 ContactsAt ImpactModel::free_motion(double time) const {
-  const Index contacts = shapes_.rows();
+  const Index contacts = this->contacts();
   ContactsAt state{Eigen::VectorXd(contacts), Eigen::VectorXd(contacts), Eigen::VectorXd(contacts)};
   for (Index c = 0; c < contacts; ++c) {
     const auto [displacement, velocity, acceleration, third] = free_[static_cast<std::size_t>(c)].at(time);
@@ -113,17 +118,18 @@ ContactsAt ImpactModel::free_motion(double time) const {
 
 // exp(lambda share T) / (1 - exp(lambda T)), for growing poles without large numbers.
 Complex ImpactModel::periodic(Index pole, double share) const {
-  const Complex step = exponents_[pole] * period_;
+  const Complex step = exponents()[pole] * period_;
   return std::exp(step * (step.real() > 0.0 ? share - 1.0 : share)) / difference_[pole];
 }
 
 GreenValues ImpactModel::green(int c, int d, double share) const {
   GreenValues sum;
   for (Index l = 0; l < poles(); ++l) {
-    const Complex value = shapes_(c, l) * left_(d, l) * periodic(l, share), exponent = exponents_[l];
+    const Complex value = poles_->shapes(c, l) * poles_->left(d, l) * periodic(l, share),
+                  exponent = exponents()[l];
     const Complex rate = exponent * value;
     // The logarithmic derivative of exp(lambda share T) / (1 - exp(lambda T)) by T, over lambda.
-    const Complex by_period = share + periodic(l, 1.0);
+    const Complex by_period = share + last_[l];
     sum.value += value.real();
     sum.rate += rate.real();
     sum.second += (exponent * rate).real();
@@ -137,18 +143,18 @@ GreenValues ImpactModel::green(int c, int d, double share) const {
 
 Eigen::VectorXcd ImpactModel::state_after(int c, double share) const {
   Eigen::VectorXcd state(poles());
-  for (Index l = 0; l < poles(); ++l) state[l] = -left_(c, l) * periodic(l, share);
+  for (Index l = 0; l < poles(); ++l) state[l] = -left()(c, l) * periodic(l, share);
   return state;
 }
 
 Eigen::VectorXcd ImpactModel::growth(double seconds) const {
-  return (exponents_ * seconds).array().exp().matrix();
+  return (exponents() * seconds).array().exp().matrix();
 }
 
 ContactsAt ImpactModel::motion(const Eigen::VectorXcd& state, double time) const {
   ContactsAt result = free_motion(time);
-  const Index contacts = shapes_.rows();
-  const Eigen::VectorXd own = (outputs_ * state).real();
+  const Index contacts = this->contacts();
+  const Eigen::VectorXd own = (outputs() * state).real();
   result.displacement += own.head(contacts);
   result.velocity += own.segment(contacts, contacts);
   result.acceleration += own.tail(contacts);

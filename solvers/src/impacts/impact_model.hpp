@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "flow/harmonic_series.hpp"
@@ -25,26 +26,27 @@ struct GreenValues {
 /// contact. Immutable.
 class ImpactModel {
  public:
-  /// Keeps no reference but that to the dynamics.
-  explicit ImpactModel(const PhasesProblem& problem);
+  /// Keeps no reference but that to the dynamics. What belongs to these alone is taken from a model that has
+  /// the same ones.
+  explicit ImpactModel(const PhasesProblem& problem, const ImpactModel* like = nullptr);
 
   const PhasesProblem& problem() const { return problem_; }
   const Eigen::VectorXd& gaps() const { return gaps_; }                ///< C, m
   const Eigen::VectorXd& restitution() const { return restitution_; }  ///< C
   double period() const { return period_; }                            ///< s
-  int contacts() const { return static_cast<int>(shapes_.rows()); }
-  Eigen::Index poles() const { return exponents_.size(); }
-  const Eigen::VectorXcd& exponents() const { return exponents_; }  ///< 1/s, one for each pair
-  const Eigen::MatrixXcd& left() const { return left_; }            ///< C x poles
+  int contacts() const { return static_cast<int>(poles_->shapes.rows()); }
+  Eigen::Index poles() const { return poles_->exponents.size(); }
+  const Eigen::VectorXcd& exponents() const { return poles_->exponents; }  ///< 1/s, one for each pair
+  const Eigen::MatrixXcd& left() const { return poles_->left; }            ///< C x poles
   /// 3 C x poles: of displacements, velocities and accelerations of the contacts by the states.
-  const Eigen::MatrixXcd& outputs() const { return outputs_; }
+  const Eigen::MatrixXcd& outputs() const { return poles_->outputs; }
   /// C x poles: moduli of the third derivatives of the displacements by the states.
-  const Eigen::MatrixXd& third_moduli() const { return third_moduli_; }
+  const Eigen::MatrixXd& third_moduli() const { return poles_->third_moduli; }
   /// C, m/s^3: a bound on the third derivative of the motion without contact.
   const Eigen::VectorXd& free_third() const { return free_third_; }
-  const Eigen::MatrixXd& inverse_mass() const { return inverse_mass_; }  ///< C x C, 1/kg
-  double displacement_scale() const { return displacement_scale_; }      ///< m, of motion and gaps
-  double velocity_scale() const { return velocity_scale_; }              ///< m/s
+  const Eigen::MatrixXd& inverse_mass() const { return poles_->inverse_mass; }  ///< C x C, 1/kg
+  double displacement_scale() const { return displacement_scale_; }             ///< m, of motion and gaps
+  double velocity_scale() const { return velocity_scale_; }                     ///< m/s
 
   /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
   ContactsAt free_motion(double time) const;
@@ -64,17 +66,23 @@ class ImpactModel {
   ContactsAt motion(const Eigen::VectorXcd& state, double time) const;
 
  private:
+  /// By the dynamics alone.
+  struct Poles {
+    explicit Poles(const ContactDynamics& dynamics);
+    Eigen::VectorXcd exponents;
+    Eigen::MatrixXcd shapes, left, outputs;
+    Eigen::MatrixXd third_moduli, inverse_mass;
+  };
   std::complex<double> periodic(Eigen::Index pole, double share) const;
 
   PhasesProblem problem_;
   Eigen::VectorXd gaps_, restitution_;
   double period_;
-  std::vector<HarmonicSeries> free_;         // of each contact
-  Eigen::VectorXcd exponents_, difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
-  Eigen::MatrixXcd shapes_, left_, outputs_;
-  Eigen::MatrixXd third_moduli_;
+  std::vector<HarmonicSeries> free_;  // of each contact
+  std::shared_ptr<const Poles> poles_;
+  Eigen::VectorXcd difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
+  Eigen::VectorXcd last_;        // periodic() at the end of the period
   Eigen::VectorXd free_third_;
-  Eigen::MatrixXd inverse_mass_;
   double displacement_scale_ = 0.0, velocity_scale_ = 0.0;
 };
 
