@@ -51,3 +51,9 @@ def test_an_impact_that_stops_a_slider_at_once_has_the_multipliers_of_difference
 @pytest.mark.parametrize("seed", [151, 234])
 def test_rigid_friction_that_never_slips_leaves_the_multipliers_of_the_held_structure(seed):
     assert verdict(seed) == ("converged", "right")
+
+
+def test_a_motion_of_periods_that_differ_by_little_is_the_one_to_which_the_structure_settles():
+    record = wb.run(scene_of(mixture(71)))
+    assert record.summary["period_of_motion"] == 2 and record.summary["stability"] == "stable"
+    assert verdict(71) == ("converged", "right")

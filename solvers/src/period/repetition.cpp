@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace wavebalance::solvers {
@@ -34,20 +35,27 @@ double RepetitionRule::least_distance(int periods, int before) const {
   return least;
 }
 
-Repetition RepetitionRule::found() const {
+// Whether the last of so many periods, which differ, are steady.
+std::optional<Repetition> RepetitionRule::steady(int periods) const {
   constexpr int transient = 50;
   constexpr double apart = 100.0, steady = 1e-3;
+  const int before = periods * ((steady_periods + periods - 1) / periods);
+  if (count_ <= std::max(transient, before + periods)) return std::nullopt;
+  const double now = least_distance(periods, 0), then = least_distance(periods, before),
+               back = distances_.front()[static_cast<std::size_t>(periods - 1)];
+  if (!(now > apart * back) || !(std::abs(now - then) <= steady * now)) return std::nullopt;
+  return Repetition{periods, now};
+}
+
+Repetition RepetitionRule::found() const {
   if (distances_.empty()) return {};
   const std::vector<double>& last = distances_.front();
-  const auto near = std::find_if(last.begin(), last.end(), [&](double d) { return d <= tolerance_; });
-  if (near == last.end()) return {};
-  const int periods = 1 + static_cast<int>(near - last.begin());
-  if (periods == 1) return {.periods = 1};
-  const int before = periods * ((steady_periods + periods - 1) / periods);
-  if (count_ <= std::max(transient, before + periods)) return {};
-  const double now = least_distance(periods, 0), then = least_distance(periods, before);
-  if (!(now > apart * tolerance_) || !(std::abs(now - then) <= steady * now)) return {};
-  return {periods, now};
+  for (int periods = 1; periods <= static_cast<int>(last.size()); ++periods) {
+    if (!(last[static_cast<std::size_t>(periods - 1)] <= tolerance_)) continue;
+    if (periods == 1) return {.periods = 1};
+    if (const auto repeats = steady(periods)) return *repeats;
+  }
+  return {};
 }
 
 }  // namespace wavebalance::solvers

@@ -1,6 +1,7 @@
 #pragma once
 #include <deque>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct Repetition {
 
 /// Finds the number of periods after which a motion repeats. It is the least p for which the last period
 /// agrees to a tolerance with that p before. For p > 1 any two of the last p periods must differ a hundred
-/// times as much, after a transient, and as much as they did 16 or more periods before: a motion that spirals
-/// towards one of fewer periods comes near past periods, too, and nearer ones later. Distances are relative.
+/// times as much as these two, after a transient, and as much as they did 16 or more periods before: a motion
+/// that spirals towards one of fewer periods comes near past periods, too, and nearer ones later. Distances
+/// are relative.
 class RepetitionRule {
  public:
   RepetitionRule(int longest, double tolerance) : longest_(longest), tolerance_(tolerance) {}
@@ -35,6 +37,7 @@ class RepetitionRule {
  private:
   void add_distances(std::vector<double> distances);
   double least_distance(int periods, int before) const;
+  std::optional<Repetition> steady(int periods) const;
 
   int longest_;
   double tolerance_;
