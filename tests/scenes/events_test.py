@@ -175,17 +175,6 @@ def test_impacts_that_follow_each_other_ever_faster_come_to_rest_in_a_response(r
     assert response["rms_displacement_m"] == pytest.approx(stepped["rms_displacement_m"], rel=1e-7)
 
 
-def test_friction_along_two_tangents_is_refused_by_name(command, matrix, tmp_path):
-    matrix("m.mtx", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-    matrix("k.mtx", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-    plane = ('[contact]\nlaw = "coulomb"\nfriction = 0.5\nnormal_load = 1.0\ntangential_stiffness = 1.0\nnormal_stiffness = 1.0\n'
-             "[[contact.pairs]]\ndofs = [1]\ntangent = [2]\nsecond_tangent = [3]")
-    (tmp_path / "scene.toml").write_text(scene("", plane, "load_dofs = [1]\namplitude = 1.0", 0.1))
-    checked = command("check", "scene.toml")
-    assert checked.code == 2
-    assert "two tangents" in checked.errors and "analysis.type" in checked.errors
-
-
 def stuck(stiffness, load=0.5):
     return (f'[contact]\nlaw = "coulomb"\nfriction = 0.5\nnormal_load = 2.0\n{stiffness}\n[[contact.pairs]]\ndofs = [1]',
             f"load_dofs = [1]\namplitude = {load}")

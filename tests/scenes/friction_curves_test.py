@@ -96,13 +96,6 @@ gap = 0.4
     assert summary["phases_status"] == "converged"
 
 
-def test_two_tangents_have_no_exact_curve_and_say_so(command, two_masses, tmp_path):
-    (tmp_path / "scene.toml").write_text(MIXTURE.replace("dofs = [1]\nlaw", "dofs = [1]\nsecond_tangent = [2]\nlaw"))
-    checked = command("check", "scene.toml")
-    assert checked.code == 2
-    assert "two tangents" in checked.errors and "analysis.exact" in checked.errors
-
-
 def test_a_contact_that_slips_all_along_begins_to_stick_at_its_closed_form(run, matrix):
     """Den Hartog's oscillator, whose velocity is known in closed form, until it vanishes within a half period."""
     for name in ("m", "k"):

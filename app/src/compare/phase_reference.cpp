@@ -42,7 +42,7 @@ std::string phrase_of(solvers::PhasesStatus status) {
     case structural_damping:
       return "a loss factor has no equation in time";
     case slip_in_a_plane:
-      return "a contact slips along two tangents";
+      return "a contact has rigid friction along two tangents";
     case law_over_period:
       return "a law acts over the period and has no states";
     case tolerance_missed:

@@ -79,12 +79,15 @@ void check_form(const Document& document, const Scene& scene) {
       "\"automatic\" or \"displacement\"");
 }
 
-void check_one_tangent(const Document& document, const Scene& scene, const std::string& key,
-                       const std::string& expected) {
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
-    if (!scene.contact.pairs[i].second_tangent.empty())
-      fail_rule(document, {key, pair_section(i) + ".second_tangent"},
-                "not with friction along two tangents, which slips in a plane; expected " + expected);
+void check_elastic_planes(const Document& document, const Scene& scene, const std::string& key,
+                          const std::string& expected) {
+  for (const SceneContact& contact : contacts_of(scene)) {
+    if (!contact.pair || scene.contact.pairs[*contact.pair].second_tangent.empty()) continue;
+    if (!has_friction(contact.law) || contact.values.contains("tangential_stiffness")) continue;
+    fail_rule(
+        document, {key, pair_section(*contact.pair) + ".second_tangent"},
+        "not with rigid friction along two tangents; expected contact.tangential_stiffness, or " + expected);
+  }
 }
 
 /// Friction is solved by balances in the displacement form, and by phases.
@@ -98,11 +101,10 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
     fail_rule(document, {"analysis.type", "contact.law"},
               "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
               "\"shooting\", \"time_stepping\" or \"nonlinear_mode\"");
-  if (integrates_in_time(type)) check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
-  if (type == AnalysisType::shooting)
-    check_one_tangent(document, scene, "analysis.type", "\"forced_response\"");
-  if (solves_by_phases(scene)) check_one_tangent(document, scene, "time.method", "\"balance\"");
-  if (scene.analysis.exact) check_one_tangent(document, scene, "analysis.exact", "false");
+  if (integrates_in_time(type) || type == AnalysisType::shooting)
+    check_elastic_planes(document, scene, "analysis.type", "\"forced_response\"");
+  if (solves_by_phases(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
+  if (scene.analysis.exact) check_elastic_planes(document, scene, "analysis.exact", "false");
 }
 
 /// A ring is solved by balances in the displacement form, and by events.

@@ -170,24 +170,85 @@ Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
   return result;
 }
 
+// Whether the nodes of a panel resolve forces and perturbations. These may move faster than the motion does:
+// at most one radian a node. Sliders that move do so on any panel beside the instants at which the force that
+// turns them vanishes: there counts the impulse on perturbations that is not resolved.
+ContactFlow::Engine::Fit ContactFlow::Engine::fit_of(const detail::PanelShape& panel,
+                                                     const detail::SolvedPanel& found) const {
+  // The coefficients of forces by sliders that move fall slowly where these turn sharply: the last ones say
+  // less.
+  constexpr double most_rounding = 1e-3, of_moving = 1e-3;
+  const Eigen::MatrixXd& force = found.values.force;
+  const bool moves = !found.values.memory_rate.isZero(0.0);
+  if (!found.converged || !force.allFinite()) return Fit::too_long;
+  const double size = std::max(force_size_, force.cwiseAbs().maxCoeff());
+  if (found.rounding > most_rounding * size) return Fit::no_digits;
+  const double tolerance = (moves ? of_moving : 1.0) * options_.tolerance,
+               allowed = std::max(tolerance * size, found.rounding);
+  if (panel.unresolved(force, force_size_) * size > allowed) return Fit::too_long;
+  const double turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
+  if (turns <= 1.0) return Fit::fits;
+  if (!moves) return Fit::too_long;
+  const double missed = variation_.unresolved(contacts_, now_, motion(panel), found.values) * 2.0 *
+                        panel.half() / poles_.period();
+  return missed <= options_.tolerance ? Fit::fits : Fit::too_long;
+}
+
 // Forces of the laws on the next panel, short enough to resolve them.
 std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
   constexpr int finest = 24;
-  constexpr double most_rounding = 1e-3;
   for (; level_ <= finest; ++level_) {
     const detail::PanelShape& panel = shape(level_);
-    detail::SolvedForces found = solve_panel(contacts_, now_, motion(panel), force_size_);
-    if (!found.converged || !found.force.allFinite()) continue;
-    if (found.rounding > most_rounding * std::max(force_size_, found.force.cwiseAbs().maxCoeff())) break;
-    const double rough = panel.unresolved(found.force, force_size_),
-                 size = std::max(force_size_, found.force.cwiseAbs().maxCoeff());
-    if (rough * size > std::max(options_.tolerance * size, found.rounding)) continue;
-    // Perturbations may move faster than the motion does: at most one radian a node.
-    const double turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
-    if (turns > 1.0) continue;
-    force_size_ = size;
+    detail::SolvedPanel found = solve_panel(contacts_, now_, motion(panel), force_size_);
+    const Fit fit = fit_of(panel, found);
+    if (fit == Fit::no_digits) break;
+    if (fit == Fit::too_long) {
+      if (!found.converged) found.values = no_values();
+      if (auto last = solve_to_end({&panel, found.values})) return last;
+      continue;
+    }
+    const double rough = panel.unresolved(found.values.force, force_size_),
+                 turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
+    force_size_ = std::max(force_size_, found.values.force.cwiseAbs().maxCoeff());
     if (rough < 0.01 * options_.tolerance && turns < 0.5) level_ = std::max(level_ - 1, coarsest_);
-    return Solved{&panel, std::move(found.force)};
+    return Solved{&panel, std::move(found.values)};
+  }
+  return std::nullopt;
+}
+
+// A panel ends where equations become singular, if that is within one that it makes too long.
+std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_to_end(const Solved& too_long) {
+  constexpr double rough = 1e-6;
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const Guard guard{c, contacts_.law(c).singular_exit(now_.state[std::size_t(c)])};
+    if (guard.exit < 0) continue;
+    const auto value = [&](double at) { return guard_at(too_long, guard, at).value; };
+    const double begin = value(-1.0), end = value(1.0);
+    if (!(begin > 0.0 && end < 0.0)) continue;
+    const auto at = detail::root(value, {-1.0, begin}, {1.0, end}, rough);
+    if (!at) continue;
+    if (auto last = solve_to_end_of(guard, (*at + 1.0) * too_long.shape->half())) return last;
+  }
+  return std::nullopt;
+}
+
+std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_to_end_of(const Guard& guard,
+                                                                                double length) {
+  const double longest = 2.0 * length;
+  constexpr int most = 8;
+  constexpr double settled = 1e-12, rounding = 1e-15;  // of the length, and of the period
+  for (int n = 0; n < most && length > 0.0 && length <= longest; ++n) {
+    const auto panel = std::make_shared<detail::PanelShape>(poles_, nodes_, 0.5 * length, dense_.at);
+    detail::SolvedPanel found = solve_panel(contacts_, now_, motion(*panel), force_size_);
+    if (!found.converged) return std::nullopt;
+    Solved last{panel.get(), std::move(found.values), guard, panel};
+    const GuardValue end = guard_at(last, guard, 1.0);
+    const double step = -end.value / end.rate * panel->half();
+    length += step;
+    if (!(std::abs(step) < settled * length + rounding * poles_.period())) continue;
+    found.values = last.values;
+    if (fit_of(*panel, found) != Fit::fits) return std::nullopt;
+    return last;
   }
   return std::nullopt;
 }
@@ -199,7 +260,7 @@ void ContactFlow::Engine::keep(const Solved& panel, double end) {
   const Eigen::VectorXd within = 0.5 * (end + 1.0) * (nodes_.points.array() + 1.0) - 1.0;
   const Eigen::MatrixXd restriction =
       detail::product(detail::legendre_values(within, detail::panel_nodes), nodes_.coefficients);
-  panels_.push_back({time_, until, detail::product_transposed(panel.force, restriction), now_.state});
+  panels_.push_back({time_, until, detail::product_transposed(panel.values.force, restriction), now_.state});
 }
 
 void ContactFlow::Engine::take_samples(const Solved& panel, double end, int points,
@@ -212,7 +273,7 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
   if (at.empty()) return;
   const Eigen::VectorXd points_here = Eigen::Map<const Eigen::VectorXd>(at.data(), Index(at.size()));
   const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), points_here);
-  detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
+  detail::Signals signals = motion(*panel.shape).at(waves, panel.values);
   // Less the forces of the holding springs that of an open contact would be rounding.
   for (std::size_t c = 0; c < machines_.size(); ++c)
     if (machines_[c].law->kind(now_.state[c]) == ContactState::open)
@@ -228,7 +289,7 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   const LawMachine& law = contacts_.law(c);
   const int state = now_.state[std::size_t(c)];
   const StateExit exit = law.exits(state)[std::size_t(hit.guard.exit)];
-  const detail::LocalValues local(contacts_, c, signals, 0, now_.memory);
+  const detail::LocalValues local(contacts_, c, signals, 0);
   FlowEvent event{.time = time_, .contact = int(c), .from = state};
   std::optional<Dual> impulse;
   detail::Signals after = signals;
@@ -252,7 +313,7 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
   }
   int to = exit.targets.front();
   if (exit.targets.size() > 1) {
-    const detail::LocalValues behind(contacts_, c, after, 0, now_.memory);
+    const detail::LocalValues behind(contacts_, c, after, 0);
     to = law.choose(state, hit.guard.exit, local.signals(), behind.signals());
   }
   std::vector<Dual> memory;
@@ -280,7 +341,7 @@ void ContactFlow::Engine::follow_impulse(Index struck, const detail::Signals& be
     const Index row = contacts_.row(c), rows = contacts_.law(c).rows();
     const double jump = (after[1] - before[1]).middleRows(row, rows).cwiseAbs().maxCoeff();
     if (c == struck || jump <= rounding * std::abs(speed)) continue;
-    const detail::LocalValues local(contacts_, c, after, 0, now_.memory);
+    const detail::LocalValues local(contacts_, c, after, 0);
     int& state = now_.state[std::size_t(c)];
     const int next = contacts_.law(c).after_impulse(state, local.signals());
     if (next != state) events_.push_back({.time = time_, .contact = int(c), .from = state, .to = next});
@@ -293,7 +354,9 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const auto panel = steps_++ < options_.max_panels ? solve_next() : std::nullopt;
   if (!panel) return FlowStatus::step_failure;
   const double half = panel->shape->half(), until = (until_ - time_) / half - 1.0;
-  const auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, until);
+  auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, until);
+  constexpr double rounding = 1e-9;
+  if (panel->end && !options_.keeps_states && (!hit || hit->at > 1.0 - rounding)) hit = Hit{1.0, *panel->end};
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);
@@ -303,10 +366,12 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   if (idle_ > most_idle) return FlowStatus::endless_events;
   const detail::PoleWaves waves(poles_, nodes_, half, Eigen::VectorXd::Constant(1, end));
   const detail::PanelMotion here = motion(*panel->shape);
-  const Eigen::VectorXcd next = here.state_at(waves, 0, panel->force);
-  if (!variation_.empty()) variation_.over(contacts_, now_, here, panel->force, waves, 0);
-  const detail::Signals signals = ends_state ? here.at(waves, panel->force) : detail::Signals{};
+  const Eigen::VectorXcd next = here.state_at(waves, 0, panel->values.force);
+  if (!variation_.empty()) variation_.over(contacts_, now_, here, panel->values, waves, 0);
+  const bool moves = !panel->values.memory_rate.isZero(0.0);
+  const detail::Signals signals = ends_state || moves ? here.at(waves, panel->values) : detail::Signals{};
   states_ = next;
+  if (moves) now_.memory.assign(signals.memory.data(), signals.memory.data() + signals.memory.size());
   time_ = end == until ? until_ : time_ + half * (end + 1.0);
   if (ends_state) change(*hit, signals, next);
   return FlowStatus::converged;

@@ -12,8 +12,10 @@ namespace wavebalance::solvers::detail {
 /// Derivatives of the displacements up to the third, then the force and its first two derivatives.
 inline constexpr int levels = 4, kinds = 7, force_kind = 4;
 
-/// Signals of R rows at N points: one R x N matrix per kind.
-using Signals = std::array<Eigen::MatrixXd, kinds>;
+/// Signals of R rows at N points, one R x N matrix per kind, and M memories with their rates, M x N.
+struct Signals : std::array<Eigen::MatrixXd, kinds> {
+  Eigen::MatrixXd memory, memory_rate;
+};
 
 /// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative of
 /// the displacements Re(c r^d y) - sum_k feed(d, k) f^(k) beside the motion without contact. The feeds are

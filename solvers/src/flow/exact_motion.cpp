@@ -23,7 +23,8 @@ PhasesStatus refusal_of(const PhasesProblem& problem) {
   for (int row = 0; row < dynamics.contacts(); row += problem.laws[row].rows()) {
     const AnyContactLaw& law = problem.laws[row];
     const auto constants = law.friction();
-    if (constants && constants->tangents > 1) return PhasesStatus::slip_in_a_plane;
+    if (constants && constants->tangents > 1 && std::isinf(constants->tangential_stiffness))
+      return PhasesStatus::slip_in_a_plane;
     if (!constants && !law.coupled() && law.acts_over_period()) return PhasesStatus::law_over_period;
     if (!constants && law.is_rigid() && !law.restitution() && inverse_mass_of(dynamics, row) > 0.0)
       return PhasesStatus::rigid_contact;

@@ -63,11 +63,14 @@ class ContactFlow::Engine {
     double interpolated(const std::vector<double>& values, double x) const;
     Eigen::VectorXd at, weight;
   };
-  /// A panel whose forces are known.
+  /// A panel whose values are known.
   struct Solved {
     const detail::PanelShape* shape;
-    Eigen::MatrixXd force;
+    detail::NodeValues values;
+    std::optional<Guard> end = {};                       ///< that vanishes at its end
+    std::shared_ptr<const detail::PanelShape> own = {};  ///< where its length is
   };
+  enum class Fit { fits, too_long, no_digits };
 
   /// A guard and its rate by x at the dense points; below `clear` its values are rounding.
   struct GuardSamples {
@@ -76,10 +79,17 @@ class ContactFlow::Engine {
   };
 
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
-    return {poles_, shape, time_, states_};
+    return {poles_, shape, time_, states_, now_.memory};
   }
   const detail::PanelShape& shape(int level);
+  Fit fit_of(const detail::PanelShape& panel, const detail::SolvedPanel& found) const;
   std::optional<Solved> solve_next();
+  detail::NodeValues no_values() const {
+    return {Eigen::MatrixXd::Zero(poles_.rows(), nodes_.count()),
+            Eigen::MatrixXd::Zero(contacts_.memories(), nodes_.count())};
+  }
+  std::optional<Solved> solve_to_end(const Solved& too_long);
+  std::optional<Solved> solve_to_end_of(const Guard& guard, double length);
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
   std::optional<Hit> first_hit(const Solved& panel, double until);
   /// Signals at the dense points, and those of a contact with numbers of the gradient.

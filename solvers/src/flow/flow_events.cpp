@@ -37,8 +37,8 @@ double ContactFlow::Engine::DensePoints::interpolated(const std::vector<double>&
 ContactFlow::Engine::GuardValue ContactFlow::Engine::guard_at(const Solved& panel, const Guard& guard,
                                                               double at) const {
   const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), Eigen::VectorXd::Constant(1, at));
-  const detail::Signals signals = motion(*panel.shape).at(waves, panel.force);
-  const detail::LocalValues local(contacts_, guard.contact, signals, 0, now_.memory);
+  const detail::Signals signals = motion(*panel.shape).at(waves, panel.values);
+  const detail::LocalValues local(contacts_, guard.contact, signals, 0);
   const Dual value =
       contacts_.law(guard.contact).guard(now_.state[std::size_t(guard.contact)], guard.exit, local.signals());
   return {value.value, panel.shape->half() *
@@ -76,7 +76,8 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
     samples.rate.push_back(panel.shape->half() *
                            detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense.signals, first + k));
     size = std::max({size, std::abs(value.value), k == 0 ? scale_of(value, law.rows()) : 0.0});
-    if (k == 0 && law.remembers(state)) samples.by_memory = value.slope[std::size_t(4 * law.rows())];
+    if (k == 0 && law.remembers(state) && law.memories() == 1)
+      samples.by_memory = value.slope[std::size_t(4 * law.rows())];
   }
   samples.clear = clear_of(guard);
   return samples;
@@ -167,13 +168,13 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Den
 }
 
 std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel, double until) {
-  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.force), {}};
+  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.values), {}};
   at_rest_.clear();
   std::optional<Hit> best;
   for (Index c = 0; c < contacts_.count(); ++c) {
     dense.local.clear();
     for (Index k = 0; k < dense_.at.size(); ++k)
-      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k, now_.memory);
+      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k);
     const int exits = int(contacts_.law(c).exits(now_.state[std::size_t(c)]).size());
     for (int exit = 0; exit < exits; ++exit) {
       const Guard guard{c, exit};

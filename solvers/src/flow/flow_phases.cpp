@@ -50,7 +50,7 @@ double sign_of_slip(ContactState kind, int state) {
   return state == 2 ? 1.0 : -1.0;
 }
 
-// Of stick the sign is that of the slip before.
+// Of stick the sign is that of the slip before; slip in a plane has none.
 FrictionAlong friction_along(const ContactMachine& machine, const FrictionConstants& constants,
                              const std::vector<Stay>& stays) {
   FrictionAlong along{machine.row, constants, {}};
@@ -61,7 +61,7 @@ FrictionAlong friction_along(const ContactMachine& machine, const FrictionConsta
     if (kind == ContactState::open) part.state = FrictionPart::State::open;
     if (kind == ContactState::slip) part.state = FrictionPart::State::slip;
     const Stay& signs = kind == ContactState::stick ? before : stay;
-    part.sign = sign_of_slip(machine.law->kind(signs.state), signs.state);
+    if (constants.tangents == 1) part.sign = sign_of_slip(machine.law->kind(signs.state), signs.state);
     along.parts.push_back(part);
   }
   std::sort(along.parts.begin(), along.parts.end(),
@@ -70,13 +70,13 @@ FrictionAlong friction_along(const ContactMachine& machine, const FrictionConsta
 }
 
 // States of machines are numbered as the pieces of their laws are.
-void append_phases(const ContactMachine& machine, const std::vector<Stay>& stays,
+void append_phases(const ContactMachine& machine, int tangents, const std::vector<Stay>& stays,
                    std::vector<ContactPhase>& phases) {
   for (const Stay& stay : stays) {
     if (machine.law->kind(stay.state) == ContactState::open) continue;
-    const int last = machine.row + machine.law->rows() - 1;
-    for (int row = machine.row; row < last; ++row) phases.push_back({row, 1, stay.begin, stay.end});
-    phases.push_back({last, stay.state, stay.begin, stay.end});
+    const int end = machine.row + machine.law->rows();
+    for (int row = machine.row; row < end; ++row)
+      phases.push_back({row, row < end - tangents ? 1 : stay.state, stay.begin, stay.end});
   }
 }
 
@@ -160,7 +160,7 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
     const std::vector<Stay> stays = stays_of(flow, c, begin);
     const auto constants = problem.laws[machine.row].friction();
     if (constants) motion.friction.push_back(friction_along(machine, *constants, stays));
-    append_phases(machine, stays, motion.phases);
+    append_phases(machine, constants ? constants->tangents : 1, stays, motion.phases);
   }
   std::sort(motion.phases.begin(), motion.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
     return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
@@ -189,7 +189,8 @@ void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers) {
 
 namespace {
 
-// m, by which the slider moves in a part in which it slips: displacements at its begin and end.
+// m, by which the slider moves in a part in which it slips along one tangent: displacements at its begin and
+// end.
 double slip_of(const FrictionAlong& along, const FrictionPart& part, const Eigen::VectorXd& begin,
                const Eigen::VectorXd& end) {
   const Eigen::VectorXd moved = end - begin;
@@ -198,6 +199,29 @@ double slip_of(const FrictionAlong& along, const FrictionPart& part, const Eigen
                                     along.constants.tangential_stiffness * moved[along.row]
                               : 0.0;
   return std::abs(moved[along.row + along.constants.normal_rows] - of_limit);
+}
+
+// m, the way of a slider in a plane, whose rate in slip is n.u' - L' / k, n the direction of the force and L
+// its limit. By Gauss's rule on each cell.
+double slip_in_plane(const PhaseMotion& motion, const FrictionAlong& along) {
+  const detail::LegendreNodes nodes(32);
+  const Eigen::RowVectorXd mean = nodes.coefficients.row(0);
+  const FrictionConstants& c = along.constants;
+  const detail::CellGrid& grid = motion.parts->iterate.forces.grid();
+  double sum = 0.0;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    const double begin = grid.boundaries[std::size_t(cell)], length = grid.length(cell);
+    if (along.part_at(begin + 0.5 * length).state != FrictionPart::State::slip) continue;
+    const Eigen::VectorXd times = begin + 0.5 * length * (nodes.points.array() + 1.0);
+    const Eigen::MatrixXd v = motion.velocity(times).middleRows(along.row, c.normal_rows + c.tangents),
+                          f = motion.force(times).middleRows(along.row + c.normal_rows, c.tangents);
+    Eigen::VectorXd rate = f.cwiseProduct(v.bottomRows(c.tangents)).colwise().sum().transpose();
+    rate.array() /= f.colwise().norm().transpose().array();
+    if (c.normal_rows > 0)
+      rate -= c.friction * c.normal_stiffness / c.tangential_stiffness * v.row(0).transpose();
+    sum += length * mean.dot(rate);
+  }
+  return sum / motion.parts->model.frequency;
 }
 
 // J of each row, the integral of force times change of displacement: of the Legendre series f and u of a
@@ -229,7 +253,9 @@ std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion) {
   const Eigen::VectorXd works = works_of(motion);
   std::vector<FrictionCycle> cycles;
   for (const FrictionAlong& along : motion.friction) {
-    FrictionCycle cycle{.row = along.row, .work = works[along.row + along.constants.normal_rows]};
+    const FrictionConstants& c = along.constants;
+    FrictionCycle cycle{.row = along.row, .work = works.segment(along.row + c.normal_rows, c.tangents).sum()};
+    if (c.tangents > 1) cycle.slip = slip_in_plane(motion, along);
     Eigen::VectorXd times(2 * Index(along.parts.size()));
     for (std::size_t i = 0; i < along.parts.size(); ++i)
       times.segment<2>(2 * Index(i)) << along.parts[i].begin, along.parts[i].end;
@@ -240,7 +266,7 @@ std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion) {
       (part.state == FrictionPart::State::open    ? cycle.open_share
        : part.state == FrictionPart::State::stick ? cycle.stick_share
                                                   : cycle.slip_share) += length;
-      if (part.state == FrictionPart::State::slip)
+      if (part.state == FrictionPart::State::slip && c.tangents == 1)
         cycle.slip += slip_of(along, part, u.col(2 * Index(i)), u.col(2 * Index(i) + 1));
     }
     cycles.push_back(cycle);

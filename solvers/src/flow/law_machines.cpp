@@ -337,9 +337,12 @@ class FrictionMachine final : public LawMachine {
 std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics,
                                              int row, double length, double rate) {
   if (const auto constants = law.friction()) {
-    if (constants->tangents != 1)
+    constexpr double closer = 2.5;  // a deviation of slip in a plane leaves 2e-14 in a period
+    const bool plane = constants->tangents > 1;
+    if (plane && std::isinf(constants->tangential_stiffness))
       throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
-                                  " has friction with two tangents; only one is integrated by events");
+                                  " has rigid friction along two tangents; expected a tangential stiffness");
+    if (plane) return detail::plane_friction_machine(law, closer * rate);
     return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows),
                                              rate);
   }

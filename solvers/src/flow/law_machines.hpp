@@ -12,4 +12,7 @@ double inverse_mass_of(const ContactDynamics& dynamics, int row);
 /// That of a law of several rows at one instant, open or closed.
 std::shared_ptr<const LawMachine> coupled_machine(AnyCoupledLaw law);
 
+/// That of elastic Coulomb friction along two tangents. rate, 1/s: at which rounding in slip decays.
+std::shared_ptr<const LawMachine> plane_friction_machine(AnyContactLaw law, double rate);
+
 }  // namespace wavebalance::solvers::detail

@@ -60,6 +60,16 @@ Eigen::VectorXd PanelShape::at_begin() const {
       .transpose();
 }
 
+Eigen::MatrixXd PanelShape::integrals(const Eigen::VectorXd& points) const {
+  const Index q = nodes();
+  const Eigen::MatrixXd values = legendre_values(points, q + 1);
+  Eigen::MatrixXd by_coefficients(points.size(), q);
+  by_coefficients.col(0) = half_ * (values.col(1) + values.col(0));
+  for (Index n = 1; n < q; ++n)
+    by_coefficients.col(n) = half_ / double(2 * n + 1) * (values.col(n + 1) - values.col(n - 1));
+  return product(by_coefficients, nodes_.coefficients);
+}
+
 const Eigen::MatrixXd& PanelShape::influence(int level) const {
   auto& kept = influence_[std::size_t(level)];
   if (kept) return *kept;
@@ -105,7 +115,8 @@ Eigen::VectorXcd PanelMotion::state_at(const PoleWaves& waves, Index k, const Ei
   return result;
 }
 
-Signals PanelMotion::at(const PoleWaves& waves, const Eigen::MatrixXd& force) const {
+Signals PanelMotion::at(const PoleWaves& waves, const NodeValues& values) const {
+  const Eigen::MatrixXd& force = values.force;
   const Index count = waves.points.size();
   Eigen::MatrixXcd states(poles.poles(), count);
   const Eigen::MatrixXcd inputs = poles.inputs() * force.cast<Complex>();  // P x q
@@ -127,6 +138,12 @@ Signals PanelMotion::at(const PoleWaves& waves, const Eigen::MatrixXd& force) co
   if (poles.holding() > 0.0)
     for (int k = 0; k < kinds - force_kind; ++k)
       signals[std::size_t(force_kind + k)] += poles.holding() * signals[std::size_t(k)];
+  signals.memory = Eigen::Map<const Eigen::VectorXd>(memory.data(), Index(memory.size())).replicate(1, count);
+  signals.memory_rate.setZero(signals.memory.rows(), count);
+  if (!values.memory_rate.isZero(0.0)) {
+    signals.memory += product_transposed(values.memory_rate, shape.integrals(waves.points));
+    signals.memory_rate = product_transposed(values.memory_rate, waves.forces[0]);
+  }
   return signals;
 }
 

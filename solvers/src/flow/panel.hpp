@@ -40,6 +40,8 @@ class PanelShape {
   const Eigen::MatrixXd& influence(int level) const;
   /// The forces at the beginning of a panel by those at its nodes, q.
   Eigen::VectorXd at_begin() const;
+  /// Integrals from the beginning to points by values at the nodes, N x q, s.
+  Eigen::MatrixXd integrals(const Eigen::VectorXd& points) const;
   /// The share of the two last Legendre coefficients in the largest force, which tells whether the nodes
   /// resolve it; `size` (N) is the least that counts.
   double unresolved(const Eigen::MatrixXd& force, double size) const;
@@ -52,15 +54,21 @@ class PanelShape {
   mutable std::array<std::optional<Eigen::MatrixXd>, 3> influence_;
 };
 
-/// The motion on a panel of a shape that begins at a time with states of the poles, P, under forces, R x q.
+/// Forces, R x q, N, and rates of memories, M x q, m/s, at the nodes of a panel.
+struct NodeValues {
+  Eigen::MatrixXd force, memory_rate;
+};
+
+/// The motion on a panel of a shape that begins at a time with states of the poles, P, and memories, M.
 struct PanelMotion {
   const ContactPoles& poles;
   const PanelShape& shape;
   double begin;  ///< s
   const Eigen::VectorXcd& state;
+  const std::vector<double>& memory;
 
   /// Signals at the points of waves; law forces have the force of the holding springs back.
-  Signals at(const PoleWaves& waves, const Eigen::MatrixXd& force) const;
+  Signals at(const PoleWaves& waves, const NodeValues& values) const;
   /// The states at point k of waves.
   Eigen::VectorXcd state_at(const PoleWaves& waves, Index k, const Eigen::MatrixXd& force) const;
 };

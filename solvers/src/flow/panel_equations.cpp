@@ -14,7 +14,7 @@ constexpr std::array<int, 4> read_kinds{0, 1, 2, force_kind};
 bool needs_acceleration(const std::vector<std::vector<Dual>>& equations, const Contacts& contacts,
                         const FreeForces& free) {
   for (std::size_t e = 0; e < equations.size(); ++e) {
-    const int rows = contacts.law(free.rows[e].first).rows();
+    const int rows = contacts.law(free.contact(e)).rows();
     for (const Dual& value : equations[e])
       for (int i = 0; i < rows; ++i)
         if (value.slope[std::size_t(2 * rows + i)] != 0.0) return true;
@@ -29,8 +29,7 @@ Contacts::Contacts(std::vector<ContactMachine> machines) : machines_(std::move(m
     memory_begins_.push_back(memory_begins_.back() + one.law->memories());
 }
 
-LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point,
-                         const std::vector<double>& memory)
+LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point)
     : rows_(std::size_t(contacts.law(c).rows())), memories_(std::size_t(contacts.law(c).memories())) {
   int number = 0;
   for (std::size_t k = 0; k < read_kinds.size(); ++k)
@@ -38,7 +37,7 @@ LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signa
       values_[k][i] =
           Dual::signal(signals[std::size_t(read_kinds[k])](contacts.row(c) + Index(i), point), number++);
   for (std::size_t j = 0; j < memories_; ++j)
-    memory_[j] = Dual::signal(memory[std::size_t(contacts.memory_begin(c)) + j], number++);
+    memory_[j] = Dual::signal(signals.memory(contacts.memory_begin(c) + Index(j), point), number++);
 }
 
 LocalSignals LocalValues::signals() const {
@@ -51,14 +50,13 @@ FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states,
   Index total = 0;
   for (Index c = 0; c < contacts.count(); ++c) total += contacts.law(c).rows();
   constant.setZero(total);
-  std::vector<std::pair<Index, RowForce>> given;
   for (Index c = 0; c < contacts.count(); ++c) {
     const auto forces = contacts.law(c).forces(states[std::size_t(c)]);
     for (std::size_t i = 0; i < forces.size(); ++i)
-      if (all || forces[i].free)
-        rows.emplace_back(c, contacts.row(c) + Index(i));
-      else
-        given.emplace_back(contacts.row(c) + Index(i), forces[i]);
+      if (all || forces[i].free) rows.emplace_back(c, contacts.row(c) + Index(i));
+    if (contacts.law(c).moves(states[std::size_t(c)]))
+      for (Index m = 0; m < contacts.law(c).memories(); ++m)
+        moving.emplace_back(c, contacts.memory_begin(c) + m);
     if (all) continue;
     for (std::size_t i = 0; i < forces.size(); ++i)
       if (!forces[i].free) constant[contacts.row(c) + Index(i)] = forces[i].constant;
@@ -75,8 +73,33 @@ FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states,
   }
 }
 
+namespace {
+
+// Of the memories that move: rates less those of the law.
+void add_rates(const Contacts& contacts, const ContactStates& now, const FreeForces& free,
+               const Signals& signals, Index nodes, std::vector<std::vector<Dual>>& equations) {
+  for (std::size_t k = 0; k < free.moving.size();) {
+    const Index c = free.moving[k].first;
+    const auto count = std::size_t(contacts.law(c).memories());
+    const std::size_t first = equations.size();
+    equations.resize(first + count, std::vector<Dual>(std::size_t(nodes)));
+    for (Index n = 0; n < nodes; ++n) {
+      const LocalValues local(contacts, c, signals, n);
+      std::array<Dual, 2> rates;
+      contacts.law(c).rates(now.state[std::size_t(c)], local.signals(), {rates.data(), count});
+      for (std::size_t m = 0; m < count; ++m)
+        equations[first + m][std::size_t(n)] =
+            Dual(signals.memory_rate(free.moving[k + m].second, n)) - rates[m];
+    }
+    k += count;
+  }
+}
+
+}  // namespace
+
 std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now,
-                                             bool all_free, const Signals& signals, Index nodes) {
+                                             const FreeForces& free, bool all_free, const Signals& signals,
+                                             Index nodes) {
   std::vector<std::vector<Dual>> equations;
   for (Index c = 0; c < contacts.count(); ++c) {
     const int state = now.state[std::size_t(c)];
@@ -87,7 +110,7 @@ std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const Con
     equations.resize(first + count, std::vector<Dual>(std::size_t(nodes)));
     std::array<Dual, 3> values;
     for (Index n = 0; n < nodes; ++n) {
-      const LocalValues local(contacts, c, signals, n, now.memory);
+      const LocalValues local(contacts, c, signals, n);
       values.fill(Dual());
       if (own > 0) contacts.law(c).equations(state, local.signals(), {values.data(), own});
       std::size_t next = 0;
@@ -104,6 +127,7 @@ std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const Con
       }
     }
   }
+  add_rates(contacts, now, free, signals, nodes, equations);
   return equations;
 }
 
@@ -135,16 +159,21 @@ double SlopeOfSignals::rate(const Signals& signals, Index point) const {
     for (int i = 0; i < rows; ++i)
       sum += value.slope[k * std::size_t(rows) + std::size_t(i)] *
              signals[std::size_t(read_kinds[k] + 1)](contacts.row(contact) + i, point);
+  for (Index m = 0; m < contacts.law(contact).memories(); ++m)
+    sum += by_memory(m) * signals.memory_rate(contacts.memory_begin(contact) + m, point);
   return sum;
 }
 
+namespace {
+
+// (count q) x (R q): by all node forces.
 Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& free, const PanelShape& shape,
                                     const std::vector<std::vector<Dual>>& equations, double holding) {
   const Index q = shape.nodes(), rows = free.constant.size();
   const bool accelerations = needs_acceleration(equations, contacts, free);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Index(equations.size()) * q, rows * q);
   for (std::size_t e = 0; e < equations.size(); ++e) {
-    const Index c = free.rows[e].first;
+    const Index c = free.contact(e);
     for (Index n = 0; n < q; ++n) {
       const SlopeOfSignals slope{contacts, c, equations[e][std::size_t(n)], holding};
       auto target = result.row(Index(e) * q + n);
@@ -158,6 +187,7 @@ Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& 
   return result;
 }
 
+// Columns of all forces at q nodes put together to those of free ones.
 Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_all.rows(), free.combine.cols() * q);
   for (Index k = 0; k < free.combine.cols(); ++k)
@@ -167,7 +197,33 @@ Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& 
   return result;
 }
 
-Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right) {
+}  // namespace
+
+Eigen::MatrixXd equations_by_unknowns(const Contacts& contacts, const FreeForces& free,
+                                      const PanelShape& shape,
+                                      const std::vector<std::vector<Dual>>& equations, double holding) {
+  const Index q = shape.nodes(), forces = Index(free.rows.size()) * q, rates = Index(free.moving.size()) * q;
+  Eigen::MatrixXd result =
+      by_free_forces(equations_by_forces(contacts, free, shape, equations, holding), free, q);
+  if (rates == 0) return result;
+  result.conservativeResize(Eigen::NoChange, forces + rates);
+  result.rightCols(rates).setZero();
+  result.bottomRightCorner(rates, rates).setIdentity();
+  const Eigen::MatrixXd integrals = shape.integrals(shape.waves().points.head(q));
+  for (std::size_t e = 0; e < equations.size(); ++e)
+    for (std::size_t k = 0; k < free.moving.size(); ++k) {
+      const auto [c, m] = free.moving[k];
+      if (c != free.contact(e)) continue;
+      for (Index n = 0; n < q; ++n) {
+        const SlopeOfSignals slope{contacts, c, equations[e][std::size_t(n)], holding};
+        result.row(Index(e) * q + n).segment(forces + Index(k) * q, q) +=
+            slope.by_memory(m - contacts.memory_begin(c)) * integrals.row(n);
+      }
+    }
+  return result;
+}
+
+Eigen::MatrixXd solve_for_unknowns(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right) {
   constexpr double singular = 1e-12;
   const Lu<double> lu(by_forces);
   if (!lu.is_singular(singular)) return lu.solve(right);
@@ -181,12 +237,18 @@ namespace {
 // By the contact's own mass and the stiffness and damping of its law.
 void add_slopes(const Contacts& contacts, const FreeForces& free,
                 const std::vector<std::vector<Dual>>& equations, const PanelMotion& motion,
-                SolvedForces& result) {
+                SolvedPanel& result) {
   constexpr double eps = 2.2e-16, units = 4.0;
   // A displacement that a stiff law holds is a small sum of these.
   const double summands = motion.poles.displacement_scale() +
                           (motion.poles.outputs(0).cwiseAbs() * motion.state.cwiseAbs()).maxCoeff();
-  for (std::size_t e = 0; e < equations.size(); ++e)
+  for (std::size_t e = free.rows.size(); e < equations.size(); ++e)
+    for (const Dual& value : equations[e]) {
+      const SlopeOfSignals slope{contacts, free.contact(e), value, 0.0};
+      for (Index m = 0; m < contacts.law(free.contact(e)).memories(); ++m)
+        result.rate = std::max(result.rate, std::abs(slope.by_memory(m)));
+    }
+  for (std::size_t e = 0; e < free.rows.size(); ++e)
     for (std::size_t n = 0; n < equations[e].size(); ++n) {
       const auto [c, row] = free.rows[e];
       const SlopeOfSignals slope{contacts, c, equations[e][n], motion.poles.holding()};
@@ -202,30 +264,33 @@ void add_slopes(const Contacts& contacts, const FreeForces& free,
 
 }  // namespace
 
-SolvedForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-                         double force_size) {
+SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                        double force_size) {
   constexpr int most = 25;
   constexpr double rounding = 1e-13, stalled = 1e-9;
   const double holding = motion.poles.holding();
   const FreeForces free(contacts, now.state, holding > 0.0);
-  const Index q = motion.shape.nodes(), count = Index(free.rows.size());
+  const Index q = motion.shape.nodes(), count = free.count(), forces = Index(free.rows.size());
   Eigen::MatrixXd unknown = Eigen::MatrixXd::Zero(count, q);
-  SolvedForces result{free.constant.replicate(1, q), count == 0};
+  SolvedPanel result{{free.constant.replicate(1, q), Eigen::MatrixXd::Zero(contacts.memories(), q)},
+                     count == 0};
   double last = 0.0;
   for (int n = 0; n < most && !result.converged; ++n) {
-    const Signals signals = motion.at(motion.shape.waves(), result.force);
-    const auto equations = law_equations(contacts, now, holding > 0.0, signals, q);
+    const Signals signals = motion.at(motion.shape.waves(), result.values);
+    const auto equations = law_equations(contacts, now, free, holding > 0.0, signals, q);
     Eigen::VectorXd residual(count * q);
     for (Index e = 0; e < count; ++e)
       for (Index k = 0; k < q; ++k) residual[e * q + k] = equations[std::size_t(e)][std::size_t(k)].value;
-    const Eigen::VectorXd step = solve_for_forces(
-        by_free_forces(equations_by_forces(contacts, free, motion.shape, equations, holding), free, q),
-        residual);
+    const Eigen::VectorXd step =
+        solve_for_unknowns(equations_by_unknowns(contacts, free, motion.shape, equations, holding), residual);
     if (!step.allFinite()) return result;
     for (Index e = 0; e < count; ++e) unknown.row(e) -= step.segment(e * q, q).transpose();
-    result.force = (free.combine * unknown).colwise() + free.constant;
-    const double size = std::max(force_size, unknown.cwiseAbs().maxCoeff()),
-                 change = step.cwiseAbs().maxCoeff();
+    result.values.force = (free.combine * unknown.topRows(forces)).colwise() + free.constant;
+    for (Index k = 0; k < count - forces; ++k)
+      result.values.memory_rate.row(free.moving[std::size_t(k)].second) = unknown.row(forces + k);
+    // Memories act by forces.
+    const double size = std::max(force_size, unknown.topRows(forces).cwiseAbs().maxCoeff()),
+                 change = step.head(forces * q).cwiseAbs().maxCoeff();
     result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
     last = change;
     if (result.converged) add_slopes(contacts, free, equations, motion, result);

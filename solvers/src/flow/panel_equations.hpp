@@ -32,8 +32,7 @@ class Contacts {
 /// Signals of one contact at one point, with numbers of the gradient.
 class LocalValues {
  public:
-  LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point,
-              const std::vector<double>& memory);
+  LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point);
   LocalSignals signals() const;
 
  private:
@@ -42,18 +41,28 @@ class LocalValues {
   std::size_t rows_, memories_;
 };
 
-/// Which forces are unknown in the states of all contacts: all forces are combine x free + constant.
+/// Which forces, and which rates of memories, are unknown in the states of all contacts: all forces are
+/// combine x free + constant.
 struct FreeForces {
   FreeForces(const Contacts& contacts, const std::vector<int>& states, bool all);
 
-  std::vector<std::pair<Index, Index>> rows;  ///< contact and row of the structure of each free force
-  Eigen::MatrixXd combine;                    ///< R x free
-  Eigen::VectorXd constant;                   ///< R, N
+  Index count() const { return Index(rows.size() + moving.size()); }
+  /// Of equation e, those of the free forces first.
+  Index contact(std::size_t e) const {
+    return e < rows.size() ? rows[e].first : moving[e - rows.size()].first;
+  }
+
+  std::vector<std::pair<Index, Index>> rows;    ///< contact and row of the structure of each free force
+  std::vector<std::pair<Index, Index>> moving;  ///< contact and number of each memory that moves
+  Eigen::MatrixXd combine;                      ///< R x free
+  Eigen::VectorXd constant;                     ///< R, N
 };
 
-/// The laws' equations at the nodes of a panel: values and gradients, one per free force and node.
+/// The laws' equations at the nodes of a panel: values and gradients, one per free force and memory that
+/// moves, and node. The gradients of the latter are without that by their own rate, 1.
 std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const ContactStates& now,
-                                             bool all_free, const Signals& signals, Index nodes);
+                                             const FreeForces& free, bool all_free, const Signals& signals,
+                                             Index nodes);
 
 /// The change of a local value, with gradient `slope`, of contact c by linear changes of the signals of its
 /// rows. Row i of contact c is structure row contacts.row(c) + i.
@@ -69,25 +78,24 @@ struct SlopeOfSignals {
   double rate(const Signals& signals, Index point) const;
 };
 
-/// The free forces by the derivative of their equations. Contacts that hold each other, as a stop and a stuck
+/// The unknowns by the derivative of their equations. Contacts that hold each other, as a stop and a stuck
 /// slider at one mass, leave forces undetermined: the smallest are taken.
-Eigen::MatrixXd solve_for_forces(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
+Eigen::MatrixXd solve_for_unknowns(const Eigen::MatrixXd& by_forces, const Eigen::MatrixXd& right);
 
-/// Forces on a panel that satisfy the laws at its nodes, and whether they were found.
-struct SolvedForces {
-  Eigen::MatrixXd force;  ///< R x q, N
+/// Values on a panel that satisfy the laws at its nodes, and whether they were found.
+struct SolvedPanel {
+  NodeValues values;
   bool converged = false;
   double rate = 0.0;      ///< rad/s, at which perturbations turn or decay by the slopes of the laws
   double rounding = 0.0;  ///< N, of forces that follow from displacements
 };
-SolvedForces solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-                         double force_size);
+SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                        double force_size);
 
-/// Columns of all forces at q nodes put together to those of free ones.
-Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q);
-
-/// (free q) x (R q): the derivative of the equations by all node forces.
-Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& free, const PanelShape& shape,
-                                    const std::vector<std::vector<Dual>>& equations, double holding);
+/// (count q) x (count q): the derivative of the equations by the unknowns at the nodes, free forces and then
+/// rates of memories.
+Eigen::MatrixXd equations_by_unknowns(const Contacts& contacts, const FreeForces& free,
+                                      const PanelShape& shape,
+                                      const std::vector<std::vector<Dual>>& equations, double holding);
 
 }  // namespace wavebalance::solvers::detail

@@ -1,5 +1,7 @@
 #include "flow/variation.hpp"
 
+#include <algorithm>
+
 #include "linalg/dense.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -28,19 +30,19 @@ Eigen::MatrixXd states_by_forces(const ContactPoles& poles, const FreeForces& fr
 
 }  // namespace
 
-Eigen::MatrixXd Variation::of_forces(const Contacts& contacts, const ContactStates& now,
-                                     const FreeForces& free, const PanelMotion& motion,
-                                     const Eigen::MatrixXd& force) const {
+Eigen::MatrixXd Variation::of_unknowns(const Contacts& contacts, const ContactStates& now,
+                                       const FreeForces& free, const PanelMotion& motion,
+                                       const NodeValues& values) const {
   const PanelShape& shape = motion.shape;
   const double holding = motion.poles.holding();
-  const Index q = shape.nodes(), count = Index(free.rows.size());
+  const Index q = shape.nodes(), count = free.count();
   if (count == 0) return Eigen::MatrixXd::Zero(0, poles_.cols());
-  const Signals signals = motion.at(shape.waves(), force);
-  const auto equations = law_equations(contacts, now, holding > 0.0, signals, q);
+  const Signals signals = motion.at(shape.waves(), values);
+  const auto equations = law_equations(contacts, now, free, holding > 0.0, signals, q);
   Eigen::MatrixXd by_start = Eigen::MatrixXd::Zero(count * q, poles_.rows()),
                   by_memory = Eigen::MatrixXd::Zero(count * q, memory_.rows());
   for (Index e = 0; e < count; ++e) {
-    const Index c = free.rows[std::size_t(e)].first;
+    const Index c = free.contact(std::size_t(e));
     for (Index n = 0; n < q; ++n) {
       const SlopeOfSignals slope{contacts, c, equations[std::size_t(e)][std::size_t(n)], holding};
       for (Index r = contacts.row(c); r < contacts.row(c) + contacts.law(c).rows(); ++r)
@@ -51,25 +53,51 @@ Eigen::MatrixXd Variation::of_forces(const Contacts& contacts, const ContactStat
         by_memory(e * q + n, contacts.memory_begin(c) + m) = slope.by_memory(m);
     }
   }
-  const Eigen::MatrixXd by_free =
-      by_free_forces(equations_by_forces(contacts, free, shape, equations, holding), free, q);
-  return -solve_for_forces(by_free, product(by_start, poles_) + product(by_memory, memory_));
+  return -solve_for_unknowns(equations_by_unknowns(contacts, free, shape, equations, holding),
+                             product(by_start, poles_) + product(by_memory, memory_));
+}
+
+void Variation::pass_delay(const PanelMotion& motion, const NodeValues& values) {
+  if (delay_.isZero(0.0)) return;
+  const Eigen::VectorXd begin = product(values.force, motion.shape.at_begin());
+  const Eigen::MatrixXcd input = motion.poles.inputs() * begin.cast<std::complex<double>>();
+  poles_ += motion.poles.real_of(input) * delay_;
+  memory_ -= product(values.memory_rate, motion.shape.at_begin()) * delay_;
+  delay_.setZero();
+}
+
+double Variation::unresolved(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                             const NodeValues& values) const {
+  Variation behind = *this;
+  behind.pass_delay(motion, values);
+  const FreeForces free(contacts, now.state, motion.poles.holding() > 0.0);
+  const Eigen::MatrixXd changes = behind.of_unknowns(contacts, now, free, motion, values);
+  const Index q = motion.shape.nodes(), forces = Index(free.rows.size());
+  const double size = std::max(force_size_, changes.topRows(forces * q).cwiseAbs().maxCoeff());
+  double result = 0.0;
+  for (Index f = 0; f < forces; ++f)
+    result = std::max(result, motion.shape.unresolved(changes.middleRows(f * q, q).transpose(), size));
+  return result;
 }
 
 void Variation::over(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-                     const Eigen::MatrixXd& force, const PoleWaves& waves, Index k) {
+                     const NodeValues& values, const PoleWaves& waves, Index k) {
   const ContactPoles& poles = motion.poles;
   const Index q = motion.shape.nodes();
-  // The forces behind an instant that came later.
-  if (!delay_.isZero(0.0)) {
-    const Eigen::VectorXd begin = product(force, motion.shape.at_begin());
-    poles_ += poles.real_of(poles.inputs() * begin.cast<std::complex<double>>()) * delay_;
-    delay_.setZero();
-  }
+  pass_delay(motion, values);
   const FreeForces free(contacts, now.state, poles.holding() > 0.0);
-  const Eigen::MatrixXd changes = of_forces(contacts, now, free, motion, force);
+  const Eigen::MatrixXd changes = of_unknowns(contacts, now, free, motion, values);
+  const Index of_forces = Index(free.rows.size()) * q;
   poles.multiply(waves.decay.col(k), poles_);
-  if (!free.rows.empty()) poles_ += product(states_by_forces(poles, free, waves, k, q), changes);
+  if (of_forces > 0) force_size_ = std::max(force_size_, changes.topRows(of_forces).cwiseAbs().maxCoeff());
+  if (!free.rows.empty())
+    poles_ += product(states_by_forces(poles, free, waves, k, q), changes.topRows(of_forces));
+  if (!free.moving.empty()) {
+    const Eigen::RowVectorXd integral = motion.shape.integrals(waves.points.segment(k, 1));
+    for (std::size_t m = 0; m < free.moving.size(); ++m)
+      memory_.row(free.moving[m].second) +=
+          product(integral, changes.middleRows(of_forces + Index(m) * q, q));
+  }
   std::array<Eigen::MatrixXd, 3> forces;
   for (std::size_t d = 0; d < 3; ++d) {
     Eigen::MatrixXd at_end(Index(free.rows.size()), poles_.cols());
@@ -115,16 +143,18 @@ void Variation::through(const Contacts& contacts, const ContactPoles& poles, con
   jump +=
       poles.exponents().cwiseProduct(before - after) - poles.inputs() * force.cast<std::complex<double>>();
   next += poles.real_of(jump) * last_delay_;
+  Eigen::MatrixXd moved = memory_ + signals.memory_rate * last_delay_;
   for (Index m = 0; m < contacts.law(event.contact).memories(); ++m) {
-    auto row = memory_.row(contacts.memory_begin(event.contact) + m);
+    auto row = moved.row(contacts.memory_begin(event.contact) + m);
     if (event.memory.empty()) {
       row.setZero();
       continue;
     }
     const Dual& value = event.memory[std::size_t(m)];
-    row = (change(contacts, event.contact, value) + rate(value) * last_delay_).eval();
+    row = change(contacts, event.contact, value) + rate(value) * last_delay_;
   }
   poles_ = std::move(next);
+  memory_ = std::move(moved);
   delay_ = last_delay_;
 }
 

@@ -20,9 +20,14 @@ class Variation {
   const Eigen::MatrixXd& poles() const { return poles_; }
   const Eigen::MatrixXd& memory() const { return memory_; }
 
-  /// Over a panel up to point k of `waves`, under the forces found in these states.
+  /// Over a panel up to point k of `waves`, with the values found in these states.
   void over(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
-            const Eigen::MatrixXd& force, const PoleWaves& waves, Index k);
+            const NodeValues& values, const PoleWaves& waves, Index k);
+
+  /// The share of the two last Legendre coefficients of changes of forces on such a panel in the largest
+  /// change so far.
+  double unresolved(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
+                    const NodeValues& values) const;
 
   /// What an exit of contact c changes, from signals just before it.
   struct Event {
@@ -39,9 +44,11 @@ class Variation {
                const Signals& signals, const Eigen::VectorXcd& before);
 
  private:
-  /// The changes of the free forces at the nodes of a panel, free q x K.
-  Eigen::MatrixXd of_forces(const Contacts& contacts, const ContactStates& now, const FreeForces& free,
-                            const PanelMotion& motion, const Eigen::MatrixXd& force) const;
+  /// The changes of the unknowns at the nodes of a panel, count q x K.
+  Eigen::MatrixXd of_unknowns(const Contacts& contacts, const ContactStates& now, const FreeForces& free,
+                              const PanelMotion& motion, const NodeValues& values) const;
+  /// The forces and rates behind an instant that came later.
+  void pass_delay(const PanelMotion& motion, const NodeValues& values);
   /// The change of a local value, a row over the perturbations.
   Eigen::RowVectorXd change(const Contacts& contacts, Index c, const Dual& value) const;
 
@@ -50,6 +57,7 @@ class Variation {
   // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without
   // springs.
   std::array<Eigen::MatrixXd, 4> ends_;
+  double force_size_ = 0.0;  // the largest change of a force
   // The change of an instant behind which the forces are not known yet.
   Eigen::RowVectorXd delay_;
   // That of the last instant.

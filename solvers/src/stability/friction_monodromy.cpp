@@ -14,13 +14,6 @@ namespace {
 
 using State = FrictionPart::State;
 
-const FrictionPart& part_at(const FrictionAlong& contact, double time) {
-  for (const FrictionPart& part : contact.parts)
-    for (const double shift : {0.0, 1.0})
-      if (time + shift >= part.begin && time + shift < part.end) return part;
-  return contact.parts.back();
-}
-
 bool acts(const PeriodicStiffness& stiffness, int contact, double time) {
   return std::any_of(stiffness.intervals.begin(), stiffness.intervals.end(), [&](const ContactInterval& one) {
     return one.contact == contact && (one.always() || (time >= one.begin && time < one.end) ||
@@ -81,7 +74,7 @@ class FrictionPropagator {
     for (int c = 0; c < contacts(); ++c)
       if (acts(stiffness_, c, time)) law.stiffness(c, c) += stiffness_.tangent(c, time);
     for (const FrictionAlong& contact : stiffness_.friction)
-      add_friction(contact, part_at(contact, time), law);
+      add_friction(contact, contact.part_at(time), law);
     return law;
   }
 
@@ -160,7 +153,7 @@ class FrictionPropagator {
   // Sliders of contacts that begin to stick at `time`, from the displacements just before.
   void take_sliders(double time, const LocalLaw& before, Eigen::MatrixXd& map) const {
     for (const FrictionAlong& contact : stiffness_.friction) {
-      const FrictionPart& part = part_at(contact, time);
+      const FrictionPart& part = contact.part_at(time);
       if (part.state != State::stick || part.begin != time || contact.always_sticks()) continue;
       const FrictionConstants& constants = contact.constants;
       const Eigen::MatrixXd moved = detail::product(displacements(before), map);
@@ -181,7 +174,7 @@ class FrictionPropagator {
   void release_sliders(double time, Eigen::MatrixXd& map) const {
     std::vector<bool> stuck(static_cast<std::size_t>(contacts()), false);
     for (const FrictionAlong& contact : stiffness_.friction) {
-      const FrictionPart& part = part_at(contact, time);
+      const FrictionPart& part = contact.part_at(time);
       if (contact.always_sticks() || part.state != State::stick) continue;
       for (int i = 0; i < contact.constants.tangents; ++i)
         stuck[static_cast<std::size_t>(contact.row + contact.constants.normal_rows + i)] = true;

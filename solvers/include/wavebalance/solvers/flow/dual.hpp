@@ -32,5 +32,11 @@ inline Dual operator*(double factor, const Dual& a) { return Dual().add(a, facto
 inline Dual operator+(Dual a, const Dual& b) { return a.add(b, 1.0); }
 inline Dual operator-(Dual a, const Dual& b) { return a.add(b, -1.0); }
 inline Dual operator-(const Dual& a) { return -1.0 * a; }
+inline Dual operator*(const Dual& a, const Dual& b) {
+  return Dual(-a.value * b.value).add(a, b.value).add(b, a.value);
+}
+inline Dual operator/(const Dual& a, const Dual& b) {
+  return Dual(a.value / b.value).add(a, 1.0 / b.value).add(b, -a.value / (b.value * b.value));
+}
 
 }  // namespace wavebalance::solvers

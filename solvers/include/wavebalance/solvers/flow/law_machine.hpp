@@ -55,12 +55,18 @@ class LawMachine {
   virtual int memories() const { return 0; }
   /// Whether its memories have a meaning in a state.
   virtual bool remembers(int /*state*/) const { return false; }
+  /// Whether its memories move in a state, by rates().
+  virtual bool moves(int /*state*/) const { return false; }
   virtual ContactState kind(int state) const = 0;
   /// One per row.
   virtual std::vector<RowForce> forces(int state) const = 0;
   virtual std::vector<StateExit> exits(int state) const = 0;
+  /// The exit at whose instant the equations of a state are singular, -1 for none.
+  virtual int singular_exit(int /*state*/) const { return -1; }
   /// Writes what must vanish, one value per free row in their order.
   virtual void equations(int state, const LocalSignals& now, std::span<Dual> out) const = 0;
+  /// Writes the rates of the memories, m/s, in a state in which they move.
+  virtual void rates(int /*state*/, const LocalSignals& /*now*/, std::span<Dual> /*out*/) const {}
   virtual Dual guard(int state, int exit, const LocalSignals& now) const = 0;
   /// Writes the memories behind an exit, from the signals just before it.
   virtual void remember(int /*state*/, int /*exit*/, const LocalSignals& /*now*/,
@@ -87,8 +93,8 @@ struct ContactMachine {
 };
 
 /// The machines of the laws of a structure, in the order of its directions. `length` (m) is one that the
-/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for friction with two
-/// tangents.
+/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for rigid friction along two
+/// tangents, and for laws without states.
 std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
                                         double length, double frequency);
 

@@ -51,7 +51,7 @@ enum class PhasesStatus {
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
   resonant,              ///< the structure without contact has a motion of this period of its own
   structural_damping,    ///< it has no equation in time
-  slip_in_a_plane,       ///< friction along two tangents
+  slip_in_a_plane,       ///< rigid friction along two tangents
   law_over_period,       ///< a law that acts over a period and has no states
   undetermined,          ///< a body is free to be elsewhere: of a curve, whose points would be any of them
   wrong_order,           ///< the equations have a solution in which impacts have passed each other

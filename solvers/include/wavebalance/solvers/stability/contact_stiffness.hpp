@@ -56,7 +56,8 @@ struct FrictionPart {
   enum class State { open, stick, slip };
   State state = State::stick;
   double begin = 0.0, end = 1.0;
-  double sign = 0.0;  ///< of the friction force in slip; of stick, in the slip before it, 0 after closing
+  /// Of the friction force in slip along one tangent; of stick, in the slip before it, 0 after closing.
+  double sign = 0.0;
   double ratio =
       0.0;  ///< of stick after closing: the tangential velocity over the normal one at that instant
 };
@@ -69,6 +70,13 @@ struct FrictionAlong {
   std::vector<FrictionPart> parts;
   bool always_sticks() const {
     return parts.size() == 1 && parts.front().state == FrictionPart::State::stick;
+  }
+  /// The part at a time, 0..1.
+  const FrictionPart& part_at(double time) const {
+    for (const FrictionPart& part : parts)
+      for (const double shift : {0.0, 1.0})
+        if (time + shift >= part.begin && time + shift < part.end) return part;
+    return parts.back();
   }
 };
 
