@@ -118,3 +118,19 @@ def test_the_motion_in_which_a_contact_that_bounces_rests_is_among_those_found(r
     assert record.code == 0, record.errors
     (motion,) = record.summary["motions"]
     assert motion["stability"] == "stable" and motion["max_contact_force_N"] > 0.0
+
+
+def test_random_starts_of_friction_between_rigid_stops_settle_to_one_motion(run, scenes):
+    record = run(scenes / "cases_of_others" / "spool_valve.toml", "--analysis", "motions", "--set", "analysis.random_starts=8")
+    assert record.code == 0, record.errors
+    (motion,) = record.summary["motions"]
+    assert motion["found_by"] == "rest" and motion["stability"] == "stable" and motion["share"] > 0.5
+    assert (record.folder / "motion_1_impacts.csv").exists()
+
+
+def test_where_a_body_is_that_nothing_holds_makes_no_other_motion(run, scenes):
+    record = run(scenes / "cases_of_others" / "shaken_mass.toml", "--analysis", "motions", "--set", "analysis.random_starts=4",
+                 "--set", "forcing.frequency=1.0")
+    assert record.code == 0, record.errors
+    (motion,) = record.summary["motions"]
+    assert motion["stability"] == "on_unit_circle" and motion["share"] == 1.0

@@ -206,6 +206,16 @@ def test_a_curve_over_the_amplitude_has_all_three_motions_and_both_folds(run, ro
     assert sum(before * behind < 0.0 for before, behind in zip(passed, passed[1:])) == 3
 
 
+def test_all_motions_at_one_speed_are_the_free_whirl_and_the_rub(run, rotor):
+    speed, ring, load = 1.4, 5.0, 0.588
+    free, between, rub = radii(speed, load, ring)
+    record = run(rotor(speed, load, analysis="motions", time="", options="random_starts = 40"))
+    assert record.code == 0, record.errors
+    found = {round(one["max_displacement_m"], 3): one for one in record.summary["motions"] if one["stability"] == "stable"}
+    assert sorted(found) == pytest.approx([free, rub], abs=2e-3)
+    assert all(one["share"] > 0.0 for one in found.values()) and sum(one["share"] for one in found.values()) == 1.0
+
+
 # From open to closed and back to open, with a fold between.
 def test_a_balance_goes_over_the_frequency_from_touch_to_touch(run, scenes):
     load, ring = 0.25, 10.0
@@ -291,7 +301,6 @@ def test_a_free_rotor_in_a_ring_is_integrated_in_time(run, rotor):
         (("tangent = [2]", "tangent = [1, 2]\ntangent_coefficients = [0.6, 0.8]"), "tangent", "not perpendicular"),
         (("tangent = [2]", 'tangent = [2]\nside = "both"'), "side", "a ring is all around"),
         (("gap = 1.0", "gap = 0.0"), "gap", "above 0"),
-        ((FOURIER + '\n[analysis]\ntype = "forced_response"', '[analysis]\ntype = "motions"'), "analysis.type", "not with a ring"),
     ],
 )
 def test_what_is_no_ring_is_refused(run, rotor, change, key, expected):

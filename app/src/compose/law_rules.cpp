@@ -93,15 +93,8 @@ void check_elastic_planes(const Document& document, const Scene& scene, const st
 /// Friction is solved by balances in the displacement form, and by phases.
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
-                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting ||
-                     integrates_in_time(type);
   if (type == AnalysisType::nonlinear_mode) return;
-  if (!taken)
-    fail_rule(document, {"analysis.type", "contact.law"},
-              "not with friction; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
-              "\"shooting\", \"time_stepping\" or \"nonlinear_mode\"");
-  if (integrates_in_time(type) || type == AnalysisType::shooting)
+  if (integrates_in_time(type) || type == AnalysisType::shooting || type == AnalysisType::motions)
     check_elastic_planes(document, scene, "analysis.type", "\"forced_response\"");
   if (solves_by_phases(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
   if (scene.analysis.exact) check_elastic_planes(document, scene, "analysis.exact", "false");
@@ -109,14 +102,8 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
 
 /// A ring is solved by balances in the displacement form, and by events.
 void check_plane_analysis(const Document& document, const Scene& scene) {
-  const AnalysisType type = scene.analysis.type;
-  const bool taken = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
-                     type == AnalysisType::amplitude_sweep || type == AnalysisType::shooting ||
-                     type == AnalysisType::time_stepping;
-  if (!taken)
-    fail_rule(document, {"analysis.type", "contact.law"},
-              "not with a ring; expected \"forced_response\", \"frequency_sweep\", \"amplitude_sweep\", "
-              "\"shooting\" or \"time_stepping\"");
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document, {"analysis.type", "contact.law"}, "not with a ring; expected another analysis");
 }
 
 /// Rigid friction that is integrated in time begins at rest where the structure is.

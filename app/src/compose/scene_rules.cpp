@@ -279,9 +279,6 @@ void check_impacts(const Document& document, const Scene& scene) {
       "other");
   refuse(scene.structure.massless_tip, "structure.massless_tip",
          "a contact without mass has no impacts; expected false, or no contact.restitution");
-  refuse(scene.analysis.type == AnalysisType::motions && moves_by_events(scene), "analysis.type",
-         "all motions of impacts are sought where all contacts have them and the structure is held; expected "
-         "another analysis");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
   refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",

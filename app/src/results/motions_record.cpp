@@ -20,18 +20,18 @@ namespace {
 
 std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}", number); }
 
-/// Missing of a motion with impacts, which pass on impulses.
-double largest_force(const FoundMotion& one) {
-  return one.impacts && !one.impacts->lasts() ? missing : one.contacts.force.maxCoeff();
+/// Missing of a motion with impacts alone, which pass on impulses.
+double largest_force(const Scene& scene, const FoundMotion& one) {
+  const bool impulses = solves_by_impacts(scene) && one.found.motion.phases.empty();
+  return impulses ? missing : one.contacts.force.maxCoeff();
 }
 
 /// The largest displacement, at samples and at impacts, which lie between them.
 double largest_displacement(const FoundMotion& one) {
-  double largest = one.contacts.displacement.maxCoeff();
-  return one.impacts ? std::max(largest, highest_at_impacts(one.impacts->motion)) : largest;
+  return std::max(one.contacts.displacement.maxCoeff(), highest_at_impacts(one.found.motion));
 }
 
-Table motions_table(const Motions& all) {
+Table motions_table(const Scene& scene, const Motions& all) {
   Table table({"file", "number", "period", "stability", "unstable_multipliers", "leading_multiplier_real",
                "leading_multiplier_imag", "max_displacement_m", "max_contact_force_N", "share", "share_error",
                "found_by"});
@@ -41,7 +41,7 @@ Table motions_table(const Motions& all) {
     table.append_row({name_of_motion(i + 1) + ".csv", std::int64_t(i + 1), std::int64_t{one.found.periods},
                       stability.status, stability.unstable < 0 ? missing : double(stability.unstable),
                       stability.leading.real(), stability.leading.imag(), largest_displacement(one),
-                      largest_force(one), one.found.share, one.found.share_error,
+                      largest_force(scene, one), one.found.share, one.found.share_error,
                       std::string(to_string(one.found.found_by))});
   }
   return table;
@@ -62,8 +62,9 @@ void append_files(Record& record, const Scene& scene, const StructureModel& mode
   if (several)
     record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
                             about + ": every contact"});
-  if (motion.impacts)
-    record.files.push_back({name + "_impacts.csv", csv_text(impacts_table(scene, motion.impacts->motion.impacts)),
+  if (solves_by_impacts(scene) || !motion.found.motion.impacts.empty())
+    record.files.push_back({name + "_impacts.csv",
+                            csv_text(impacts_table(scene, motion.found.motion.impacts)),
                             about + ": its impacts"});
   for (RecordFile& file : motion_files(model, motion.structure, name)) {
     file.about = about + ": the whole structure";
@@ -120,22 +121,25 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   const Motions all = coexisting_motions(scene, model, observer);
   int iterations = 0, unknowns = 0;
   for (const FoundMotion& one : all.motions) {
-    iterations += one.iterations;
-    unknowns = std::max(unknowns, one.unknowns);
+    iterations += one.found.motion.iterations;
+    unknowns = std::max(unknowns, one.found.motion.unknowns);
   }
   Record record;
   record.warnings = model.warnings;
   record.converged = all.status == "converged";
   record.interrupted = all.status == "cancelled";
   record.status = record.interrupted ? "interrupted" : all.status;
-  record.summary = solution_entries(record.converged, record.status,
-                                    largest(all, [](const FoundMotion& one) { return one.residual; }),
-                                    iterations, unknowns, all.wall_seconds);
+  record.summary =
+      solution_entries(record.converged, record.status,
+                       largest(all, [](const FoundMotion& one) { return one.found.motion.residual; }),
+                       iterations, unknowns, all.wall_seconds);
   record.summary.emplace_back(quantities::max_displacement, largest(all, largest_displacement));
   record.summary.emplace_back(quantities::min_displacement, -largest(all, [](const FoundMotion& one) {
                                 return -one.contacts.displacement.minCoeff();
                               }));
-  record.summary.emplace_back(quantities::max_contact_force, largest(all, largest_force));
+  record.summary.emplace_back(quantities::max_contact_force, largest(all, [&](const FoundMotion& one) {
+                                return largest_force(scene, one);
+                              }));
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   const bool impacts = solves_by_impacts(scene);
@@ -144,7 +148,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});
   warn_of_scene(record, scene);
   warn_of_none(record, all, scene.analysis.longest_period);
-  record.summary.emplace_back(quantities::motions, motions_table(all));
+  record.summary.emplace_back(quantities::motions, motions_table(scene, all));
   append_unsolved(record, all);
   append_box(record, all);
   record.summary.emplace_back(quantities::warnings, record.warnings);

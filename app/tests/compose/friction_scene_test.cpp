@@ -273,7 +273,6 @@ TEST(FrictionScene, WithWrongKeysNamesTheKeyTheValueAndWhatIsAllowed) {
            Case{"slider.toml", "contact.normal_stiffness=5", "contact.normal_stiffness", "expected 0"},
            Case{"lift_off.toml", "contact.normal_stiffness=0", "normal_stiffness", "> 0"},
            Case{"lift_off.toml", "contact.law=linear", "contact.friction", ""},
-           Case{"slider.toml", "analysis.type=motions", "analysis.type", "forced_response"},
            Case{"slider.toml", "contact.tangential_stiffness=inf", "contact.tangential_stiffness", "> 0"},
        }) {
     const SceneError::Details details = error(one.scene, {one.setting});

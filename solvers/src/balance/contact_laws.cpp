@@ -65,6 +65,12 @@ bool ContactLaws::have_impacts() const {
                      [](const AnyContactLaw& law) { return law.restitution().has_value(); });
 }
 
+bool ContactLaws::have_impacts_alone(int contacts) const {
+  for (int c = 0; c < contacts; ++c)
+    if (!(*this)[c].restitution()) return false;
+  return true;
+}
+
 Eigen::VectorXd ContactLaws::restitution(int contacts) const {
   Eigen::VectorXd all(contacts);
   for (int c = 0; c < contacts; ++c) {

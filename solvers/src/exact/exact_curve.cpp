@@ -150,10 +150,8 @@ class PhaseTracer : public detail::CurveTracer {
 
 // Whether it is one of impact_motion().
 bool is_of_impacts(const PhaseFamily& family, const PhaseMotion& motion) {
-  if (motion.parts == nullptr || motion.parts->start || !motion.phases.empty()) return false;
-  for (int c = 0; c < family.dynamics().contacts(); ++c)
-    if (!family.laws()[c].restitution()) return false;
-  return true;
+  return motion.parts != nullptr && !motion.parts->start && motion.phases.empty() &&
+         family.laws().have_impacts_alone(family.dynamics().contacts());
 }
 
 }  // namespace

@@ -131,17 +131,6 @@ void set_impulses(CellGrid& grid, const std::vector<Impact>& impacts, double fre
     grid.impulses.push_back({one.contact, boundary_near(grid, one.time), one.impulse * frequency});
 }
 
-// ContactFlow::state() by the poles.
-Eigen::VectorXcd by_pole(const ContactDynamics& dynamics, const Eigen::VectorXd& state) {
-  Eigen::VectorXcd states(Index(dynamics.poles().size()));
-  Index i = 0, j = 0;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const double real = state[i++], imaginary = pole.exponent.imag() != 0.0 ? state[i++] : 0.0;
-    states[j++] = {real, imaginary};
-  }
-  return states;
-}
-
 PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
                       const std::vector<Eigen::VectorXd>& values) {
   Eigen::VectorXd all(nodes.count() * Index(values.size()));
@@ -151,6 +140,16 @@ PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
 }
 
 }  // namespace
+
+Eigen::VectorXcd states_by_pole(const ContactDynamics& dynamics, const Eigen::VectorXd& state) {
+  Eigen::VectorXcd states(Index(dynamics.poles().size()));
+  Index i = 0, j = 0;
+  for (const ContactPole& pole : dynamics.poles()) {
+    const double real = state[i++], imaginary = pole.exponent.imag() != 0.0 ? state[i++] : 0.0;
+    states[j++] = {real, imaginary};
+  }
+  return states;
+}
 
 PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, const PeriodStart& start) {
   PhaseMotion motion;
@@ -172,7 +171,7 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
   const LegendreNodes nodes(panel_nodes);
   PhaseMotion::Parts parts{PhaseModel(problem, 1.0), {}, nodes, {}, {}};
   grid.begin = {boundary_near(grid, begin),
-                parts.model.response.states(by_pole(problem.dynamics, start.state))};
+                parts.model.response.states(states_by_pole(problem.dynamics, start.state))};
   parts.iterate.forces = forces_of(grid, nodes, values);
   parts.start = start;
   motion.parts = PhaseMotion::Parts::complete(std::move(parts));

@@ -10,6 +10,9 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
 /// The impacts of its last period, by time.
 std::vector<Impact> impacts_of(const ContactFlow& flow, double begin);
 
+/// ContactFlow::state() by ContactDynamics::poles().
+Eigen::VectorXcd states_by_pole(const ContactDynamics& dynamics, const Eigen::VectorXd& state);
+
 /// Gives such a motion its multipliers.
 void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers);
 

@@ -365,6 +365,8 @@ CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
     throw std::invalid_argument("coexisting_motions: the problem is one of " +
                                 std::to_string(problem.condensed().periods()) +
                                 " periods of its load; expected 1");
+  if ((problem.moves_by_events() || problem.laws().act_over_period()) && problem.dynamics() != nullptr)
+    return event_motions(problem.phases_problem(frequency), options);
   return MotionsSearch(problem, frequency, options).run();
 }
 

@@ -222,7 +222,7 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
 
 PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                         const ResponseStart& start) {
-  if (has_impacts_alone()) {
+  if (laws_.have_impacts_alone(contacts()) && dynamics()->holding() == 0.0) {
     ImpactResponse found = impact_response(phases_problem_here(), {.observer = how.observer});
     if (!found.lasts() || found.load_periods == 1) return std::move(found.motion);
     return {};  // the curve is of motions of one period
@@ -351,20 +351,14 @@ void ContactProblem::require_no_impacts() const {
         "the laws have a restitution, whose motions are integrated from impact to impact; take impacts()");
 }
 
-bool ContactProblem::has_impacts_alone() const {
-  for (int row = 0; row < contacts(); ++row)
-    if (!laws_[row].restitution()) return false;
-  return dynamics()->holding() == 0.0;
-}
-
 ImpactResponse ContactProblem::impacts(double frequency, const ImpactResponseOptions& options) {
   load_fully(frequency);
   return impact_response(phases_problem_here(), options);
 }
 
-ImpactMotions ContactProblem::coexisting_impacts(double frequency, const ImpactMotionsOptions& options) {
+PhasesProblem ContactProblem::phases_problem(double frequency) {
   load_fully(frequency);
-  return impact_motions(phases_problem_here(), options);
+  return phases_problem_here();
 }
 
 SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& options) {

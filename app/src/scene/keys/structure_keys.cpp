@@ -55,7 +55,7 @@ void add_matrices(std::vector<SceneKey>& keys) {
       &MatricesStructure::free, "free", "",
       "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "
       "what no contact resists keeps a zero mean",
-      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
+      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping", "motions"})));
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
       "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "

@@ -1,9 +1,5 @@
 #pragma once
-#include <vector>
-
-#include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +11,7 @@ namespace wavebalance::app {
 
 /// One of the motions of a frequency, as it is written.
 struct FoundMotion {
-  solvers::CoexistingMotion found;  ///< of scenes with impacts without its motion by phases
-  std::optional<solvers::ImpactResponse> impacts = {};  ///< of scenes with impacts
-  int iterations = 0, unknowns = 0;                     ///< of Newton's method
-  double residual = std::numeric_limits<double>::quiet_NaN();
+  solvers::CoexistingMotion found;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points of its whole period
   int contact = 0;            ///< the leading one, see leading_contact()
   Eigen::MatrixXd structure;  ///< of the reduced structure at analysis.motion_points instants, m; or empty
@@ -26,17 +19,18 @@ struct FoundMotion {
 
 /// The motions at forcing.frequency.
 struct Motions {
-  std::string status = "not_settled";  ///< solvers::MotionsStatus, or with impacts solvers::ImpactStatus
+  /// solvers::MotionsStatus, or of motions from event to event that settle to none solvers::PhasesStatus
+  std::string status = "not_settled";
   std::vector<FoundMotion> motions{};
   std::vector<solvers::UnsolvedMotion> unsolved{};
-  int starts = 0, none = 0;                     ///< as of solvers::CoexistingMotions
-  std::map<std::string, int> none_by_status{};  ///< with impacts, `none` by what the starts ended with
+  int starts = 0, none = 0;  ///< as of solvers::CoexistingMotions
+  std::map<std::string, int>
+      none_by_status{};  ///< of motions from event to event, `none` by what starts ended with
   std::vector<solvers::BoxSide> box{};
   double wall_seconds = 0.0;  ///< composition, search and samples
 };
 
-/// solvers::coexisting_motions() of a scene with analysis.type = "motions", with contact.restitution
-/// solvers::impact_motions().
+/// solvers::coexisting_motions() of a scene with analysis.type = "motions".
 Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                            const solvers::Observer& observer = {});
 

@@ -54,6 +54,8 @@ class ContactLaws {
   std::vector<int> rigid(int contacts) const;
   /// Whether one has a restitution, so that motions have impacts.
   bool have_impacts() const;
+  /// Whether all of `contacts` contacts do.
+  bool have_impacts_alone(int contacts) const;
   /// The restitution of each of `contacts` contacts. Throws std::invalid_argument where one has none.
   Eigen::VectorXd restitution(int contacts) const;
   /// Whether all laws are unilateral.

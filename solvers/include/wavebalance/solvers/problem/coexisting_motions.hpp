@@ -73,7 +73,10 @@ struct CoexistingMotions {
   std::vector<UnsolvedMotion> unsolved;   ///< likewise
   int starts = 0;                         ///< random ones that were taken
   int none = 0;                           ///< of these, those that settle to none of the motions
-  std::vector<BoxSide> box;               ///< of the random states, by mode
+  /// Of event_motions(): `none` by what these ended with, and what became of the motion from rest.
+  std::map<PhasesStatus, int> none_by;
+  PhasesStatus first = PhasesStatus::converged;
+  std::vector<BoxSide> box;  ///< of the random states, by mode
 };
 
 /// The periodic motions at a frequency of the load: those that the structure settles to from rest and from
@@ -96,5 +99,17 @@ struct CoexistingMotions {
 /// ones.
 CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
                                      const MotionsOptions& options = {});
+
+/// The same of motions that are solved for from event to event: of impacts, alone or beside other laws, of
+/// friction of a structure that is free to move and of rigid friction at a contact with mass. Impacts alone
+/// begin where the motion without contact is farthest from all obstacles, others at rest. The states are
+/// uniform in discs of the poles whose radii are twice those of the first motion found, or of the free
+/// vibration after an impact with the speed of the motion without contact where these are larger; states
+/// beyond an obstacle are drawn again. Those near the closest returns of impacts alone are solved for, too,
+/// stable or not. Displacements that agree to 1e-6, of structures that are free to move about their means,
+/// are one motion.
+///
+/// Throws std::invalid_argument as impact_response() or settled_motion(). One of these for each start.
+CoexistingMotions event_motions(const PhasesProblem& problem, const MotionsOptions& options = {});
 
 }  // namespace wavebalance::solvers

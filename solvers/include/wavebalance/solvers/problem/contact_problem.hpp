@@ -6,7 +6,7 @@
 
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
-#include "wavebalance/solvers/impacts/impact_motions.hpp"
+#include "wavebalance/solvers/impacts/impact_response.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -138,10 +138,11 @@ class ContactProblem {
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 
-  /// impact_response() at a frequency of the load, and impact_motions(). Throw std::invalid_argument for laws
-  /// without restitution, a structure without modes, and as these do.
+  /// impact_response() at a frequency of the load. Throws std::invalid_argument for laws without restitution,
+  /// a structure without modes, and as this does.
   ImpactResponse impacts(double frequency, const ImpactResponseOptions& options = {});
-  ImpactMotions coexisting_impacts(double frequency, const ImpactMotionsOptions& options = {});
+  /// For what has exact motions at a frequency of the load. Throws std::invalid_argument without modes.
+  PhasesProblem phases_problem(double frequency);
 
   /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
@@ -150,7 +151,6 @@ class ContactProblem {
  private:
   void require_well_posed() const;
   void require_no_impacts() const;
-  bool has_impacts_alone() const;
   void hold(const PeriodicResponse& response);
   void load_fully(double frequency);
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
