@@ -302,6 +302,7 @@ FlowStatus ContactFlow::Engine::advance_period(int points,
   panels_.clear();
   margins_.clear();
   rests_ = sampled_ = steps_ = 0;
+  unresolved_ = 0.0;
   until_ = poles_.period();
   while (time_ < until_)
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
@@ -349,6 +350,7 @@ const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->even
 int ContactFlow::rests() const { return engine_->rests(); }
 double ContactFlow::period() const { return engine_->period(); }
 double ContactFlow::tolerance() const { return engine_->tolerance(); }
+double ContactFlow::unresolved() const { return engine_->unresolved(); }
 double ContactFlow::length() const { return engine_->length(); }
 bool ContactFlow::rests_on_contacts() const { return engine_->rests_on_contacts(); }
 void ContactFlow::perturb(const Eigen::MatrixXd& columns) { engine_->perturb(columns); }

@@ -119,7 +119,10 @@ class MotionSearch {
     // A large static deflection without contact is rounded before contacts take it back.
     const double size = now.norm() / std::sqrt(double(times_.size())),
                  rounded = rounding * problem_.contact_free.rowwise().norm().maxCoeff() / size;
-    if (found_.found) error_ = std::max({safety * (now - displacement_).norm() / now.norm(), rounded, least});
+    // Both may have the same panels, so that their distance says nothing of what these leave out.
+    if (found_.found)
+      error_ =
+          std::max({safety * (now - displacement_).norm() / now.norm(), flow.unresolved(), rounded, least});
     displacement_ = now;
     found_ = std::move(closed);
     flow_ = std::move(flow);

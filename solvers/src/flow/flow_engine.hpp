@@ -36,6 +36,7 @@ class ContactFlow::Engine {
   Eigen::MatrixXd held() const;
   double period() const { return poles_.period(); }
   double tolerance() const { return options_.tolerance; }
+  double unresolved() const { return unresolved_; }
   double length() const { return moving_; }
   bool rests_on_contacts() const { return length_ > moving_; }
 
@@ -124,7 +125,8 @@ class ContactFlow::Engine {
   Eigen::VectorXd rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
-  double length_ = 0.0, moving_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0;
+  double length_ = 0.0, moving_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0,
+         unresolved_ = 0.0;
   /// The least value of a guard in the last period, and its slope by the memory.
   struct Margin {
     double least, by_memory;

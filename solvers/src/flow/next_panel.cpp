@@ -49,6 +49,7 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
     const double rough = panel.unresolved(found.values.force, force_size_),
                  turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
     force_size_ = std::max(force_size_, found.values.force.cwiseAbs().maxCoeff());
+    unresolved_ = std::max(unresolved_, rough - found.rounding / force_size_);
     if (rough < 0.01 * options_.tolerance && turns < 0.5) level_ = std::max(level_ - 1, coarsest_);
     return Solved{&panel, std::move(found.values)};
   }

@@ -117,6 +117,9 @@ class ContactFlow {
   Eigen::MatrixXd held() const;
   double period() const;     ///< s
   double tolerance() const;  ///< FlowOptions::tolerance
+  /// The largest last coefficient of the forces on a panel of the last period beyond their rounding,
+  /// relative to the largest force.
+  double unresolved() const;
   /// m, that the motion of the contacts has: of the motion without contact about its mean, or a gap.
   double length() const;
   /// Whether its static deflection without contact is more than 1e4 times as large.

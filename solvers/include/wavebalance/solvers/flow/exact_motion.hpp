@@ -16,13 +16,13 @@ namespace wavebalance::solvers {
 ///
 /// The result has `friction` where a contact has it. Its phases are those in which a row has a force: of a
 /// normal direction with friction with piece 1, of a tangent with piece 1 in stick, 2 and 3 in slip with a
-/// positive and a negative force, of two tangents 2 in slip. `unknowns` are the states; `estimated_error` is three times the distance of
-/// the last two solutions.
+/// positive and a negative force, of two tangents 2 in slip. `unknowns` are the states; `estimated_error` is
+/// three times the distance of the last two solutions.
 ///
-/// Statuses: slip_in_a_plane for rigid friction along two tangents, law_over_period for one without states, rigid_contact at a
-/// contact with mass without a restitution, structural_damping, resonant, not_found, tolerance_missed,
-/// cancelled. Throws std::invalid_argument for sizes that do not fit and options out of range. O(periods
-/// panels ((rows q)^3 + states^2 rows q)), q = 12.
+/// Statuses: slip_in_a_plane for rigid friction along two tangents, law_over_period for one without states,
+/// rigid_contact at a contact with mass without a restitution, structural_damping, resonant, not_found,
+/// tolerance_missed, cancelled. Throws std::invalid_argument for sizes that do not fit and options out of
+/// range. O(periods panels ((rows q)^3 + states^2 rows q)), q = 12.
 PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                         const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 /// The same near a state at a time that is far from all events, as impulses need it.

@@ -26,9 +26,9 @@ PhasesProblem over_periods(const PhasesProblem& problem, int times);
 /// there to the tolerance of the exact motion, flow_motion_from(). It is tried once two periods agree to a
 /// thousandth; where what is found is unstable the structure settles further. An unstable motion is given
 /// where it settles to none, and the one near the closest return of a period where none is solved for to the
-/// tolerance, or one of more than eight periods: `settled` says what the structure does. Any laws that are machines of states: impacts, friction
-/// and others side by side, of structures that may be free to move. Throws as integrate_by_events(), and for
-/// options out of range.
+/// tolerance, or one of more than eight periods: `settled` says what the structure does. Any laws that are
+/// machines of states: impacts, friction and others side by side, of structures that may be free to move.
+/// Throws as integrate_by_events(), and for options out of range.
 SettledExact settled_motion(const PhasesProblem& problem, TimeSteppingOptions stepping,
                             const ContactPhasesOptions& options, const std::optional<PoleStart>& start = {});
 
