@@ -163,28 +163,6 @@ Measure measure_of(const ExactCurve& curve, const Scene& scene, const solvers::C
           impulses};
 }
 
-solvers::BranchEnd end_of(solvers::SweepStatus status) {
-  using solvers::BranchEnd, solvers::SweepStatus;
-  switch (status) {
-    case SweepStatus::reached_end:
-      return BranchEnd::to_end;
-    case SweepStatus::returned:
-      return BranchEnd::from_end;
-    case SweepStatus::ended:
-      return BranchEnd::parent_curve;
-    case SweepStatus::closed:
-      return BranchEnd::closed;
-    case SweepStatus::no_start:
-      return BranchEnd::no_start;
-    case SweepStatus::point_limit:
-      return BranchEnd::point_limit;
-    case SweepStatus::cancelled:
-      return BranchEnd::cancelled;
-    default:
-      return BranchEnd::lost;
-  }
-}
-
 /// Of impacts, one from each period doubling, in their order.
 void add_doubled_curves(const std::vector<ExactCurve>& curves, const Measure& measure, Sweep& sweep) {
   const std::vector<solvers::SpecialPoint>& points = sweep.stability.special_points;
@@ -194,7 +172,8 @@ void add_doubled_curves(const std::vector<ExactCurve>& curves, const Measure& me
     solvers::Branch branch;
     branch.periods = 2;
     branch.special_point = static_cast<int>(next++);
-    branch.end = end_of(curve.status);
+    branch.end =
+        curve.status == solvers::SweepStatus::ended ? solvers::BranchEnd::parent_curve : end_of(curve.status);
     copy_points(curve, measure, true, branch.curve, branch.stability);
     copy_impacts(curve, 2 * sweep.periods, sweep);
     copy_motions(curve, sweep);

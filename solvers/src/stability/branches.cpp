@@ -14,30 +14,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-BranchEnd end_of(SweepStatus status) {
-  switch (status) {
-    case SweepStatus::reached_end:
-      return BranchEnd::to_end;
-    case SweepStatus::returned:
-      return BranchEnd::from_end;
-    case SweepStatus::no_start:
-      return BranchEnd::no_start;
-    case SweepStatus::closed:
-      return BranchEnd::closed;
-    case SweepStatus::lost:
-      return BranchEnd::lost;
-    case SweepStatus::unbounded:
-      return BranchEnd::unbounded;
-    case SweepStatus::point_limit:
-      return BranchEnd::point_limit;
-    case SweepStatus::ended:
-      return BranchEnd::special_point;
-    case SweepStatus::cancelled:
-      break;
-  }
-  return BranchEnd::cancelled;
-}
-
 class Branches {
  public:
   Branches(const BranchProblems& problems, const ContactLaws& laws, const ContactDynamics& dynamics,
@@ -251,6 +227,30 @@ class Branches {
 };
 
 }  // namespace
+
+BranchEnd end_of(SweepStatus status) {
+  switch (status) {
+    case SweepStatus::reached_end:
+      return BranchEnd::to_end;
+    case SweepStatus::returned:
+      return BranchEnd::from_end;
+    case SweepStatus::no_start:
+      return BranchEnd::no_start;
+    case SweepStatus::closed:
+      return BranchEnd::closed;
+    case SweepStatus::lost:
+      return BranchEnd::lost;
+    case SweepStatus::unbounded:
+      return BranchEnd::unbounded;
+    case SweepStatus::point_limit:
+      return BranchEnd::point_limit;
+    case SweepStatus::ended:
+      return BranchEnd::special_point;
+    case SweepStatus::cancelled:
+      break;
+  }
+  return BranchEnd::cancelled;
+}
 
 std::string_view to_string(BranchEnd end) {
   using enum BranchEnd;

@@ -24,6 +24,9 @@ enum class BranchEnd {
 
 std::string_view to_string(BranchEnd end);
 
+/// That of a branch whose curve ended so, `special_point` where SweepStart::ends says so.
+BranchEnd end_of(SweepStatus status);
+
 /// A curve of periodic responses that begins at a special point of another.
 struct Branch {
   int parent = 0;         ///< the curve that it leaves: 0 for the main one, i for the i-th branch, from 1
