@@ -51,11 +51,9 @@ std::string phrase_of(solvers::PhasesStatus status) {
       return "they have too many unknowns";
     case not_found:
       return "no motion of the structure is found near the balance";
-    case undetermined:  // of curves
-      break;
     case cancelled:
       return "no time was left for them";
-    case converged:
+    default:  // of curves and of impacts
       break;
   }
   return "";

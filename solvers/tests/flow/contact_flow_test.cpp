@@ -29,7 +29,10 @@ struct Vibrating {
     problem.contact_free = detail::FreeContacts(structure, cosine, dynamics.holding()).at(frequency, 1.0);
   }
   FlowMotion motion(int points = 4096) const {
-    return integrate_by_events(problem, {.output_points = points, .period_tolerance = 1e-9});
+    TimeSteppingOptions options;
+    options.output_points = points;
+    options.period_tolerance = 1e-9;
+    return integrate_by_events(problem, options);
   }
 
   LinearStructure structure;
