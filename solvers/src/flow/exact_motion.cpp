@@ -98,7 +98,7 @@ class MotionSearch {
 
   // The motion with a tolerance of the flow, and how far it lies from the one before.
   bool refine(double tolerance) {
-    constexpr double safety = 3.0, least = 1e-13, rounding = std::numeric_limits<double>::epsilon();
+    constexpr double least = 1e-13, rounding = std::numeric_limits<double>::epsilon();
     const FlowOptions flow_options;
     exhausted_ = operations_left_ < flow_options.panels * operations_of_panel;
     if (exhausted_) return false;
@@ -119,10 +119,10 @@ class MotionSearch {
     // A large static deflection without contact is rounded before contacts take it back.
     const double size = now.norm() / std::sqrt(double(times_.size())),
                  rounded = rounding * problem_.contact_free.rowwise().norm().maxCoeff() / size;
-    // Both may have the same panels, so that their distance says nothing of what these leave out.
-    if (found_.found)
-      error_ =
-          std::max({safety * (now - displacement_).norm() / now.norm(), flow.unresolved(), rounded, least});
+    // The solution before is farther off. Both may have the same panels, so that their distance says nothing
+    // of what these leave out of the forces, of which displacements have less than a tenth.
+    const double left_out = 0.1 * flow.unresolved(), apart = (now - displacement_).norm() / now.norm();
+    if (found_.found) error_ = std::max({apart, left_out, rounded, least});
     displacement_ = now;
     found_ = std::move(closed);
     flow_ = std::move(flow);

@@ -163,7 +163,9 @@ ImpactResponse ImpactSearch::ended(PhasesStatus status) {
     ImpactResponse response = solve(start);
     if (response.motion.converged()) found_ = std::move(response);
   }
-  return found_.motion.converged() ? finished(found_) : rests;
+  const bool rests_stably = rests.moves() && rests.unstable == 0,
+             better = found_.motion.converged() && (found_.unstable == 0 || !rests_stably);
+  return better ? finished(found_) : rests;
 }
 
 ImpactResponse ImpactSearch::none(PhasesStatus status) const {
