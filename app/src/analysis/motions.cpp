@@ -34,8 +34,7 @@ FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& pr
 Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                            const solvers::Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
-  const bool events =
-      solves_by_impacts(scene) || moves_by_events(scene) || has_friction(scene) || names_plane(scene.contact);
+  const bool events = seeks_by_events(scene);
   const bool none = events && model.contact_dynamics() == nullptr;
   if (none) return {.status = "no_modes"};
   solvers::ContactProblem problem =

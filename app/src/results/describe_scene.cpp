@@ -204,8 +204,9 @@ std::string starts_line(const Scene& scene) {
   return fmt::format(
       "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
       analysis.longest_period, analysis.random_starts, analysis.seed,
-      solves_by_impacts(scene)
-          ? "instants and impulses of impacts"
+      solves_by_impacts(scene) ? "instants and impulses of impacts"
+      : seeks_by_events(scene)
+          ? "the map of a period from event to event"
           : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
 }
 

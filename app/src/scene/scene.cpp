@@ -82,6 +82,11 @@ bool moves_by_events(const Scene& scene) {
 
 bool solves_by_impacts(const Scene& scene) { return has_impacts(scene.contact) && !moves_by_events(scene); }
 
+bool seeks_by_events(const Scene& scene) {
+  return has_impacts(scene.contact) || moves_by_events(scene) || names_friction(scene.contact) ||
+         names_plane(scene.contact);
+}
+
 Scene with_longer_period(Scene scene, int times) {
   Time& time = scene.time;
   const bool odd = time.functions % 2 == 1 && !is_wavelet(time.trial) && !is_wavelet(time.weight);

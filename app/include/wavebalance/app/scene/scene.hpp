@@ -350,6 +350,9 @@ std::vector<std::string> input_files(const Scene& scene);
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);
+
+/// Whether its coexisting motions are sought from event to event.
+bool seeks_by_events(const Scene& scene);
 /// Whether its motion is solved for exactly, without functions and points of its own: time.method, and
 /// analysis.type = "shooting", which is another name for the same, "motions", and responses that
 /// moves_by_events().
