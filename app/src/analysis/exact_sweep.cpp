@@ -78,7 +78,7 @@ SweepPhases::Point phases_of(const PhaseMotion& motion) {
   return solvers::PointPhases{motion.status, motion.estimated_error, solvers::missing};
 }
 
-/// Those of a motion of so many periods of the load.
+/// The impacts of a motion over several periods of the load.
 PointImpacts impacts_of(const PhaseMotion& motion, int periods) {
   PointImpacts result;
   result.count = static_cast<int>(motion.impacts.size());
@@ -163,7 +163,7 @@ Measure measure_of(const ExactCurve& curve, const Scene& scene, const solvers::C
           impulses};
 }
 
-/// Of impacts, one from each period doubling, in their order.
+/// A curve of impacts from each period doubling, in their order.
 void add_doubled_curves(const std::vector<ExactCurve>& curves, const Measure& measure, Sweep& sweep) {
   const std::vector<solvers::SpecialPoint>& points = sweep.stability.special_points;
   std::size_t next = 0;

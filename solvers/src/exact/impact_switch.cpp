@@ -14,7 +14,7 @@ namespace {
 bool lies_near(const ImpactStep& step, const ImpactPoint& at) {
   constexpr double twice = 2.0;
   const ImpactPoint way = ImpactPath::chord(step.last.point, step.next.point),
-                   part = ImpactPath::chord(step.last.point, at);
+                    part = ImpactPath::chord(step.last.point, at);
   return step.path.inner(part, part) <= twice * twice * step.path.inner(way, way);
 }
 

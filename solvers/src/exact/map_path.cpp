@@ -21,32 +21,6 @@ MapStart moved(MapStart start, const Eigen::VectorXd& step, double part = 1.0) {
   return start;
 }
 
-// Slip for a shorter time is not told from rest: it begins with the root of the distance from where it does.
-ContactPattern pattern_of(const ContactFlow& flow) {
-  constexpr double shortest = 1e-4;  // periods
-  ContactPattern pattern;
-  for (std::size_t c = 0; c < flow.machines().size(); ++c) {
-    const LawMachine& law = *flow.machines()[c].law;
-    int passages = 0;
-    bool sticks = false;
-    double slips = 0.0;
-    bool open = law.kind(flow.panels().back().states[c]) == ContactState::open;
-    for (const FlowPanel& panel : flow.panels()) {
-      const ContactState kind = law.kind(panel.states[c]);
-      passages += (kind == ContactState::open) != open;
-      open = kind == ContactState::open;
-      sticks = sticks || kind == ContactState::stick;
-      if (law.memories() > 0 && kind != ContactState::stick) slips += panel.end - panel.begin;
-    }
-    for (const FlowEvent& one : flow.events())  // a rebound opens and closes at once
-      if (one.contact == int(c) && one.impulse > 0.0 && law.kind(one.to) == ContactState::open) passages += 2;
-    pattern.passages.push_back(passages);
-    pattern.sticks.push_back(sticks);
-    pattern.slips = pattern.slips || slips > shortest * flow.period();
-  }
-  return pattern;
-}
-
 // Sets how far the beginning is from events.
 void set_calm(const ContactFlow& flow, MapPoint& point) {
   point.events = flow.events();
@@ -255,40 +229,41 @@ Eigen::VectorXd MapPath::plane_across(const Eigen::VectorXd& change, const Eigen
   return all.cwiseAbs2().cwiseProduct(change);
 }
 
-// By differences of the flow along the tangent. Beside grazing a change of the parameter alone may touch
-// elsewhere than motions of the curve do, so that how these come back tells the change by the parameter
-// better.
+// By differences over a part of a tangent, forwards and backwards.
+std::optional<MapPath::Along> MapPath::along(const MapPoint& point, const Eigen::VectorXd& tangent,
+                                             double part) const {
+  const auto points = int(times().size());
+  const auto ahead = period(moved(point.start, tangent, part), tolerance_, false, points),
+             behind = period(moved(point.start, tangent, -part), tolerance_, false, points);
+  if (!ahead || !behind) return std::nullopt;
+  return Along{(ahead->displacement - behind->displacement).reshaped() / (2.0 * part),
+               (ahead->change - behind->change) / (2.0 * part)};
+}
+
+// Beside grazing a change of the parameter alone may touch elsewhere than motions of the curve do, so that
+// how these come back tells the change by the parameter better.
 bool MapPath::set_direction(MapPoint& point, const Eigen::VectorXd& held) const {
   constexpr double apart = 1e-4, comes_back = 1e-3;  // arc length; of a step
   constexpr int most = 4;
   const Index states = point.start.state.size();
-  const double scale = arc_scale(point);
   const auto length = [&](double moved, double parameter) {
-    return std::hypot(moved / scale, parameter / parameter_scale());
+    return std::hypot(moved / arc_scale(point), parameter / parameter_scale());
   };
-  for (int i = 0; i < most; ++i) {
+  for (int i = 1;; ++i) {
     const Eigen::VectorXd tangent = point.slopes.step(held, Eigen::VectorXd::Zero(states), 1.0);
     if (!tangent.allFinite()) return false;
-    const double rough = length(tangent.head(states).cwiseProduct(point.weights).norm(), tangent[states]),
-                 part = apart / rough;
-    const auto points = int(times().size());
-    const auto ahead = period(moved(point.start, tangent, part), tolerance_, false, points),
-               behind = period(moved(point.start, tangent, -part), tolerance_, false, points);
-    if (!ahead || !behind) return false;
-    const Eigen::VectorXd away = (ahead->change - behind->change) / (2.0 * part);
-    const bool along = std::abs(tangent[states]) > comes_back * rough * parameter_scale();
-    if (along && i + 1 < most && length(away.cwiseProduct(point.weights).norm(), 0.0) > comes_back * rough) {
-      point.slopes.by_parameter += away / tangent[states];
-      continue;
-    }
-    point.displacement_direction = (ahead->displacement - behind->displacement).reshaped() / (2.0 * part);
-    const double speed = length(rms_of(point.displacement_direction), tangent[states]);
+    const double rough = length(tangent.head(states).cwiseProduct(point.weights).norm(), tangent[states]);
+    const auto change = along(point, tangent, apart / rough);
+    if (!change) return false;
+    const double speed = length(rms_of(change->displacement), tangent[states]);
     point.direction = tangent / speed;
-    point.displacement_direction /= speed;
+    point.displacement_direction = change->displacement / speed;
     point.slope = point.direction[states];
-    break;
+    const bool returns = length(change->away.cwiseProduct(point.weights).norm(), 0.0) <= comes_back * rough;
+    if (returns || i == most || !(std::abs(tangent[states]) > comes_back * rough * parameter_scale()))
+      return true;
+    point.slopes.by_parameter += change->away / tangent[states];
   }
-  return true;
 }
 
 std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd& held) const {

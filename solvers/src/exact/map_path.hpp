@@ -23,6 +23,8 @@ struct ContactPattern {
   bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
 };
+/// That of the last period of a flow.
+ContactPattern pattern_of(const ContactFlow& flow);
 
 /// Of states and the parameter, the direction of the parameter alone.
 inline Eigen::VectorXd along_parameter(Eigen::Index states) {
@@ -107,6 +109,11 @@ class MapPath : public CurvePath {
   std::shared_ptr<MapPoint> solved(const MapStart& start, const Eigen::VectorXd& held,
                                    const std::optional<MapSlopes>& slopes) const;
   std::shared_ptr<MapPoint> point_of(Closed found, const Eigen::VectorXd& held) const;
+  /// What moves by a tangent: displacements (m), and how far states do not come back.
+  struct Along {
+    Eigen::VectorXd displacement, away;
+  };
+  std::optional<Along> along(const MapPoint& point, const Eigen::VectorXd& tangent, double part) const;
   bool set_direction(MapPoint& point, const Eigen::VectorXd& held) const;
   std::pair<MapStart, Eigen::VectorXd> on_chord(const MapPoint& a, const MapPoint& b, double share,
                                                 bool turns) const;

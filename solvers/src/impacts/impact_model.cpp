@@ -29,6 +29,14 @@ Eigen::MatrixXd at_once(const ContactDynamics& dynamics, int derivative) {
   return sum;
 }
 
+// The sum of the moduli of a derivative's harmonics.
+double magnitude_of(const PhasesProblem& problem, int c, int derivative) {
+  double sum = 0.0;
+  for (Index n = 0; n < problem.contact_free.cols(); ++n)
+    sum += std::pow(turn * double(n) * problem.frequency, derivative) * std::abs(problem.contact_free(c, n));
+  return sum;
+}
+
 // A contact without mass is displaced at once.
 void require_mass(const ContactDynamics& dynamics) {
   constexpr double rounding = 1e-9;
@@ -45,6 +53,18 @@ void require_mass(const ContactDynamics& dynamics) {
 }
 
 }  // namespace
+
+FreeScales free_scales(const PhasesProblem& problem) {
+  FreeScales scales;
+  for (int c = 0; c < problem.dynamics.contacts(); ++c) {
+    const double gap = std::abs(problem.laws[c].gap());
+    scales.displacement =
+        std::max(scales.displacement, magnitude_of(problem, c, 0) + (std::isfinite(gap) ? gap : 0.0));
+    scales.velocity = std::max(scales.velocity, magnitude_of(problem, c, 1));
+  }
+  scales.velocity = std::max(scales.velocity, turn * problem.frequency * scales.displacement * 1e-3);
+  return scales;
+}
 
 ImpactModel::Poles::Poles(const ContactDynamics& dynamics) {
   const auto count = Index(dynamics.poles().size());
@@ -71,6 +91,7 @@ ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
       gaps_(problem.laws.gaps(problem.dynamics.contacts())),
       restitution_(problem.laws.restitution(problem.dynamics.contacts())),
       period_(1.0 / problem.frequency),
+      scales_(free_scales(problem)),
       poles_(like != nullptr ? like->poles_ : std::make_shared<const Poles>(problem.dynamics)) {
   difference_.resize(poles());
   last_.resize(poles());
@@ -83,18 +104,11 @@ ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
   for (int c = 0; c < contacts(); ++c) {
     free_third_[c] = free_magnitude(c, 3);
     free_.emplace_back(problem.contact_free.row(c).transpose(), turn * problem.frequency);
-    displacement_scale_ = std::max(displacement_scale_, free_magnitude(c, 0) + std::abs(gaps_[c]));
-    velocity_scale_ = std::max(velocity_scale_, free_magnitude(c, 1));
   }
-  velocity_scale_ = std::max(velocity_scale_, turn * problem.frequency * displacement_scale_ * 1e-3);
 }
 
 double ImpactModel::free_magnitude(int c, int derivative) const {
-  double sum = 0.0;
-  for (Index n = 0; n < problem_.contact_free.cols(); ++n)
-    sum +=
-        std::pow(turn * double(n) * problem_.frequency, derivative) * std::abs(problem_.contact_free(c, n));
-  return sum;
+  return magnitude_of(problem_, c, derivative);
 }
 
 bool ImpactModel::is_resonant() const {

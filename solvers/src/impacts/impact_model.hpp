@@ -21,6 +21,12 @@ struct GreenValues {
   double magnitude = 0.0, rate_magnitude = 0.0;
 };
 
+/// The sizes of the motion without contact, m and m/s, the displacement with finite gaps.
+struct FreeScales {
+  double displacement = 0.0, velocity = 0.0;
+};
+FreeScales free_scales(const PhasesProblem& problem);
+
 /// What does not change while impacts of one period are sought: the poles of the contacts, y' = lambda y
 /// between impacts and y -> y - p left at one, with the displacements Re(shapes y) beside the motion without
 /// contact. Immutable.
@@ -45,8 +51,8 @@ class ImpactModel {
   /// C, m/s^3: a bound on the third derivative of the motion without contact.
   const Eigen::VectorXd& free_third() const { return free_third_; }
   const Eigen::MatrixXd& inverse_mass() const { return poles_->inverse_mass; }  ///< C x C, 1/kg
-  double displacement_scale() const { return displacement_scale_; }             ///< m, of motion and gaps
-  double velocity_scale() const { return velocity_scale_; }                     ///< m/s
+  double displacement_scale() const { return scales_.displacement; }            ///< m, of motion and gaps
+  double velocity_scale() const { return scales_.velocity; }                    ///< m/s
 
   /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
   ContactsAt free_motion(double time) const;
@@ -79,11 +85,11 @@ class ImpactModel {
   Eigen::VectorXd gaps_, restitution_;
   double period_;
   std::vector<HarmonicSeries> free_;  // of each contact
+  FreeScales scales_;
   std::shared_ptr<const Poles> poles_;
   Eigen::VectorXcd difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
   Eigen::VectorXcd last_;        // periodic() at the end of the period
   Eigen::VectorXd free_third_;
-  double displacement_scale_ = 0.0, velocity_scale_ = 0.0;
 };
 
 /// Throws std::invalid_argument as impact_motion() does for a problem.

@@ -24,33 +24,16 @@ bool has_impacts_alone(const PhasesProblem& problem) {
   return problem.laws.have_impacts_alone(problem.dynamics.contacts()) && problem.dynamics.holding() == 0.0;
 }
 
-// m/s, of the contacts without contact.
-double speed_of(const PhasesProblem& problem) {
-  const double rate = 2.0 * std::numbers::pi * problem.frequency;
-  double length = 0.0, speed = 0.0;
-  for (int c = 0; c < problem.dynamics.contacts(); ++c) {
-    const double gap = std::abs(problem.laws[c].gap());
-    double displacement = std::isfinite(gap) ? gap : 0.0, velocity = 0.0;
-    for (Index n = 0; n < problem.contact_free.cols(); ++n) {
-      displacement += std::abs(problem.contact_free(c, n));
-      velocity += rate * double(n) * std::abs(problem.contact_free(c, n));
-    }
-    length = std::max(length, displacement);
-    speed = std::max(speed, velocity);
-  }
-  return std::max(speed, 1e-3 * rate * length);
-}
-
 // Random states of the poles, uniform in discs.
 class RandomStates {
  public:
-  // The radii are twice those of the free vibration after an impact with the speed of the motion without
-  // contact, and at least twice those of the first motion found.
+  // The radii hold twice the free vibration after an impact with the speed of the motion without contact, and
+  // twice the first motion found.
   RandomStates(const PhasesProblem& problem, const ImpactResponse& first, unsigned seed)
       : problem_(problem), generator_(seed), radii_(Eigen::VectorXd::Zero(poles())) {
     constexpr double wider = 2.0;
     const Eigen::MatrixXd inverse_mass = inverse_contact_mass(problem.dynamics);
-    const double speed = speed_of(problem);
+    const double speed = free_scales(problem).velocity;
     for (Index c = 0; c < inverse_mass.rows(); ++c)
       for (Index l = 0; l < poles() && inverse_mass(c, c) > 0.0; ++l)
         radii_[l] = std::max(radii_[l], std::abs(pole(l).left[c]) * (speed / inverse_mass(c, c)));
@@ -58,7 +41,7 @@ class RandomStates {
     radii_ *= wider;
   }
 
-  // One with all contacts below their gaps at t = 0; of smaller discs where none is found.
+  // One with all contacts below their gaps at t = 0, in smaller discs where none is found.
   Eigen::VectorXcd next() {
     constexpr int most = 64;
     Eigen::VectorXcd state(poles());

@@ -77,8 +77,7 @@ TEST(ImpactCurveTest, BeginsToTouchAtTheLoadWhoseMotionReachesTheGap) {
   const PhaseFamily family = traced.family(frequency, SweepParameter::load_scale);
   const double reach = std::abs(scene.free_amplitudes()[0]);
   const double from = 0.5 * 2.0 / reach, to = 2.0 * 2.0 / reach;
-  const ExactCurve curve =
-      exact_curve(family, impact_motion(family.at(from), {}), {.from = from, .to = to});
+  const ExactCurve curve = exact_curve(family, impact_motion(family.at(from), {}), {.from = from, .to = to});
   EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
   ASSERT_FALSE(places_of(curve, Type::grazing).empty());
   EXPECT_NEAR(places_of(curve, Type::grazing).front(), 2.0 / reach, 1e-12);
@@ -204,8 +203,7 @@ TEST(ImpactCurveTest, FollowsABarOfManyModes) {
 TEST(ImpactCurveTest, StopsWhereItsObserverSaysSo) {
   ExactCurveOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 4; };
-  const ExactCurve curve =
-      TracedImpacts(impact_oscillator(0.1, 0.5, 0.8, 1.2)).over_omega(1.2, 3.2, options);
+  const ExactCurve curve = TracedImpacts(impact_oscillator(0.1, 0.5, 0.8, 1.2)).over_omega(1.2, 3.2, options);
   EXPECT_EQ(curve.status, SweepStatus::cancelled);
   EXPECT_EQ(curve.points.size(), 4u);
 }

@@ -32,7 +32,8 @@ TEST(EventMotionsTest, FindTheStableMotionOfTwoPeriodsThatTheTableHas) {
   for (const testing::KnownImpacts& known : testing::known_impacts()) {
     if (known.scene.omega != 3.7 || std::abs(known.multipliers.front()) > 1.0) continue;
     seen += std::ranges::any_of(found.motions, [&](const CoexistingMotion& one) {
-      return one.found_by != MotionSource::newton && one.stability.unstable == 0 && has_impulses_of(one, known);
+      return one.found_by != MotionSource::newton && one.stability.unstable == 0 &&
+             has_impulses_of(one, known);
     });
   }
   // The table has it twice, a period of the load apart.
@@ -60,7 +61,7 @@ TEST(EventMotionsTest, AreTheSameForTheSameSeedAndStableWhereStartsSettle) {
   const ImpactScene scene = testing::two_masses_with_impacts(0.3, 0.7, 1.6);
   const ContactDynamics dynamics(scene.structure());
   const CoexistingMotions one = event_motions(scene.problem(dynamics), {.random_starts = 6}),
-                      other = event_motions(scene.problem(dynamics), {.random_starts = 6});
+                          other = event_motions(scene.problem(dynamics), {.random_starts = 6});
   ASSERT_EQ(one.motions.size(), other.motions.size());
   for (std::size_t i = 0; i < one.motions.size(); ++i) {
     EXPECT_EQ(one.motions[i].arrivals, other.motions[i].arrivals);

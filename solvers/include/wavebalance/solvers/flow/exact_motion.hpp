@@ -17,7 +17,7 @@ namespace wavebalance::solvers {
 /// The result has `friction` where a contact has it. Its phases are those in which a row has a force: of a
 /// normal direction with friction with piece 1, of a tangent with piece 1 in stick, 2 and 3 in slip with a
 /// positive and a negative force, of two tangents 2 in slip. `unknowns` are the states; `estimated_error` is
-/// three times the distance of the last two solutions.
+/// the distance of the last two solutions, and at least what their panels leave out and rounding.
 ///
 /// Statuses: slip_in_a_plane for rigid friction along two tangents, law_over_period for one without states,
 /// rigid_contact at a contact with mass without a restitution, structural_damping, resonant, not_found,

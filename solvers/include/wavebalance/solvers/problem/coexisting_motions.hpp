@@ -73,7 +73,7 @@ struct CoexistingMotions {
   std::vector<UnsolvedMotion> unsolved;   ///< likewise
   int starts = 0;                         ///< random ones that were taken
   int none = 0;                           ///< of these, those that settle to none of the motions
-  /// Of event_motions(): `none` by what these ended with, and what became of the motion from rest.
+  /// Set by event_motions(): `none` by their last status, and the status of the start from rest.
   std::map<PhasesStatus, int> none_by;
   PhasesStatus first = PhasesStatus::converged;
   std::vector<BoxSide> box;  ///< of the random states, by mode
@@ -103,9 +103,9 @@ CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
 /// The same of motions that are solved for from event to event: of impacts, alone or beside other laws, of
 /// friction of a structure that is free to move and of rigid friction at a contact with mass. Impacts alone
 /// begin where the motion without contact is farthest from all obstacles, others at rest. The states are
-/// uniform in discs of the poles whose radii are twice those of the first motion found, or of the free
+/// uniform in discs of the poles whose radii hold twice the first motion found, or the free
 /// vibration after an impact with the speed of the motion without contact where these are larger; states
-/// beyond an obstacle are drawn again. Those near the closest returns of impacts alone are solved for, too,
+/// beyond an obstacle are drawn again. Motions near the closest returns of impacts alone are solved for, too,
 /// stable or not. Displacements that agree to 1e-6, of structures that are free to move about their means,
 /// are one motion.
 ///

@@ -24,7 +24,7 @@ enum class BranchEnd {
 
 std::string_view to_string(BranchEnd end);
 
-/// That of a branch whose curve ended so, `special_point` where SweepStart::ends says so.
+/// How a branch ended whose curve has this status: `special_point` for SweepStatus::ended.
 BranchEnd end_of(SweepStatus status);
 
 /// A curve of periodic responses that begins at a special point of another.
