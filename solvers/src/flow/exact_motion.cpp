@@ -121,8 +121,9 @@ class MotionSearch {
                  rounded = rounding * problem_.contact_free.rowwise().norm().maxCoeff() / size;
     // The solution before is farther off. Both may have the same panels, so that their distance says nothing
     // of what these leave out of the forces, of which displacements have less than a tenth.
-    const double left_out = 0.1 * flow.unresolved(), apart = (now - displacement_).norm() / now.norm();
-    if (found_.found) error_ = std::max({apart, left_out, rounded, least});
+    const double left_out = 0.1 * flow.unresolved();
+    if (found_.found)
+      error_ = std::max({(now - displacement_).norm() / now.norm(), left_out, rounded, least});
     displacement_ = now;
     found_ = std::move(closed);
     flow_ = std::move(flow);
