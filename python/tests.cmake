@@ -16,11 +16,13 @@ else()
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
   endforeach()
-  # What a scene must answer, through the command as a user runs it.
-  file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/scenes/*_test.py)
-  foreach(test IN LISTS tests)
-    get_filename_component(name ${test} NAME_WE)
-    wavebalance_add_python_test(scenes_${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/scenes ${test})
+  # What a user sees, through the command and the package, without a compiler.
+  foreach(topic scenes analyses command compare laws structures)
+    file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
+    foreach(test IN LISTS tests)
+      get_filename_component(name ${test} NAME_WE)
+      wavebalance_add_python_test(${topic}_${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
+    endforeach()
   endforeach()
   # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
   wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/mixtures ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)

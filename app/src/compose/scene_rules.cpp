@@ -374,6 +374,8 @@ void check_scene_rules(const Document& document, Scene& scene) {
   const bool events = moves_by_events(scene), phases = solves_by_phases(scene);
   const bool balanced = !stepping && !mode && !phases && !events && !solves_by_impacts(scene);
   if (sweep && events) scene.analysis.exact = true;
+  // The pair of the start names bases, by which an automatic mass would be redistributed.
+  if (events && scene.contact.mass == ContactMass::automatic) scene.contact.mass = ContactMass::keep;
   if (sweep && scene.analysis.exact && scene.time.trial.empty()) scene.time = start_pair(scene);
   if (phases && (!events || scene.time.tolerance > 0.0)) check_least_tolerance(document, scene);
   if (balanced) check_time(document, scene);

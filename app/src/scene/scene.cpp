@@ -75,9 +75,11 @@ bool moves_by_events(const Scene& scene) {
   if (has_impacts(contact))
     return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
                                [](const ContactPair& pair) { return !is_rigid(pair.law); });
-  const bool with_mass = contact.mass == ContactMass::keep && !scene.structure.massless_tip;
-  return (free && (names_friction(contact) || names_plane(contact))) ||
-         (with_mass && names_rigid_friction(contact));
+  if (free && (names_friction(contact) || names_plane(contact))) return true;
+  const bool kept = contact.mass == ContactMass::keep ||
+                    (contact.mass == ContactMass::automatic && scene.time.trial.empty() &&
+                     scene.analysis.type != AnalysisType::nonlinear_mode);
+  return kept && !scene.structure.massless_tip && names_rigid_friction(contact);
 }
 
 bool solves_by_impacts(const Scene& scene) { return has_impacts(scene.contact) && !moves_by_events(scene); }

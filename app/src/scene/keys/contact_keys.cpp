@@ -96,7 +96,7 @@ void add_contact_keys(std::vector<SceneKey>& keys) {
       &Contact::mass, "mass", "",
       "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
       "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law, but not "
-      "in nonlinear modes",
+      "in nonlinear modes, nor with rigid friction and no time.trial, whose motions are then exact",
       optional,
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
 }

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-SCENES = Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
+SCENES = Path(__file__).resolve().parents[1] / "reproduce" / "scenes"
 
 
 class Record:
