@@ -74,7 +74,7 @@ class Case {
   Eigen::VectorXd reference_energy_;
 };
 
-/// The motion of a scene with time.method = "phases". Throws report::NotConverged.
+/// The motion of a scene with time.method = "exact". Throws report::NotConverged.
 app::Response by_phases(const app::Scene& scene, int structure_points = 0);
 
 /// One time history of the tip, such as &app::Response::velocity, of every response; missing values where it

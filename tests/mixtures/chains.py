@@ -126,7 +126,7 @@ def scene_of(mixture):
     if "rigid_slider" in laws:
         common["mass"] = "keep"
     loaded = int(np.argmax(mixture["load"]))
-    time = {} if common else {"time": {"method": "phases"}}
+    time = {} if common else {"time": {"method": "exact"}}
     return {
         **time,
         "structure": {"type": "matrices", **{key: mixture[key] for key in ("mass", "damping", "stiffness")}},

@@ -86,7 +86,7 @@ load = "f.mtx"
 amplitude = 3.7312107147218043
 frequency = 7.992404694015555
 [time]
-method = "phases"
+method = "exact"
 [analysis]
 type = "forced_response"
 """).summary
@@ -162,6 +162,6 @@ type = "forced_response"
     assert summary["stability"] == "not_found"
     assert summary["unstable_multipliers"] is None
     balance = scene[scene.index("[time]"):scene.index("[analysis]")]
-    exact = run(scene.replace(balance, '[time]\nmethod = "phases"\n')).summary
+    exact = run(scene.replace(balance, '[time]\nmethod = "exact"\n')).summary
     assert exact["status"] == "converged" and exact["residual"] < 1e-12
     assert exact["unstable_multipliers"] == 2

@@ -117,7 +117,7 @@ def test_a_free_ball_between_stiff_dashpots_has_the_exact_motion_of_time_steppin
              .replace('law = "rigid"\nrestitution = 0.6', 'law = "kelvin_voigt"\nstiffness = 500.0\ndamping = 1.6')
              .replace('amplitude = 0.06', 'amplitude = 0.06\nfrequency = 0.15915494309189535')
              .split("[analysis]")[0])
-    exact = run(scene + '[time]\nmethod = "phases"\n[analysis]\ntype = "forced_response"\n')
+    exact = run(scene + '[time]\nmethod = "exact"\n[analysis]\ntype = "forced_response"\n')
     assert exact.code == 0, exact.errors
     assert exact.summary["stability"] == "stable"
     stepped = run(scene + '[analysis]\ntype = "time_stepping"\n')

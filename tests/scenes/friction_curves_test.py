@@ -75,7 +75,7 @@ def test_an_exact_curve_of_friction_beside_a_stop_has_the_peak_of_exact_motions(
     assert {"grazing", "slip"} <= {point["type"] for point in summary["special_points"]}
     peak = max(rows_of(record), key=lambda row: float(row["vibration_m"]))
     alone = MIXTURE.split("[time]")[0] + f"frequency = {peak['frequency_Hz']}\n"
-    motion = run(alone + '[time]\nmethod = "phases"\n[analysis]\ntype = "forced_response"\n').summary
+    motion = run(alone + '[time]\nmethod = "exact"\n[analysis]\ntype = "forced_response"\n').summary
     assert motion["status"] == "converged"
     assert motion["vibration_m"] == pytest.approx(float(peak["vibration_m"]), rel=1e-6)
 

@@ -186,7 +186,7 @@ def motion_of(record, rows):
 
 SWEEP = ('[time]\ntrial = "fourier"\nweight = "fourier"\nfunctions = 15\nquadrature_points = 128\n'
          '[analysis]\ntype = "frequency_sweep"\nexact = true\nfrequency_from = 0.19\nfrequency_to = 0.24')
-PHASES = '[time]\nmethod = "phases"\n[analysis]\ntype = "forced_response"\noutput_points = 2048'
+PHASES = '[time]\nmethod = "exact"\n[analysis]\ntype = "forced_response"\noutput_points = 2048'
 
 
 @pytest.mark.parametrize("seed, with_normal, states", [

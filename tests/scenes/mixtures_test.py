@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-PHASES = '[time]\nmethod = "phases"\n[analysis]\ntype = "forced_response"\n'
+PHASES = '[time]\nmethod = "exact"\n[analysis]\ntype = "forced_response"\n'
 
 
 def scene(structure, contacts, load, frequency):
@@ -48,12 +48,33 @@ def test_an_exact_motion_is_not_held_against_samples(run, matrix):
     assert not any("differ" in warning for warning in record.summary["warnings"])
 
 
-def test_rigid_friction_beside_a_law_of_the_velocity_is_refused_by_name(command, two_masses, tmp_path):
-    contacts = slider(1, "friction = 0.4\nnormal_load = 1.0") + '[[contact.pairs]]\ndofs = [2]\nlaw = "kelvin_voigt"\nstiffness = 5.0\ndamping = 0.3\ngap = 0.3\n'
-    (tmp_path / "scene.toml").write_text(scene(two_masses, contacts, "load_dofs = [2]\namplitude = 1.0", 0.1))
+RIGID_BESIDE_DASHPOT = (slider(1, "friction = 0.4\nnormal_load = 1.0") + '[[contact.pairs]]\ndofs = [2]\nlaw = "kelvin_voigt"\n'
+                        "stiffness = 5.0\ndamping = 0.3\ngap = 0.3\n")
+
+
+def test_rigid_friction_beside_a_law_of_the_velocity_is_refused_by_name_where_bases_are_named(command, two_masses, tmp_path):
+    bases = '[time]\ntrial = "fourier"\nweight = "fourier"\nfunctions = 31\n'
+    text = scene(two_masses, RIGID_BESIDE_DASHPOT, "load_dofs = [2]\namplitude = 1.0", 0.1)
+    (tmp_path / "scene.toml").write_text(text.replace('[time]\nmethod = "exact"\n', bases))
     checked = command("check", "scene.toml")
     assert checked.code == 2
     assert "tangential_stiffness" in checked.errors and "scene.toml" in checked.errors
+
+
+def test_rigid_friction_keeps_its_mass_where_no_bases_are_named(run, two_masses):
+    text = scene(two_masses, RIGID_BESIDE_DASHPOT, "load_dofs = [2]\namplitude = 1.0", 0.1)
+    named, kept = (run(text, "--no-report", set=chosen).summary for chosen in ((), ('contact.mass="keep"',)))
+    assert named["status"] == kept["status"] == "converged"
+    assert named["max_displacement_m"] == kept["max_displacement_m"]
+    assert "contact_mass_frequency_change" not in named
+
+
+def test_the_former_word_of_the_exact_method_is_refused_and_names_the_new_one(command, two_masses, tmp_path):
+    text = scene(two_masses, RIGID_BESIDE_DASHPOT, "load_dofs = [2]\namplitude = 1.0", 0.1)
+    (tmp_path / "scene.toml").write_text(text.replace('"exact"', '"phases"'))
+    checked = command("check", "scene.toml")
+    assert checked.code == 2
+    assert 'time.method = "phases": expected "balance" or "exact"; did you mean "exact"?' in checked.errors
 
 
 def test_an_undamped_structure_at_its_frequency_is_told_as_singular(run, matrix):

@@ -129,7 +129,7 @@ def test_friction_of_a_turning_journal_moves_and_destabilizes_the_synchronous_ru
     speed, load = 1.1, 0.363
     (radius,) = radii(speed, load, 5.0, friction)
     exact = multipliers(radius, speed, 5.0, friction)
-    text = rotor(speed, load, time='[time]\nmethod = "phases"', more=f"friction = {abs(friction)}")
+    text = rotor(speed, load, time='[time]\nmethod = "exact"', more=f"friction = {abs(friction)}")
     if friction < 0.0:  # the journal turns the other way
         text = text.replace("dofs = [1]\ntangent = [2]", "dofs = [2]\ntangent = [1]")
     record = run(text)
@@ -263,7 +263,7 @@ def test_a_partial_rub_is_that_of_an_integration_by_balance_exactly_and_in_time(
     speed, load, friction = 0.9424777960769379, 0.5, 0.05
     expected = integrated(speed, load, 5.0, PARTIAL["stiffness"], -1.6, friction)
     more, few = f"friction = {friction}", "output_points = 256"
-    exact = run(rotor(speed, load, time='[time]\nmethod = "phases"', more=more, options=few, **PARTIAL))
+    exact = run(rotor(speed, load, time='[time]\nmethod = "exact"', more=more, options=few, **PARTIAL))
     assert np.abs(motion(exact) - expected).max() < 1e-7
     assert [one["contact"] for one in exact.summary["phases"]] == [1, 1]
     in_time = run(rotor(speed, load, time="", more=more, analysis="time_stepping", options=few, **PARTIAL))

@@ -18,7 +18,7 @@ load_dofs = [1]
 amplitude = 1.0
 frequency = 0.1
 [time]
-method = "phases"
+method = "exact"
 [analysis]
 type = "forced_response"
 """
@@ -62,7 +62,7 @@ type = "forced_response"
 """
 
 
-@pytest.mark.parametrize("time", ['trial = "fourier"\nweight = "fourier"\nfunctions = 63', 'method = "phases"'])
+@pytest.mark.parametrize("time", ['trial = "fourier"\nweight = "fourier"\nfunctions = 63', 'method = "exact"'])
 def test_an_elastic_stop_without_damping_is_undamped_or_unstable(run, matrix, time):
     matrix("m.mtx", [[1.0]])
     verdicts = set()

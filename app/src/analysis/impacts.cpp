@@ -37,7 +37,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   result.unknowns = motion.unknowns;
   if (!result.moves) return;
   result.residual = motion.residual;
-  if (found.lasts()) result.solved_by = name_of(TimeMethod::phases);
+  if (found.lasts()) result.solved_by = name_of(TimeMethod::exact);
   if (found.lasts()) result.phases = {motion, solvers::missing, solvers::missing};
   result.struck = motion.impacts;
   result.periods = result.motion_periods = found.load_periods;

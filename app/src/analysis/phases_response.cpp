@@ -186,7 +186,7 @@ Response timed_response(const Scene& scene, const StructureModel& model, const R
                         bool settling) {
   const auto start = std::chrono::steady_clock::now();
   Response result;
-  result.solved_by = name_of(TimeMethod::phases);
+  result.solved_by = name_of(TimeMethod::exact);
   try {
     solve_by_phases(scene, model, options, settling, result);
   } catch (const solvers::SingularSystem& error) {

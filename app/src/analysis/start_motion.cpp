@@ -169,7 +169,7 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
         "what the structure settles to");
   if (solves_by_phases(scene))
     throw std::invalid_argument(
-        "--start-from: not with time.method = \"phases\", which starts from a coarse balance of its own; expected "
+        "--start-from: not with time.method = \"exact\", which starts from a coarse balance of its own; expected "
         "\"balance\"");
   if (scene.time.tolerance > 0.0)
     throw std::invalid_argument(

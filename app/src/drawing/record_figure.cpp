@@ -207,7 +207,7 @@ double shown_energy(const std::vector<double>& energies, double largest) {
 Figure response_figure(const Scene& scene, const Response& response) {
   Scene solved = scene;
   solved.time = solved_time(scene.time, response);
-  if (response.solved_by == name_of(TimeMethod::phases)) solved.time.method = TimeMethod::phases;
+  if (response.solved_by == name_of(TimeMethod::exact)) solved.time.method = TimeMethod::exact;
   return motion_figure(solved, response, scene.forcing.frequency);
 }
 

@@ -10,6 +10,7 @@
 #include "report/other_motions.hpp"
 #include "report/peak_words.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -223,7 +224,7 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
 /// How far what was solved lies from the exact periodic solution that was found near it, where the record
 /// says it. An exact curve lies nowhere else.
 void append_phases(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
-  if (curve && text_in(summary, quantities::solved_by) == "phases") return;
+  if (curve && text_in(summary, quantities::solved_by) == name_of(TimeMethod::exact)) return;
   const std::string status = text_in(summary, quantities::phases_status);
   const double error = number_in(summary, quantities::error_of_displacement),
                force = number_in(summary, quantities::error_of_force);

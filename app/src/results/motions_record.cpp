@@ -143,7 +143,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
   record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
   const bool impacts = solves_by_impacts(scene);
-  record.summary.emplace_back(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::phases));
+  record.summary.emplace_back(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::exact));
   record.summary.emplace_back(quantities::random_starts, std::int64_t{all.starts});
   record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});
   warn_of_scene(record, scene);

@@ -272,7 +272,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (!sweep.impacts.empty()) {
     record.summary.emplace_back(quantities::solved_by, "impacts");
   } else if (!sweep.exact_motions.empty() || scene.analysis.exact) {
-    record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::phases));
+    record.summary.emplace_back(quantities::solved_by, name_of(TimeMethod::exact));
   } else {
     append_discretisation(record.summary, scene.time);
     record.summary.emplace_back(quantities::form, std::string(to_string(sweep.curve.form)));

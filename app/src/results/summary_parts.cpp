@@ -161,7 +161,7 @@ void append_attractor(Record& record, const Scene& scene, const Response& respon
     if (!response.moves)
       record.warnings.push_back(
           "From rest the structure settles to a motion of this period, which the equations of these functions "
-          "and points were not solved for. More time.functions or time.method = \"phases\" may find it.");
+          "and points were not solved for. More time.functions or time.method = \"exact\" may find it.");
     return;
   }
   record.warnings.push_back(
@@ -217,7 +217,7 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
-bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::phases); }
+bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::exact); }
 
 std::string_view name_of(solvers::FrictionPart::State state) {
   using enum solvers::FrictionPart::State;

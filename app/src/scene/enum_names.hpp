@@ -75,7 +75,7 @@ inline constexpr std::array<NamedValue<AnalysisType>, 7> enum_names<AnalysisType
      {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
 template <>
 inline constexpr std::array<NamedValue<TimeMethod>, 2> enum_names<TimeMethod>{
-    {{TimeMethod::balance, "balance"}, {TimeMethod::phases, "phases"}}};
+    {{TimeMethod::balance, "balance"}, {TimeMethod::exact, "exact"}}};
 
 template <class Enum>
 constexpr std::string_view enum_name(Enum value) {

@@ -106,7 +106,7 @@ bool solves_by_phases(const Scene& scene) {
   if (moves_by_events(scene)) return type == AnalysisType::shooting || type == AnalysisType::forced_response;
   if (has_impacts(scene.contact)) return false;
   return type == AnalysisType::shooting || type == AnalysisType::motions ||
-         (type == AnalysisType::forced_response && scene.time.method == TimeMethod::phases);
+         (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact);
 }
 
 namespace {

@@ -49,6 +49,7 @@ std::string_view name_for(std::string_view place, std::string_view word) {
                                     {"analysis", "amplitude_end", "amplitude_to"},
                                     {"time", "harmonics", "functions = 2 x harmonics + 1"},
                                     {"time", "samples", "quadrature_points"},
+                                    {"method", "phases", "exact"},
                                     {"law", "unilateral", "linear"},
                                     {"law", "penalty", "linear"},
                                     {"law", "friction", "coulomb"},

@@ -120,7 +120,7 @@ def test_values_of_the_slider_are_those_of_its_exact_motions(solve):
     group = text("slider")["values"][1]
     for place, work, multiplier in zip(group["at"], group["rows"][0][2:], group["rows"][1][2:]):
         found = solve("slider.toml", "--analysis=forced_response", "--unset=time.trial", "--unset=time.weight", "--unset=time.functions",
-                      "--unset=time.quadrature_points", "time.method=phases", f"forcing.frequency={place / (2 * pi)!r}").summary
+                      "--unset=time.quadrature_points", "time.method=exact", f"forcing.frequency={place / (2 * pi)!r}").summary
         assert found["friction_work_J"] == pytest.approx(work, rel=1e-8)
         assert np.hypot(found["leading_multiplier_real"], found["leading_multiplier_imag"]) == pytest.approx(multiplier, abs=1e-8)
 
@@ -147,7 +147,7 @@ def test_values_of_den_hartogs_oscillator_are_its_closed_forms():
 def test_stiff_sliders_come_to_rigid_friction_like_the_root_of_their_flexibility(solve, omega):
     distances = []
     for stiffness in (1e4, 1e6, 1e8):
-        run = solve("den_hartog.toml", "--analysis=forced_response", "time.method=phases", f"contact.tangential_stiffness={stiffness}",
+        run = solve("den_hartog.toml", "--analysis=forced_response", "time.method=exact", f"contact.tangential_stiffness={stiffness}",
                     f"forcing.frequency={omega / (2 * pi)!r}")
         distances.append(abs(run.summary["max_displacement_m"] / den_hartog(omega)[0] - 1))
     assert [distances[0] / distances[1], distances[1] / distances[2]] == pytest.approx([10.0, 10.0], abs=1.0)

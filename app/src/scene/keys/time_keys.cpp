@@ -34,8 +34,8 @@ void add_time_keys(std::vector<SceneKey>& keys) {
   time(&Time::tolerance, "tolerance", "",
        "relative rms error of the contact displacement over the period to be met, in place of functions and "
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
-       "these too; with method = \"phases\" that of the phases",
-       within(0, 1), derived("none; 1e-9 with method = \"phases\" and of motions", default_tolerance),
+       "these too; with method = \"exact\" that of the phases",
+       within(0, 1), derived("none; 1e-9 with method = \"exact\" and of motions", default_tolerance),
        only_with(analysis_is({"forced_response", "shooting", "motions"}).unless("contact.restitution")));
   time(&Time::functions, "functions", "", "trial functions; a power of two for wavelets", within(1, 1 << 20),
        required_with(balance), only_with(of_bases));

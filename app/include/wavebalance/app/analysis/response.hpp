@@ -99,7 +99,7 @@ struct Response {
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
                               ///< ResponseOptions::structure_points points
-  /// TimeMethod of a forced response: "balance", or "phases" of scenes by phases and of those whose
+  /// TimeMethod of a forced response: "balance", or "exact" of scenes by phases and of those whose
   /// time.tolerance phases meet more cheaply; empty for references.
   std::string solved_by;
   int start_functions = 0;  ///< of phases: those of the balance that they started from; 0 without one
@@ -150,7 +150,7 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
 double largest_phases_tolerance(int contacts);
 
 /// The motion of the structure itself by phases of contact, to time.tolerance: of scenes with time.method =
-/// "phases". It starts from a balance with the first of phases_starts Fourier functions near which there is a
+/// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a
 /// motion, and where there is none from the motion that the structure settles to. The status is that of the
 /// phases, or "no_start" where neither leads to a motion and "no_modes" where the structure has none to
 /// compute.

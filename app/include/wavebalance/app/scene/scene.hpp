@@ -42,7 +42,7 @@ enum class AnalysisType {
 };
 /// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
 /// itself by phases of contact.
-enum class TimeMethod { balance, phases };
+enum class TimeMethod { balance, exact };
 /// Fourier functions of the balances from which phases are sought, one after the other until there is a
 /// motion.
 inline constexpr std::array phases_starts{63, 127, 255, 511};
