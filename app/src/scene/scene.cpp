@@ -101,12 +101,17 @@ Scene with_longer_period(Scene scene, int times) {
 
 bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_stepping; }
 
+bool names_exact_method(const Scene& scene) {
+  const AnalysisType type = scene.analysis.type;
+  return !has_impacts(scene.contact) &&
+         (type == AnalysisType::shooting || type == AnalysisType::motions ||
+          (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact));
+}
+
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (moves_by_events(scene)) return type == AnalysisType::shooting || type == AnalysisType::forced_response;
-  if (has_impacts(scene.contact)) return false;
-  return type == AnalysisType::shooting || type == AnalysisType::motions ||
-         (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact);
+  return names_exact_method(scene);
 }
 
 namespace {

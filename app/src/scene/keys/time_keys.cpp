@@ -11,7 +11,7 @@ std::vector<std::string_view> basis_names() {
 }
 
 SceneValue default_tolerance(const Scene& scene) {
-  return solves_by_phases(scene) ? default_phases_tolerance : 0.0;
+  return names_exact_method(scene) ? default_phases_tolerance : 0.0;
 }
 
 }  // namespace
@@ -27,16 +27,16 @@ void add_time_keys(std::vector<SceneKey>& keys) {
        "what a response solves for: the balance in a pair of bases, or the motion of the structure itself by "
        "phases of contact, which has no functions and starts from a coarse balance of its own",
        optional, only_with(analysis_is({"forced_response"}).unless("contact.restitution")));
-  time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
-       required_with(balance), only_with(of_bases));
-  time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),
-       required_with(balance), only_with(of_bases));
   time(&Time::tolerance, "tolerance", "",
        "relative rms error of the contact displacement over the period to be met, in place of functions and "
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
        "these too; with method = \"exact\" that of the phases",
        within(0, 1), derived("none; 1e-9 with method = \"exact\" and of motions", default_tolerance),
        only_with(analysis_is({"forced_response", "shooting", "motions"}).unless("contact.restitution")));
+  time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
+       required_with(balance), only_with(of_bases));
+  time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),
+       required_with(balance), only_with(of_bases));
   time(&Time::functions, "functions", "", "trial functions; a power of two for wavelets", within(1, 1 << 20),
        required_with(balance), only_with(of_bases));
   time(&Time::formulation, "formulation", "", "how many derivatives move to the weights: none, one or two",

@@ -353,6 +353,9 @@ bool solves_by_impacts(const Scene& scene);
 
 /// Whether its coexisting motions are sought from event to event.
 bool seeks_by_events(const Scene& scene);
+/// Whether analysis and method, which are read before contacts, ask for exact motions, with laws other than
+/// impacts.
+bool names_exact_method(const Scene& scene);
 /// Whether its motion is solved for exactly, without functions and points of its own: time.method, and
 /// analysis.type = "shooting", which is another name for the same, "motions", and responses that
 /// moves_by_events().
