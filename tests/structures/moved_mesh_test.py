@@ -1,13 +1,11 @@
 """Meshes of structures of matrices, whose nodes move with the rows that the dof map gives them."""
 
-import base64
-import re
 import tomllib
 
 import numpy as np
 import pytest
 import scipy.io
-from structure_scenes import CHAIN, MATRICES, changed, refused
+from structure_scenes import CHAIN, MATRICES, changed, node_displacements, refused
 
 import wavebalance as wb
 
@@ -38,16 +36,6 @@ def written(scene, folder, overrides):
     assert record.converged, record.status
     rows = scipy.io.mmread(folder / "motion.mtx").T
     return rows, [node_displacements(folder / f"motion_{i:04d}.vtu") for i in range(len(rows))]
-
-
-def node_displacements(file):
-    text = file.read_text()
-    assert '<DataArray type="Float64" Name="displacement" NumberOfComponents="3" format="appended" offset="0"/>' in text
-    points = int(re.search('NumberOfPoints="([0-9]+)"', text)[1])
-    begin = text.index("_", text.index('<AppendedData encoding="base64">')) + 1
-    block = base64.b64decode(text[begin:begin + 4 * -(-(8 + 24 * points) // 3)])
-    assert int.from_bytes(block[:8], "little") == 24 * points
-    return np.frombuffer(block[8:8 + 24 * points], "<f8").reshape(points, 3)
 
 
 def test_nodes_move_with_their_rows(tmp_path):

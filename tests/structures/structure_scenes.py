@@ -1,5 +1,7 @@
 """Scenes of structures of which a test changes one thing, and what their tests compare them by."""
 
+import base64
+import re
 from pathlib import Path
 
 import numpy as np
@@ -152,3 +154,14 @@ def modal_damping(stiffness, mass, ratio):
     """The damping that is this ratio of the critical one in each mode."""
     squares, shapes = scipy.linalg.eigh(stiffness, mass)
     return mass @ shapes @ np.diag(2.0 * ratio * np.sqrt(squares)) @ shapes.T @ mass
+
+
+def node_displacements(file):
+    """What a file for ParaView displaces each node by, nodes x 3."""
+    text = file.read_text()
+    assert '<DataArray type="Float64" Name="displacement" NumberOfComponents="3" format="appended" offset="0"/>' in text
+    points = int(re.search('NumberOfPoints="([0-9]+)"', text)[1])
+    begin = text.index("_", text.index('<AppendedData encoding="base64">')) + 1
+    block = base64.b64decode(text[begin:begin + 4 * -(-(8 + 24 * points) // 3)])
+    assert int.from_bytes(block[:8], "little") == 24 * points
+    return np.frombuffer(block[8:8 + 24 * points], "<f8").reshape(points, 3)
