@@ -5,13 +5,7 @@
 #include "support/chain_files.hpp"
 #include "support/scene_texts.hpp"
 #include "support/strip.hpp"
-#include "support/summary_value.hpp"
-#include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/modes.hpp"
-#include "wavebalance/app/analysis/sweep.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/results/record.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
@@ -21,26 +15,6 @@ namespace {
 using namespace wavebalance::app;
 namespace fem = wavebalance::fem;
 
-/// The bar of a scene as Matrix Market files and the scene of them: the same sections but [structure].
-Scene as_matrices(const TemporaryFolder& folder, const Scene& bar, const std::string& structure = "") {
-  const auto matrices = make_structure(bar);
-  fem::write_matrix_market(folder / "m.mtx", matrices.mass, fem::MatrixMarketSymmetry::symmetric);
-  fem::write_matrix_market(folder / "k.mtx", matrices.stiffness, fem::MatrixMarketSymmetry::symmetric);
-  fem::write_matrix_market(folder / "c.mtx", matrices.damping, fem::MatrixMarketSymmetry::symmetric);
-  const std::string tip = std::to_string(bar.structure.elements);
-  const std::string text = write_scene(bar);
-  std::string result =
-      "[structure]\ntype = \"matrices\"\nmass = \"m.mtx\"\nstiffness = \"k.mtx\"\ncontact_dofs = [" + tip +
-      "]\n" + structure + "\n" + text.substr(text.find("\n[contact]"));
-  if (bar.analysis.type != AnalysisType::nonlinear_mode)
-    result = with(result, "[forcing]\n", "[forcing]\nload_dofs = [" + tip + "]\n");
-  return load_scene(folder.write("matrices.toml", result));
-}
-
-double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
-}
-
 TEST(StructureModel, ComputesItsPolesOnceForAllCopies) {
   const StructureModel model = make_model(load_scene(WAVEBALANCE_SCENES "/jones_legrand_2014/case1.toml"));
   const StructureModel copy = model;
@@ -48,82 +22,23 @@ TEST(StructureModel, ComputesItsPolesOnceForAllCopies) {
   EXPECT_EQ(model.contact_dynamics(), copy.contact_dynamics());
 }
 
-TEST(MatricesModel, BarGivenAsMatricesHasTheSameNonlinearMode) {
-  const TemporaryFolder folder;
-  const Scene bar = parse_scene(rod_scene, "rod.toml");
-  const Record expected = analyse(bar), found = analyse(as_matrices(folder, bar));
-  ASSERT_EQ(found.backbone.rows(), expected.backbone.rows());
-  EXPECT_EQ(found.backbone.texts("status"), expected.backbone.texts("status"));
-  const auto a = found.backbone.numbers("energy_ratio"), b = expected.backbone.numbers("energy_ratio");
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (std::isfinite(b[i])) {
-      EXPECT_NEAR(a[i], b[i], 1e-10 * b[i]);
-    }
-}
-
-TEST(MatricesModel, BarGivenAsMatricesRespondsAlike) {
-  const TemporaryFolder folder;
-  const Scene bar = parse_scene(bar_scene, "bar.toml");
-  const Response expected = weighted_residual_response(bar);
-  const Response found = weighted_residual_response(as_matrices(folder, bar, "damping = \"c.mtx\""));
-  ASSERT_TRUE(found.converged);
-  EXPECT_LT(distance(found.displacement(), expected.displacement()), 1e-10);
-  EXPECT_LT(distance(found.force(), expected.force()), 1e-10);
-}
-
-TEST(MatricesModel, BarGivenAsMatricesHasTheSameSweep) {
-  const TemporaryFolder folder;
-  const std::string text = with(bar_scene, "\"forced_response\"        # 23",
-                                "\"frequency_sweep\"\nfrequency_from = 1250\nfrequency_to = 1260");
-  const Scene bar = parse_scene(text, "bar.toml");
-  const Sweep expected = frequency_sweep(bar);
-  const Sweep found = frequency_sweep(as_matrices(folder, bar, "stiffness_damping = 1e-4"));
-  ASSERT_TRUE(found.converged());
-  ASSERT_EQ(found.curve.points.size(), expected.curve.points.size());
-  for (std::size_t i = 0; i < found.curve.points.size(); ++i) {
-    const auto &a = found.curve.points[i], &b = expected.curve.points[i];
-    EXPECT_NEAR(a.frequency, b.frequency, 1e-10 * b.frequency);
-    EXPECT_NEAR(a.max_displacement, b.max_displacement, 1e-10 * b.max_displacement);
-  }
-}
-
-TEST(MatricesModel, AllModesKeptChangeNothing) {
-  const TemporaryFolder folder;
-  const Scene bar = parse_scene(rod_scene, "rod.toml");
-  const ModeStudy whole(bar), reduced(as_matrices(folder, bar, "kept_modes = 19"));
-  EXPECT_TRUE(reduced.model().reduced());
-  const auto a = reduced.at_energy(3.0), b = whole.at_energy(3.0);
-  EXPECT_NEAR(a.omega, b.omega, 1e-8 * b.omega);
-  const auto u = reduced.model().recover(reduced.structure_motion(a, 64).displacement);
-  const auto v = whole.structure_motion(b, 64).displacement;
-  EXPECT_LT((u - v).cwiseAbs().maxCoeff(), 1e-6 * v.cwiseAbs().maxCoeff());
-}
-
-TEST(MatricesModel, NegativeContactDofsLookTheOtherWay) {
+TEST(MatricesModel, RecoversMotionsOfItsSizeAlone) {
   const TemporaryFolder folder;
   write_chain(folder);
-  const auto model_of = [&](const std::string& dofs) {
-    return make_model(load_scene(folder.write("case.toml", with(chain_scene, "[2, 3]", dofs))));
-  };
-  const StructureModel up = model_of("[2, 3]"), down = model_of("[-2, 3]");
-  EXPECT_EQ(Eigen::MatrixXd(up.structure.contact_directions),
-            (Eigen::MatrixXd(2, 3) << 0, 1, 0, 0, 0, 1).finished());
-  EXPECT_EQ(Eigen::MatrixXd(down.structure.contact_directions),
-            (Eigen::MatrixXd(2, 3) << 0, -1, 0, 0, 0, 1).finished());
-  Eigen::MatrixXd motion(3, 1);
-  motion << 1.0, 2.0, 3.0;
-  EXPECT_EQ(down.recover(motion), motion);
-  EXPECT_THROW(up.recover(Eigen::MatrixXd(2, 1)), std::invalid_argument);
+  const StructureModel model = make_model(load_scene(folder.write("case.toml", chain_scene)));
+  const Eigen::MatrixXd motion = Eigen::MatrixXd::Ones(3, 1);
+  EXPECT_EQ(model.recover(motion), motion);
+  EXPECT_THROW(model.recover(Eigen::MatrixXd(2, 1)), std::invalid_argument);
 }
 
-TEST(MatricesModel, ModalDampingIsTheRatioOfEveryMode) {
+TEST(MatricesModel, TermsOfOneShapeAreOneForce) {
   const TemporaryFolder folder;
   write_chain(folder);
-  const auto structure = make_model(load_scene(folder.write("case.toml", chain_scene))).structure;
-  const auto modes = fem::eigenmodes(structure.stiffness, structure.mass, 3);
-  const Eigen::MatrixXd modal = modes.shapes.transpose() * (structure.damping * modes.shapes);
-  const Eigen::MatrixXd expected = (2.0 * 0.01 * modes.omega).asDiagonal();
-  EXPECT_LT((modal - expected).norm(), 1e-12 * expected.norm());
+  const std::string terms = "[[forcing.terms]]\namplitude = 60.0\n"
+                            "[[forcing.terms]]\ndofs = [3]\namplitude = 40.0\n[time]";
+  const Scene scene = load_scene(folder.write("case.toml", with(chain_scene, "[time]", terms)),
+                                 std::vector<std::string>{"forcing.amplitude=0"});
+  EXPECT_EQ(make_model(scene).structure.forces.size(), 1u);
 }
 
 const std::string small_blade = R"([structure]
@@ -238,101 +153,6 @@ TEST(MatricesModel, FilesOfTheStripAreWhatFemMakes) {
       fem::read_matrix_market(folder / "strip_stiffness.mtx") - matrices.stiffness;
   EXPECT_LT(mass.norm(), 1e-12 * matrices.mass.norm());
   EXPECT_LT(stiffness.norm(), 1e-12 * matrices.stiffness.norm());
-  for (const char* scene : {"strip_mode.toml", "strip_forced.toml"})
-    EXPECT_EQ(structure_dofs(load_scene(folder / scene)), 72) << scene;
-}
-
-Scene chain(const TemporaryFolder& folder, const std::vector<std::string>& overrides,
-            const std::string& text = chain_scene) {
-  write_chain(folder);
-  return load_scene(folder.write("case.toml", text), overrides);
-}
-
-/// A chain whose responses settle within few periods, and more settings.
-std::vector<std::string> damped(std::initializer_list<std::string> more) {
-  std::vector<std::string> overrides{"forcing.frequency=35", "structure.modal_damping=0.1",
-                                     "contact.gap=[5e-5, 1e-4]"};
-  overrides.insert(overrides.end(), more);
-  return overrides;
-}
-
-TEST(Contacts, TwoOfAChainMoveAsTimeSteppingSays) {
-  const TemporaryFolder folder;
-  const Response found = weighted_residual_response(
-      chain(folder, damped({"contact.stiffness=1e6", "time.functions=127", "time.quadrature_points=2048"})));
-  const Response reference = time_stepping_response(chain(
-      folder, damped({"contact.stiffness=1e6", "analysis.type=time_stepping", "analysis.tolerance=1e-7"})));
-  ASSERT_TRUE(found.converged && reference.converged);
-  ASSERT_EQ(found.contacts.rows(), 2);
-  for (int contact = 0; contact < 2; ++contact) {
-    const auto a = found.contacts.contact(contact), b = reference.contacts.contact(contact);
-    // A kink of the force leaves Fourier coefficients of the displacement of order k^-4: together 63^-3.5
-    // of the motion, below the error of stepping to 1e-7 per period.
-    EXPECT_LT(relative_rms_error(a.displacement.row(0), b.displacement.row(0)), 5e-6) << contact;
-    EXPECT_GT(b.force.maxCoeff(), 0.0) << contact;
-  }
-  EXPECT_EQ(found.displacement().transpose(), found.contacts.displacement.row(found.contact));
-}
-
-// One mode is left beside the two contacts, and the load drives it at its resonance.
-TEST(Contacts, RigidOnesHoldUpToTheErrorOfTheFunctions) {
-  const TemporaryFolder folder;
-  const std::string rigid = with(with(chain_scene, "\"linear\"", "\"rigid\""), "stiffness = 1e7", "# ");
-  for (const int functions : {15, 31, 63}) {
-    const Record record = analyse(chain(folder,
-                                        damped({"time.functions=" + std::to_string(functions),
-                                                "time.quadrature_points=" + std::to_string(8 * functions)}),
-                                        rigid));
-    EXPECT_TRUE(record.converged) << record.status;
-    EXPECT_GE(value_of<double>(record.summary, "min_contact_force_N"), 0.0);
-    EXPECT_LT(value_of<double>(record.summary, "max_penetration_m"), 0.5 * 5e-5) << functions;
-    const auto forces = record.contacts.numbers("contact_force_N");
-    EXPECT_GT(*std::max_element(forces.begin(), forces.end()), 0.0);
-  }
-}
-
-TEST(Contacts, ObstaclesOnEitherSideAreMirrorImages) {
-  const TemporaryFolder folder;
-  const auto up = weighted_residual_response(chain(folder, damped({})));
-  const auto down = weighted_residual_response(
-      chain(folder, damped({"structure.contact_dofs=[-2,-3]", "forcing.load_dofs=[-3]"})));
-  ASSERT_TRUE(up.converged && down.converged);
-  EXPECT_LT((up.contacts.displacement - down.contacts.displacement).norm(),
-            1e-12 * up.contacts.displacement.norm());
-}
-
-TEST(Contacts, AllPairsAgreeOnTheChain) {
-  const TemporaryFolder folder;
-  const auto overrides = damped({"contact.stiffness=1e6", "time.functions=64", "time.quadrature_points=256"});
-  const Response fourier = weighted_residual_response(chain(folder, overrides));
-  for (const auto& [trial, weight, tolerance] :
-       std::vector<std::tuple<std::string, std::string, double>>{{"bspline", "bspline", 5e-3},
-                                                                 {"daubechies6", "daubechies6", 5e-3},
-                                                                 {"daubechies6", "fourier", 5e-3},
-                                                                 {"haar", "fourier", 5e-2},
-                                                                 {"haar", "bspline", 5e-2}}) {
-    auto all = overrides;
-    all.insert(all.end(), {"time.trial=" + trial, "time.weight=" + weight});
-    const Response wavelet = weighted_residual_response(chain(folder, all));
-    ASSERT_TRUE(wavelet.converged) << trial << weight << wavelet.status;
-    EXPECT_LT((wavelet.contacts.displacement - fourier.contacts.displacement).norm(),
-              tolerance * fourier.contacts.displacement.norm())
-        << trial << weight;
-  }
-}
-
-TEST(Contacts, MotionOfTheWholeFollowsTheContacts) {
-  const TemporaryFolder folder;
-  const Scene scene = chain(folder, damped({"structure.contact_dofs=[-2,3]"}));
-  const StructureModel model = make_model(scene);
-  ResponseOptions options;
-  options.structure_points = 64;
-  const Response response = weighted_residual_response(scene, model, options);
-  const Eigen::MatrixXd whole = model.recover(response.structure.displacement);
-  for (int l = 0; l < 64; ++l) {
-    EXPECT_NEAR(whole(1, l), -response.contacts.displacement(0, 16 * l), 1e-12 * whole.norm());
-    EXPECT_NEAR(whole(2, l), response.contacts.displacement(1, 16 * l), 1e-12 * whole.norm());
-  }
 }
 
 TEST(MatricesModel, FilesAreReadOnce) {
