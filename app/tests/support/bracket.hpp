@@ -16,12 +16,6 @@ class Bracket {
             block_.nodes_where([](const Eigen::Vector3d& place) { return place[2] == 0.0; }))) {}
 
   const wavebalance::fem::SolidModel& model() const { return model_; }
-  /// The corner nodes of the arm's end, from 0, on its lower face (0) or its upper one (1).
-  std::vector<int> corners_of_end(double face) const {
-    return block_.nodes_where([face](const Eigen::Vector3d& place) {
-      return place[2] == 1.0 && place[1] == face && (place[0] == 0.0 || place[0] == 1.0);
-    });
-  }
 
  private:
   /// From the width, the thickness from the inside out and the length, each in 0..1.
