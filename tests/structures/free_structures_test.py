@@ -79,7 +79,7 @@ def test_a_loss_factor_limits_the_resonance_of_a_bar_of_unknown_stability():
     assert record.summary["stability"] == "structural_damping"
     written = wb.complete(LOSSY, linear[0], unset=linear[1])
     assert wb.complete(written) == written
-    # Of a clamped rod in the continuum: u(L) = F L / (E A) tan(k L) / (k L), k = omega sqrt(rho / E), E (1 + 0.1 i).
+    # A clamped rod in the continuum has u(L) = F L / (E A) tan(k L) / (k L), k = omega sqrt(rho / E), E (1 + 0.1 i).
     for hertz in (300.0, 1273.0):  # below and at its first resonance
         found = wb.harmonics_of(displacements(solved(LOSSY, {**linear[0], "forcing.frequency": hertz,
                                                             "structure.elements": 400}, linear[1])), 1)[0, 1]

@@ -1,4 +1,4 @@
-"""Masses that are semidefinite, as reduced integration leaves them, and elements of CalculiX that have them."""
+"""Masses that are semidefinite, as reduced integration leaves them, and matrices of CalculiX's elements."""
 
 import re
 import shutil
@@ -35,7 +35,8 @@ def test_a_semidefinite_mass_is_solved_by_its_modes_with_mass(together, mode, ro
     # 1 / omega^2 are the eigenvalues of 2e-6 [1 2; 2 9], the flexibility of the two motions with mass times 2 kg.
     hertz = 1.0 / (2.0 * np.pi * np.sqrt(2e-6 * (5.0 + root)))
     # Beside a contact of the first mass the other motion with mass is one mode, and a reduction to it is exact.
-    exact = changed(ONE, ("modal_damping = 0.01", ""), ("contact_dofs = [3]", "contact_dofs = [1]"), ("load_dofs = [3]", ""))
+    exact = changed(ONE, ("modal_damping = 0.01", ""), ("contact_dofs = [3]", "contact_dofs = [1]"),
+                    ("load_dofs = [3]", ""))
     found = linear_frequency(exact, {"structure.kept_modes": 1, "analysis.mode": mode})
     assert found == pytest.approx(hertz, abs=1e-7)
     assert f"{hertz:.5g}" in re.search("modes .*", wb.check(ONE, {"structure.kept_modes": 1}))[0]

@@ -130,7 +130,7 @@ def stepped(scene, overrides=None, unset=()):
 
 
 def column(record, name):
-    """What the contacts do over a period, contacts x points."""
+    """A quantity of the contacts over a period, contacts x points."""
     if not record.contacts:
         return record.response[name][None, :]
     return record.contacts[name].reshape(-1, record.summary["contacts"]).T
@@ -157,7 +157,7 @@ def modal_damping(stiffness, mass, ratio):
 
 
 def node_displacements(file):
-    """What a file for ParaView displaces each node by, nodes x 3."""
+    """The displacement of each node in a file for ParaView, nodes x 3."""
     text = file.read_text()
     assert '<DataArray type="Float64" Name="displacement" NumberOfComponents="3" format="appended" offset="0"/>' in text
     points = int(re.search('NumberOfPoints="([0-9]+)"', text)[1])
