@@ -1,7 +1,9 @@
 """Scenes that tests of analyses share, each solved once, and what they read from its record."""
 
 import functools
+import html
 import json
+import re
 import tempfile
 from pathlib import Path
 
@@ -159,3 +161,10 @@ def figure_of(record, name=None):
     text = (folder_of(record) / f"{first}.figure.js").read_text()
     return json.loads(text[text.index("] = {") + 4 :].rstrip("; \n"))
 
+
+
+def outcome_of(record):
+    """The sentences of its page that say what came out."""
+    page = (folder_of(record) / "report.html").read_text()
+    text = page[page.index("<h2>What came out</h2>") :]
+    return re.split(r"(?<=\.) (?=[A-Z])", html.unescape(text[text.index("<p>") + 3 : text.index("</p>")]))
