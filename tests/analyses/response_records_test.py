@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from period_oracle import bar_matrices
 from solved_scenes import BAR, BAR_SWEEP, COLUMNS_OF_A_CURVE, FOURIER, JONES, figure_of, folder_of, refusal, solved
 
 import wavebalance
@@ -14,16 +15,6 @@ LAWS = {
     "none": ({"law": "none"}, np.zeros_like),
 }
 FREE_BAR = {**BAR, "contact": {"law": "none"}}
-
-
-def bar_matrices(elements):
-    """Mass and stiffness of BAR, clamped at one end: linear elements of its length."""
-    length = 1.0 / elements
-    mass, stiffness = np.zeros((2, elements + 1, elements + 1))
-    for i in range(elements):
-        mass[i : i + 2, i : i + 2] += 2700 * 25e-4 * length / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
-        stiffness[i : i + 2, i : i + 2] += 70e9 * 25e-4 / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
-    return mass[1:, 1:], stiffness[1:, 1:]
 
 
 def test_load_and_contact_of_a_bar_are_at_its_tip():
