@@ -1,6 +1,7 @@
 """Records of forced responses and ordinary curves: what they hold, and what they warn of."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -267,3 +268,12 @@ def test_check_says_how_large_and_whether_admissible(part):
 
 def test_a_pair_that_is_not_admissible_is_refused():
     assert "not an admissible trial basis" in str(refusal(BAR, {"time.trial": "haar", "time.weight": "haar"}))
+
+
+def test_check_says_what_a_curve_costs_and_for_its_stability_a_range():
+    (cost,) = [line for line in wavebalance.check(BAR, {**BAR_SWEEP, "analysis.frequency_to": 200}).splitlines()
+               if line.startswith("cost")]
+    found = re.search(r"s for the curve, ([\d.e-]+) s to ([\d.e-]+) s for its stability, and \d+ MB of memory$", cost)
+    assert found and 0.0 < float(found[1]) < float(found[2])
+    without = wavebalance.check(BAR, {**BAR_SWEEP, "analysis.stability": False})
+    assert re.search(r"cost +about [\d.e-]+ s and \d+ MB of memory$", without, re.MULTILINE)

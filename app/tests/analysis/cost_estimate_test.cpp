@@ -35,16 +35,7 @@ TEST(EstimateCost, OfALawOfTheVelocityIsThatOfOthersSinceNoMatrixOfAllItsSamples
   EXPECT_EQ(estimate_cost(scene).bytes, of_displacement);
 }
 
-TEST(EstimateCost, OfASweepWithStabilityIsARange) {
-  const std::vector<std::string> sweep{"analysis.type=frequency_sweep", "analysis.frequency_from=100",
-                                       "analysis.frequency_to=200"};
-  const CostEstimate cost = estimate_cost(scene_of(sweep));
-  EXPECT_GT(cost.least_stability_seconds, 0.0);
-  EXPECT_GT(cost.most_stability_seconds, cost.least_stability_seconds);
-  EXPECT_NE(cost_text(cost).find(" s for its stability, and "), std::string::npos) << cost_text(cost);
-  std::vector<std::string> without = sweep;
-  without.push_back("analysis.stability=false");
-  EXPECT_EQ(estimate_cost(scene_of(without)).most_stability_seconds, 0.0);
+TEST(CostText, SaysSecondsAndMemory) {
   EXPECT_EQ(cost_text({.seconds = 0.2, .bytes = 21e6}), "about 0.2 s and 21 MB of memory");
 }
 
