@@ -7,7 +7,19 @@ import numpy as np
 import pytest
 import scipy.io
 from period_oracle import Oscillator
-from solved_scenes import CHAIN, STOP, STOP_AMPLITUDE, figure_of, folder_of, refusal, rows_of, solved, table_of, warns, where
+from solved_scenes import (
+    CHAIN,
+    STOP,
+    STOP_AMPLITUDE,
+    figure_of,
+    folder_of,
+    refusal,
+    rows_of,
+    solved,
+    table_of,
+    warns,
+    where,
+)
 
 import wavebalance
 
@@ -73,7 +85,7 @@ AT_ALL = {"frequency_sweep": (STOP, ["peak", "special", 0.18, 0.24]),
     # Motions are those of the balance, turning points those of the structure.
     ("amplitude_sweep", "N", "amplitude", ["0.05N", "0.5N"], {"rel": 1e-4}),
 ])
-def test_motions_of_a_curve_are_those_of_the_peak_the_folds_and_the_places_asked_for(kind, unit, axis, names, tolerance):
+def test_motions_of_a_curve_are_those_of_the_peak_the_folds_and_the_places_given(kind, unit, axis, names, tolerance):
     scene, places = AT_ALL[kind]
     record = solved(scene, {"analysis.motion_at": places})
     summary, motions = record.summary, record.summary["motions"]
@@ -159,7 +171,8 @@ def test_motions_of_matrices_hold_every_contact_and_the_whole_structure():
     assert "\n3 16\n" in (folder / "motion_peak.mtx").read_text()
     assert "motion_peak.mtx</a>: motion of the curve at the peak, " in (folder / "report.html").read_text()
     (place,) = record.summary["motions"]["frequency_Hz"]
-    again = solved(CHAIN, {"time.functions": 31, "forcing.frequency": place}, start_from=folder / "motion_peak_contacts.csv")
+    again = solved(CHAIN, {"time.functions": 31, "forcing.frequency": place},
+                   start_from=folder / "motion_peak_contacts.csv")
     assert again.converged and again.summary["contacts"] == 2
 
 

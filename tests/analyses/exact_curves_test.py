@@ -43,7 +43,8 @@ def test_an_exact_curve_is_followed_over_the_amplitude_too():
     assert record.sweep["amplitude_N"][-1] == pytest.approx(0.5, abs=1e-12)
 
 
-@pytest.mark.parametrize("key, value", [("branches", True), ("motion_at", ["peak"]), ("phases", True), ("subharmonic", 2)])
+@pytest.mark.parametrize("key, value", [
+    ("branches", True), ("motion_at", ["peak"]), ("phases", True), ("subharmonic", 2)])
 def test_an_exact_curve_refuses_by_name_what_it_does_not_do(key, value):
     assert f"not with analysis.{key}" in str(refusal(STOP, {f"analysis.{key}": value, **EXACT}))
 
@@ -64,7 +65,8 @@ def expect_points_of(structure, exact, axis):
         assert structure["max_displacement_m"][k] == pytest.approx(exact["max_displacement_m"][i], rel=1e-5)
 
 
-OF_THE_BAR = {"analysis.frequency_from": 1250, "analysis.frequency_to": 1400, "time.functions": 63, "time.nyquist": "drop"}
+OF_THE_BAR = {"analysis.frequency_from": 1250, "analysis.frequency_to": 1400, "time.functions": 63,
+              "time.nyquist": "drop"}
 
 
 @pytest.mark.parametrize("scene, overrides, axis", [

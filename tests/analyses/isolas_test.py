@@ -8,11 +8,11 @@ import wavebalance
 
 SOUGHT = {"analysis.isolas": True}
 STIFF = {"contact.stiffness": 4.0, "forcing.amplitude": 0.15}
-# From above, the curve without contact is followed down to 0.18 Hz, between the folds at 0.1699 and 0.1957 Hz, where two
-# other motions exist.
+# From above, the curve without contact is followed down to 0.18 Hz, between the folds at 0.1699 and 0.1957 Hz, where
+# two other motions exist.
 FROM_ABOVE = {**STIFF, "analysis.frequency_from": 0.24, "analysis.frequency_to": 0.18, "analysis.isola_spacing": 0.02}
-# A load of 2 N at three times the frequency, whose curve has no contact: a motion of three of its periods is on a closed
-# curve, one motion for each of the periods in which it may begin.
+# A load of 2 N at three times the frequency, whose curve has no contact: a motion of three of its periods is on a
+# closed curve, one motion for each of the periods in which it may begin.
 THIRD_ORDER = {"forcing": {"amplitude": 0.0, "terms": [{"harmonic": 3, "amplitude": 2.0}]}}
 CLOSED = {**SOUGHT, "contact.stiffness": 4.0, "analysis.isola_starts": 6, "analysis.isola_spacing": 0.0175,
           "time.quadrature_points": 504, "analysis.frequency_from": 0.165, "analysis.frequency_to": 0.2}
@@ -99,8 +99,9 @@ def test_check_announces_isolas_with_what_they_take():
     assert "sought at 3 frequencies, from rest and 4 random states each: 15 motions" in text
 
 
-OTHERS = {kind: {**{key: STOP[key] for key in keys}, "analysis": {"type": kind, "isolas": True}} for kind, keys in (
-    ("forced_response", ("structure", "contact", "forcing", "time")), ("time_stepping", ("structure", "contact", "forcing")))}
+def other(kind, *sections):
+    """The oscillator with another analysis that asks for isolas."""
+    return {**{section: STOP[section] for section in sections}, "analysis": {"type": kind, "isolas": True}}
 
 
 @pytest.mark.parametrize("scene, overrides, parts", [
@@ -111,9 +112,11 @@ OTHERS = {kind: {**{key: STOP[key] for key in keys}, "analysis": {"type": kind, 
     (STOP, {**SOUGHT, "structure.elements": 401}, ["analysis.isolas = true", "at most 400"]),
     (STOP, {"analysis.isola_spacing": 0}, ["analysis.isola_spacing = 0"]),
     (STOP, {"analysis.isola_starts": -1}, ["analysis.isola_starts = -1"]),
-    (STOP, ["analysis.isolas=true", "analysis.isola_spacing=1e-7"], ["analysis.isola_spacing = 1e-7", "at most 100000"]),
-    (OTHERS["forced_response"], {}, ["analysis.isolas = true", "frequency_sweep"]),
-    (OTHERS["time_stepping"], {}, ["analysis.isolas = true", "frequency_sweep"]),
+    (STOP, ["analysis.isolas=true", "analysis.isola_spacing=1e-7"],
+     ["analysis.isola_spacing = 1e-7", "at most 100000"]),
+    (other("forced_response", "structure", "contact", "forcing", "time"), {},
+     ["analysis.isolas = true", "frequency_sweep"]),
+    (other("time_stepping", "structure", "contact", "forcing"), {}, ["analysis.isolas = true", "frequency_sweep"]),
 ])
 def test_isolas_are_refused_where_they_cannot_be_sought(scene, overrides, parts):
     message = str(refusal(scene, overrides))

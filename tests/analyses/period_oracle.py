@@ -65,12 +65,12 @@ class Oscillator:
 
 
 class RigidTip:
-    """A damped structure whose last degree of freedom has no mass and touches a rigid obstacle, so that closing transfers no
-    impulse: free, and closed until the force falls to zero.
+    """A damped structure whose last degree of freedom, without mass, touches a rigid obstacle.
 
-    State: displacements with mass, their velocities over a bound of the natural angular frequencies, displacement of the
-    tip, cosine and sine of the load; time as a fraction of the period. The matrix exponential loses the digits by which
-    displacements and velocities differ in size.
+    Closing transfers no impulse. The tip is free, or closed until the force falls to zero. State: displacements with
+    mass, their velocities over a bound of the natural angular frequencies, displacement of the tip, cosine and sine of
+    the load; time as a fraction of the period. The matrix exponential loses the digits by which displacements and
+    velocities differ in size.
     """
 
     HALVINGS = 32
@@ -79,7 +79,8 @@ class RigidTip:
         n = len(mass) - 1
         self.n, self.gap, self.points = n, gap, points
         force = np.zeros(2 * n + 3)
-        force[:n], force[n : 2 * n], force[2 * n], force[-2] = -stiffness[n, :n], -damping[n, :n], -stiffness[n, n], load
+        force[:n], force[n : 2 * n] = -stiffness[n, :n], -damping[n, :n]
+        force[2 * n], force[-2] = -stiffness[n, n], load
         inner = np.zeros((n, 2 * n + 3))
         inner[:, :n], inner[:, n : 2 * n], inner[:, 2 * n] = -stiffness[:n, :n], -damping[:n, :n], -stiffness[:n, n]
         fastest = math.sqrt(np.linalg.norm(np.linalg.solve(mass[:n, :n], stiffness[:n, :n])))

@@ -104,8 +104,8 @@ def test_a_scene_of_phases_comes_back_as_it_is_written():
 
 @pytest.mark.parametrize("key, value", [
     ("time.trial", "fourier"), ("time.weight", "haar"), ("time.functions", 63), ("time.quadrature_points", 256),
-    ("time.formulation", "weak"), ("time.inner_products", "exact"), ("time.nyquist", "keep"), ("time.sample_offset", 0.5),
-    ("contact.form", "force"), ("analysis.phases", True), ("analysis.subharmonic", 2)])
+    ("time.formulation", "weak"), ("time.inner_products", "exact"), ("time.nyquist", "keep"),
+    ("time.sample_offset", 0.5), ("contact.form", "force"), ("analysis.phases", True), ("analysis.subharmonic", 2)])
 def test_phases_refuse_the_keys_of_a_balance_by_name(key, value):
     unset = tuple(one for one in BALANCE_KEYS if one != key)
     error = refusal(BAR, {**PHASES, key: value}, unset)

@@ -2,7 +2,18 @@
 
 import numpy as np
 import pytest
-from solved_scenes import FOURIER, JONES, LOSS_FACTOR, SCENES, STOP, STOP_AMPLITUDE, STOP_RESPONSE, TWO_MASSES, rows_of, solved
+from solved_scenes import (
+    FOURIER,
+    JONES,
+    LOSS_FACTOR,
+    SCENES,
+    STOP,
+    STOP_AMPLITUDE,
+    STOP_RESPONSE,
+    TWO_MASSES,
+    rows_of,
+    solved,
+)
 
 PHASES = {"analysis.phases": True}
 # At a fold a motion at its frequency is as uncertain as the root of its equations' error.
@@ -116,7 +127,8 @@ def test_a_curve_names_why_phases_are_not_known():
     assert record.summary["phases_status"] == "structural_damping"
     assert np.isnan(record.summary["error_of_displacement"])
     assert record.summary["points_phases_not_known"] == rows_of(record.sweep) > 0
-    assert set(record.sweep["phases_status"]) == {"structural_damping"} and set(record.sweep["stability_by"]) == {"balance"}
+    assert set(record.sweep["phases_status"]) == {"structural_damping"}
+    assert set(record.sweep["stability_by"]) == {"balance"}
 
 
 def test_phases_are_known_against_a_rigid_obstacle_at_a_tip_without_mass():

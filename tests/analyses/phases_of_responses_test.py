@@ -7,8 +7,8 @@ from solved_scenes import BAR, JONES, LOSS_FACTOR, SCENES, TWO_MASSES, folder_of
 PHASES = {"analysis.phases": True}
 # A nonlinear mode.
 ROD = {
-    "structure": {"type": "bar", "youngs_modulus": 2.1e11, "density": 7800.0, "area": 9e-4, "length": 1.0, "elements": 20,
-                  "lumped_mass_fraction": 0.5},
+    "structure": {"type": "bar", "youngs_modulus": 2.1e11, "density": 7800.0, "area": 9e-4, "length": 1.0,
+                  "elements": 20, "lumped_mass_fraction": 0.5},
     "contact": {"law": "rigid", "gap": 1e-3},
     "analysis": {"type": "nonlinear_mode", "points": 200},
 }
@@ -42,7 +42,8 @@ def two_masses():
         overrides = {"time.functions": functions, "time.quadrature_points": points, "analysis.phases": phases}
         return solved(TWO_MASSES, overrides, start_from=start)
 
-    return {"settled": settled, "near": near(63, 512, True), "coarse": near(63, 512, False), "fine": near(1023, 8192, False)}
+    return {"settled": settled, "near": near(63, 512, True), "coarse": near(63, 512, False),
+            "fine": near(1023, 8192, False)}
 
 
 @pytest.mark.parametrize("name", ["settled", "near"])

@@ -27,10 +27,11 @@ def test_load_and_contact_of_a_bar_are_at_its_tip():
     motion = np.linalg.solve(stiffness * (1.0 + 1e-4j * omega) - omega**2 * mass, load)
     instants = record.bar_motion.shape[1]
     expected = (motion[:, None] * np.exp(2j * math.pi * np.arange(instants) / instants)).real
-    np.testing.assert_allclose(record.bar_motion[1:], expected, rtol=0.0, atol=1e-12 * np.abs(expected).max())
+    error = 1e-12 * np.abs(expected).max()
+    np.testing.assert_allclose(record.bar_motion[1:], expected, rtol=0.0, atol=error)
     assert not record.bar_motion[0].any()
     tip = record.response["displacement_m"]
-    np.testing.assert_allclose(tip[:: len(tip) // instants], expected[-1], rtol=0.0, atol=1e-12 * np.abs(expected).max())
+    np.testing.assert_allclose(tip[:: len(tip) // instants], expected[-1], rtol=0.0, atol=error)
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -43,7 +44,8 @@ def test_the_contact_force_follows_the_law_of_the_scene(law):
     np.testing.assert_allclose(record.response["contact_force_N"], force(depth), rtol=1e-15, atol=1e-6)
 
 
-@pytest.mark.parametrize("weight, products", [("daubechies6", "exact"), ("fourier", "quadrature"), ("bspline", "quadrature")])
+@pytest.mark.parametrize("weight, products", [
+    ("daubechies6", "exact"), ("fourier", "quadrature"), ("bspline", "quadrature")])
 def test_daubechies_galerkin_alone_takes_connection_coefficients(weight, products):
     trial = "bspline" if weight == "bspline" else "daubechies6"
     record = solved(BAR, {"time.trial": trial, "time.weight": weight})
@@ -57,7 +59,8 @@ def test_exact_haar_fourier_sees_inertia_at_the_nyquist_function():
     assert inertia[32] > 1e-3 * inertia[31]
 
 
-@pytest.mark.parametrize("weight, offset, dropped", [("bspline", 0.0, False), ("bspline", 0.5, True), ("fourier", 0.5, False)])
+@pytest.mark.parametrize("weight, offset, dropped", [
+    ("bspline", 0.0, False), ("bspline", 0.5, True), ("fourier", 0.5, False)])
 def test_a_kept_nyquist_coefficient_of_haar_and_bspline_is_zero_at_the_middles(weight, offset, dropped):
     pair = {"time.trial": "haar", "time.weight": weight, "time.sample_offset": offset}
     kept, without = (solved(BAR, {**pair, "time.nyquist": one}).response["displacement_m"] for one in ("keep", "drop"))
@@ -192,8 +195,9 @@ def test_rounding_errors_past_a_thousandth_of_the_motion_are_no_response():
 def test_a_curve_whose_rounding_errors_pass_a_thousandth_has_not_converged():
     scene = beside_resonance(1e-13)
     start = scene["forcing"]["frequency"]
-    record = solved({**scene, "analysis": {"type": "frequency_sweep", "frequency_from": start, "frequency_to": 2.0 * start,
-                                           "largest_step": 0.1 * start, "first_step": 0.01 * start}})
+    analysis = {"type": "frequency_sweep", "frequency_from": start, "frequency_to": 2.0 * start,
+                "largest_step": 0.1 * start, "first_step": 0.01 * start}
+    record = solved({**scene, "analysis": analysis})
     assert not record.converged and record.status.startswith("inaccurate: ")
 
 
@@ -238,8 +242,8 @@ def test_a_motion_that_has_not_converged_is_drawn_as_such():
 
 
 def test_a_rigid_curve_passes_folds_and_says_its_form():
-    record = solved(JONES / "case2_sweep_rigid.toml", {"time.trial": "fourier", "time.weight": "fourier", "time.functions": 63,
-                                                       "time.quadrature_points": 512, "analysis.largest_step": 10})
+    balance = {"time.trial": "fourier", "time.weight": "fourier", "time.functions": 63, "time.quadrature_points": 512}
+    record = solved(JONES / "case2_sweep_rigid.toml", {**balance, "analysis.largest_step": 10})
     assert record.status == "reached_end" and record.summary["form"] == "force"
     first, second = record.summary["turning_points_Hz"]  # found independently
     assert first == pytest.approx(1331.0, abs=0.2) and second == pytest.approx(1314.839, abs=0.02)

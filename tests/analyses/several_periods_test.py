@@ -22,6 +22,7 @@ OSCILLATOR = {
 SWEEP = {**OSCILLATOR, "time": {**FOURIER, "functions": 63, "quadrature_points": 512},
          "analysis": {"type": "frequency_sweep", "frequency_from": 0.33, "frequency_to": 0.5}}
 BRANCHES = {"analysis.branches": True}
+SIXTY_THREE = {"time.trial": "fourier", "time.weight": "fourier", "time.functions": 63}
 
 
 def test_a_motion_of_two_periods_of_the_load_is_one():
@@ -128,17 +129,15 @@ def test_a_curve_without_branches_has_the_columns_of_one_curve():
 
 
 def test_a_curve_warns_that_motions_become_quasi_periodic_at_neimark_sacker_points():
-    record = solved(JONES / "case2_sweep.toml", {**{f"time.{key}": value for key, value in FOURIER.items()},
-                                                 "time.functions": 63, "structure.stiffness_damping": 5e-7,
+    record = solved(JONES / "case2_sweep.toml", {**SIXTY_THREE, "structure.stiffness_damping": 5e-7,
                                                  "analysis.frequency_from": 1308, "analysis.frequency_to": 1342})
     assert warns(record, "quasi-periodic") and warns(record, "1312.")
 
 
 def test_a_curve_warns_of_neimark_sacker_points_on_branches_too():
     """That of two periods which begins just after contact does, at 2734.17 Hz."""
-    record = solved(JONES / "case2_sweep.toml", {**{f"time.{key}": value for key, value in FOURIER.items()}, **BRANCHES,
-                                                 "time.functions": 63, "time.quadrature_points": 512, "contact.gap": 1e-4,
-                                                 "structure.stiffness_damping": 1.25e-6,
+    record = solved(JONES / "case2_sweep.toml", {**SIXTY_THREE, **BRANCHES, "time.quadrature_points": 512,
+                                                 "contact.gap": 1e-4, "structure.stiffness_damping": 1.25e-6,
                                                  "analysis.frequency_from": 2550, "analysis.frequency_to": 3000})
     assert warns(record, "2916.")
 
@@ -160,7 +159,8 @@ RIGID = {**OSCILLATOR, "contact": {"law": "rigid", "gap": 0.1},
     (OSCILLATOR, {**OVER_FREQUENCY, **BRANCHES, "analysis.stability": False}, (),
      ["analysis.branches = true", "analysis.stability = true"]),
     (RIGID, {**OVER_FREQUENCY, **BRANCHES}, (), ["analysis.branches = true", "rigid"]),
-    (BAR, {"time.tolerance": 1e-3, "analysis.subharmonic": 2}, BALANCE_KEYS, ["analysis.subharmonic = 2", "time.tolerance"]),
+    (BAR, {"time.tolerance": 1e-3, "analysis.subharmonic": 2}, BALANCE_KEYS,
+     ["analysis.subharmonic = 2", "time.tolerance"]),
 ])
 def test_several_periods_and_branches_are_refused_where_there_are_none(scene, overrides, unset, parts):
     message = str(refusal(scene, overrides, unset))

@@ -3,7 +3,7 @@
 import shutil
 
 import pytest
-from solved_scenes import STOP, STOP_AMPLITUDE, STOP_RESPONSE, folder_of, solved, table_of, warns
+from solved_scenes import STOP, STOP_AMPLITUDE, STOP_MOTIONS, STOP_RESPONSE, folder_of, solved, table_of, warns
 
 import wavebalance
 
@@ -94,7 +94,7 @@ def test_motions_that_do_not_fit_are_refused(tmp_path):
     assert str(raised.value) == f"--start-from: {file} has the motion of 3 contacts, but the scene has 1 contact"
     file.write_text(COLUMNS + "".join(f"{time / 8.0},0,0,0\n" for time in range(8)))
     assert wavebalance.run(STOP_RESPONSE, start_from=file).converged
-    stepping = {**{key: STOP[key] for key in ("structure", "contact", "forcing")}, "analysis": {"type": "time_stepping"}}
+    stepping = {**STOP_MOTIONS, "analysis": {"type": "time_stepping"}}
     with pytest.raises(ValueError, match='analysis.type = "time_stepping" has no start'):
         wavebalance.run(stepping, start_from=file)
 
