@@ -103,7 +103,7 @@ def _kept():
     return tempfile.TemporaryDirectory(prefix="solved_scenes")
 
 
-_records = {}
+_records, _folders = {}, {}
 
 
 def solved(scene, overrides=None, unset=(), start_from=None):
@@ -116,10 +116,10 @@ def solved(scene, overrides=None, unset=(), start_from=None):
 
 def folder_of(record):
     """The folder with the files of a record."""
-    folder = Path(_kept().name) / str(id(record))
-    if not folder.exists():
-        record.write(folder)
-    return folder
+    if record not in _folders:
+        _folders[record] = Path(tempfile.mkdtemp(dir=_kept().name))
+        record.write(_folders[record])
+    return _folders[record]
 
 
 def table_of(file):
