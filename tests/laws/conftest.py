@@ -1,6 +1,7 @@
 """What the tests of laws share: scenes of which every test changes one thing, and what becomes of them."""
 
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -156,3 +157,9 @@ def assert_holds(whole, part):
             assert whole[key].endswith(value), key
         else:
             assert whole[key] == value, key
+
+
+@pytest.fixture(scope="session")
+def scenes_folder():
+    """The folder of the scenes of this project, for what is solved once."""
+    return Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
