@@ -36,7 +36,7 @@ def test_outputs_of_a_linear_structure_are_its_transfer_function(solve):
                   "analysis.output_harmonics=2", "structure.modal_damping=0", "structure.stiffness_damping=2e-5").sweep
     w = 2.0 * np.pi * sweep["frequency_Hz"][:, None, None]
     dynamic = (1.0 + 2e-5j * w) * STIFFNESS - 2.0 * w**2 * np.eye(3)
-    first, _, last = np.linalg.solve(dynamic, np.array([[0.0], [0.0], [100.0]]))[:, :, 0].T
+    first, _, last = np.linalg.solve(dynamic, np.array([[[0.0], [0.0], [100.0]]]))[:, :, 0].T
     amplitude = sweep["node_7_z_amplitude_1_m"]
     np.testing.assert_allclose(amplitude, np.abs(first), rtol=1e-9)
     turn = np.remainder(sweep["node_7_z_phase_1_degrees"] - np.degrees(np.angle(first)) + 180.0, 360.0) - 180.0
