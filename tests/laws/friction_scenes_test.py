@@ -55,8 +55,8 @@ def test_a_slider_has_the_work_and_the_shares_of_the_exact_motion(solve):
 
 
 def test_a_response_has_the_damping_ratio_that_its_mode_has_nearby(solve):
-    # As published for the damped mode of one mass, k = kt = limit = 1: the damping ratio 0.0464 at a turning point of 1.2.
-    # Friction takes 4 (1.2 - 1) in a cycle.
+    # As published for the damped mode of one mass, k = kt = limit = 1: the damping ratio 0.0464 at a turning point of
+    # 1.2. Friction takes 4 (1.2 - 1) in a cycle.
     record = solve("slider.toml", "structure.stiffness_damping=1e-9", "forcing.frequency=0.2188006",
                    "forcing.amplitude=0.2122", "analysis.output_points=4096")
     assert record.summary["max_displacement_m"] == pytest.approx(1.2, abs=0.05)
@@ -68,8 +68,9 @@ def test_directions_are_taken_by_the_names_of_nodes(folder, changed, tmp_path, m
     monkeypatch.chdir(folder)
     (tmp_path / "two.dof").write_text("7.1\n7.2\n")
     mapped = f'damping = "two_dampers.mtx"\ndof_map = "{tmp_path}/two.dof"'
-    text = changed((folder / "lift_off.toml").read_text(), ("dofs = [2]                          #", 'dofs = ["node 7 y"] #'),
-                   ("tangent = [1]", f'tangent = ["node {node} x"]'), ('damping = "two_dampers.mtx"', mapped))
+    text = changed((folder / "lift_off.toml").read_text(), ('damping = "two_dampers.mtx"', mapped),
+                   ("dofs = [2]                          #", 'dofs = ["node 7 y"] #'),
+                   ("tangent = [1]", f'tangent = ["node {node} x"]'))
     if node == 7:
         named, numbered = wb.complete(text), wb.complete(folder / "lift_off.toml")
         pairs = [one[one.index("[[contact.pairs]]"):one.index("[forcing]")] for one in (named, numbered)]
@@ -226,8 +227,8 @@ def test_the_mode_of_a_bolted_beam_has_its_damping_from_the_joint(solve):
 
 
 def test_without_tangential_stiffness_friction_is_rigid_and_moves_the_mass_of_its_contacts(solve):
-    # The beams of ten contacts whose springs of 2e7 N/m are left out: the mass of the contacts goes to the beams, which give
-    # way there by springs of their own.
+    # The beams of ten contacts whose springs of 2e7 N/m are left out: the mass of the contacts goes to the beams, which
+    # give way there by springs of their own.
     settings = ("analysis.type=forced_response", "forcing.frequency=145", "structure.kept_modes=30",
                 "analysis.stability=false", "analysis.phases=false")
     rigid = solve("bolted_beam.toml", *settings, unset=(*SWEEPING, "contact.tangential_stiffness")).summary

@@ -8,7 +8,8 @@ import pytest
 
 import wavebalance as wb
 
-BASES = [f"time.{key}" for key in ("trial", "weight", "functions", "formulation", "quadrature_points", "inner_products")]
+BASES = ["time.trial", "time.weight", "time.functions", "time.formulation", "time.quadrature_points",
+         "time.inner_products"]
 MODE = ["analysis.type=nonlinear_mode", "structure.stiffness_damping=0"]
 
 

@@ -74,7 +74,8 @@ def test_the_peak_of_an_output_may_choose_the_motion_that_is_written(solve):
     # The first mass of the chain vibrates most at another frequency than the last one.
     def peaks(*more):
         summary = solve(SWEEP[0], SWEEP[1], SWEEP[3], "analysis.frequency_to=220", "analysis.motion_at=peak",
-                        "contact.gap=1.0", FIRST, "structure.modal_damping=0.05", "forcing.load_dofs=[1]", *more).summary
+                        "contact.gap=1.0", FIRST, "structure.modal_damping=0.05", "forcing.load_dofs=[1]",
+                        *more).summary
         return summary["motions"]["frequency_Hz"][0], summary["outputs"]["frequency_Hz"][0]
 
     by_contacts, best = peaks()
@@ -99,8 +100,8 @@ def test_outputs_of_time_stepping_are_near_those_of_the_balance(solve):
 
 def test_outputs_of_an_exact_curve_over_the_amplitude_are_those_of_a_fine_balance(solve):
     # With much damping both curves pass every place once.
-    exact, fine = (solve("analysis.type=amplitude_sweep", "analysis.amplitude_from=50", "analysis.amplitude_to=300", FIRST,
-                         "structure.modal_damping=0.1", "analysis.stability=false", "time.functions=127",
+    exact, fine = (solve("analysis.type=amplitude_sweep", "analysis.amplitude_from=50", "analysis.amplitude_to=300",
+                         FIRST, "structure.modal_damping=0.1", "analysis.stability=false", "time.functions=127",
                          "time.quadrature_points=512", "analysis.largest_step=1", f"analysis.exact={how}").sweep
                    for how in ("true", "false"))
     assert exact["contact_1_contact_fraction"][-1] > 0.0

@@ -289,8 +289,8 @@ def test_devices_pipes_and_large_files_are_refused_by_name(command, tmp_path):
     pipe, large = tmp_path / "pipe.toml", tmp_path / "large.toml"
     os.mkfifo(pipe)
     large.write_text("\n" * 2_000_000)
-    for file, message in (("/dev/zero", "cannot be read: it is not a regular file\n"), (large, "more than 1048576 bytes"),
-                          (pipe, "cannot be read: it is not a regular file\n")):
+    irregular = "cannot be read: it is not a regular file\n"
+    for file, message in (("/dev/zero", irregular), (pipe, irregular), (large, "more than 1048576 bytes")):
         refused = command("check", file, timeout=20)
         assert refused.code == 2 and f"{file}: " in refused.errors and message in refused.errors
 
@@ -333,6 +333,7 @@ def test_every_key_is_described_within_the_width(command):
     for name in names:
         section, key = name.split(".", 1)
         assert key in entries, name
-        assert re.search(rf"^\[{section}\]\n(  .*\n)*?  {key}\n      \S", command("keys", name).text, re.MULTILINE), name
+        alone = command("keys", name).text
+        assert re.search(rf"^\[{section}\]\n(  .*\n)*?  {key}\n      \S", alone, re.MULTILINE), name
     nothing = command("keys", "contact.nothing")
     assert nothing.code == 2 and "keys contact.nothing" in nothing.errors

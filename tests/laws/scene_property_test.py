@@ -13,7 +13,8 @@ import wavebalance as wb
 BATCHES, DRAWS = range(4), 25
 PAIRS = (("fourier", "fourier"), ("bspline", "bspline"), ("daubechies6", "daubechies6"), ("haar", "fourier"),
          ("daubechies10", "fourier"), ("haar", "bspline"))
-LAW_KEYS = {"none": (), "exponential": ("constant", "exponent", "gap"), "linear": ("stiffness", "gap"), "rigid": ("gap",)}
+LAW_KEYS = {"none": (), "exponential": ("constant", "exponent", "gap"), "linear": ("stiffness", "gap"),
+            "rigid": ("gap",)}
 
 
 class Draw:
@@ -92,7 +93,8 @@ class Draw:
         structure = self.structure()
         if self.quarter():
             structure["stiffness_damping"] = 0.0
-            return {"structure": structure, "contact": self.contact("rigid"), "analysis": self.mode(structure["elements"])}
+            mode = self.mode(structure["elements"])
+            return {"structure": structure, "contact": self.contact("rigid"), "analysis": mode}
         scene = {"structure": structure, "contact": self.contact(), "forcing": {}, "time": self.time(),
                  "analysis": self.analysis()}
         kind = scene["analysis"]["type"]
@@ -152,7 +154,8 @@ def test_what_is_written_holds_what_was_given_and_loads_back_equal(draw):
         for section, keys in scene.items():
             for key, value in keys.items():
                 if key == "terms":
-                    assert all(one.items() <= other.items() for one, other in zip(value, read[section][key], strict=True))
+                    terms = zip(value, read[section][key], strict=True)
+                    assert all(one.items() <= other.items() for one, other in terms)
                 else:
                     assert read[section][key] == value, f"{section}.{key} of\n{text}"
 

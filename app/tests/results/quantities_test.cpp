@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <string_view>
 #include <utility>
 
 #include "support/bar_scene.hpp"
