@@ -1,4 +1,4 @@
-"""What the tests of laws share: scenes of which every test changes one thing, and what becomes of them."""
+"""Scenes that the tests of laws share, each test changing one thing, and the fixtures that read and solve them."""
 
 import tomllib
 from pathlib import Path

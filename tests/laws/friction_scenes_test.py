@@ -89,7 +89,7 @@ def test_a_contact_that_lifts_off_has_the_motion_of_the_exact_one(lift_off):
     x = tangent_of(lift_off)
     assert x.max() == pytest.approx(0.7786937648, abs=1e-5) and x.min() == pytest.approx(-0.907916742, abs=1e-5)
     assert summary["stability"] == "stable"
-    # Of the two largest.
+    # The two largest are conjugate.
     multiplier = abs(complex(summary["leading_multiplier_real"], summary["leading_multiplier_imag"]))
     assert multiplier == pytest.approx(0.63913085, abs=1e-4)
 

@@ -1,4 +1,4 @@
-"""What a loader makes of the text of a scene: its values, defaults and the place of what is wrong."""
+"""Values, defaults and the place of mistakes, as a loader reads them from the text of a scene."""
 
 import os
 import re

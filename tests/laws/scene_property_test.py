@@ -1,4 +1,4 @@
-"""What holds for the text of any scene, over random scenes and damages with fixed seeds."""
+"""Properties that the text of any scene has, over random scenes and damages with fixed seeds."""
 
 import math
 import os
