@@ -14,15 +14,21 @@ namespace {
 /// Lives as long as the process, as a translator may be called until its end.
 PyObject* scene_error = nullptr;
 
+/// Messages quote files that need not be UTF-8.
+py::str text_of(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), py::ssize_t(text.size()), "replace"));
+}
+
 void raise(const app::SceneError& error) {
-  py::object instance = py::reinterpret_borrow<py::object>(scene_error)(error.what());
+  py::object instance = py::reinterpret_borrow<py::object>(scene_error)(text_of(error.what()));
   const app::SceneError::Details& details = error.details();
-  instance.attr("file") = details.file;
+  instance.attr("file") = text_of(details.file);
   instance.attr("line") = details.line;
-  instance.attr("override") = details.override;
-  instance.attr("key") = details.key;
-  instance.attr("found") = details.found;
-  instance.attr("allowed") = details.allowed;
+  instance.attr("override") = text_of(details.override);
+  instance.attr("key") = text_of(details.key);
+  instance.attr("found") = text_of(details.found);
+  instance.attr("allowed") = text_of(details.allowed);
   PyErr_SetObject(scene_error, instance.ptr());
 }
 

@@ -212,3 +212,10 @@ def test_a_comparison_is_decided_by_the_error_that_is_named(bar):
     assert found.summary["error_of"] == "force"
     with pytest.raises(ValueError, match="--error energy: expected displacement, force or both"):
         wavebalance.compare(bar, error="energy")
+
+
+def test_a_scene_that_is_no_text_is_refused_as_by_the_command(tmp_path):
+    (tmp_path / "bytes.toml").write_bytes(b'[structure]\ntype = "bar\xff"\n')
+    for scene in (tmp_path / "bytes.toml", "/dev/zero", tmp_path):
+        with pytest.raises(wavebalance.SceneError):
+            wavebalance.check(scene)

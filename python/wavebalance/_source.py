@@ -144,8 +144,12 @@ def _term_with_file(term: Any, number: int, store: _Store) -> Any:
 
 def _files_of_numpy(name: str, text: str, store: _Store) -> list[str]:
     """Overrides for the files of NumPy that a file or text names. What is wrong with it the loader says."""
+    most_bytes = 1 << 20  # beyond which the loader refuses a file
     try:
-        tables = tomllib.loads(text or Path(name).read_text(encoding="utf-8"))
+        if not text and (not Path(name).is_file() or Path(name).stat().st_size > most_bytes):
+            return []
+        given = text or Path(name).read_text(encoding="utf-8")
+        tables = tomllib.loads(given) if ".np" in given else {}
     except (OSError, ValueError):
         return []
     folder = Path(name).absolute().parent

@@ -73,9 +73,10 @@ double balance_bytes(const Sizes& s) {
   const double squared = s.contacts * s.contacts;
   // Unknowns of the dense system that preconditions GMRES.
   const double coarse = std::min(12.0 * std::cbrt(squared * s.points), s.contacts * s.points);
-  return 130.0 * s.contacts * s.points + (150.0 + 32.0 * squared) * s.functions +
-         8.0 * squared * s.points * s.period + 16.0 * s.active * s.active + 16.0 * coarse * coarse +
-         100.0 * s.contacts * coarse;
+  // Columns of samples are formed where samples in contact are fewer than functions.
+  const double columns = 0.1 * s.points <= s.functions ? 8.0 * squared * s.points * s.period : 0.0;
+  return 130.0 * s.contacts * s.points + (150.0 + 32.0 * squared) * s.functions + columns +
+         16.0 * s.active * s.active + 16.0 * coarse * coarse + 100.0 * s.contacts * coarse;
 }
 
 bool seeks_phases(const Scene& scene) {

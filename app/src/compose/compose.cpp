@@ -60,7 +60,7 @@ PairParts pair_parts(const Time& time) {
   options.inner_products = effective_inner_products(time);
   options.quadrature_points = time.quadrature_points;
   options.sample_offset = time.sample_offset;
-  options.nyquist = has_no_nyquist_force(time) ? NyquistCoefficient::drop : time.nyquist;
+  options.nyquist = effective_nyquist(time);
   if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
     return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
             std::move(options)};
@@ -111,6 +111,10 @@ solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {
 InnerProducts effective_inner_products(const Time& time) {
   const bool daubechies_galerkin = time.trial == time.weight && daubechies_coefficients(time.trial) > 0;
   return daubechies_galerkin ? InnerProducts::exact : time.inner_products;
+}
+
+NyquistCoefficient effective_nyquist(const Time& time) {
+  return has_no_nyquist_force(time) ? NyquistCoefficient::drop : time.nyquist;
 }
 
 solvers::Admissibility pair_admissibility(const Time& time) {

@@ -21,6 +21,7 @@ TEST(EstimateCost, GrowsWithEachSizeByItsShare) {
   EXPECT_LT(base, 100e6);
   EXPECT_NEAR(bytes({"analysis.output_points=1048576"}) - base, 500.0 * (1048576 - 1024), 1e-6 * base);
   EXPECT_GT(bytes({"time.quadrature_points=16777216"}), 130.0 * 16777216);
+  EXPECT_LT(bytes({"time.functions=64", "time.quadrature_points=16777216"}), 200.0 * 16777216);
   EXPECT_GT(bytes({"time.functions=1048576", "time.quadrature_points=1048576"}), 280.0 * 1048576);
   EXPECT_GT(estimate_cost(scene_of({"time.functions=1048576", "time.quadrature_points=1048576"})).seconds,
             100.0 * estimate_cost(scene).seconds);

@@ -27,6 +27,10 @@ solvers::AnyTimeBasis make_basis(const std::string& name, int functions);
 /// Galerkin pairs always take connection coefficients, which are exact [JL14, section 4.1].
 InnerProducts effective_inner_products(const Time& time);
 
+/// What becomes of the Nyquist coefficient: by the scene's key, except that pairs without a force on it drop
+/// it.
+NyquistCoefficient effective_nyquist(const Time& time);
+
 /// Whether the scene's bases can be paired, and if not, the reason.
 solvers::Admissibility pair_admissibility(const Time& time);
 
