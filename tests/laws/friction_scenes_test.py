@@ -106,10 +106,10 @@ def test_a_response_says_how_far_it_is_from_the_motion_of_the_structure_and_its_
         assert phases["begin"][phases["state"].index(state)] == pytest.approx(begin, abs=1e-9)
 
 
-@pytest.mark.parametrize("how", ["time.method=phases", "time.tolerance=1e-9", "analysis.type=shooting"])
+@pytest.mark.parametrize("how", ["time.method=exact", "time.tolerance=1e-9", "analysis.type=shooting"])
 def test_by_phases_a_contact_has_the_work_and_the_shares_of_the_exact_motion(solve, how):
     summary = solve("lift_off.toml", how, unset=BASES).summary
-    assert summary["solved_by"] == "phases" and summary["stability"] == "stable"
+    assert summary["solved_by"] == "exact" and summary["stability"] == "stable"
     assert summary["friction_work_J"] == pytest.approx(0.08956782539, abs=1e-9 * 0.0896)
     assert summary["friction"]["open_fraction"][0] == pytest.approx(0.651719143, abs=1e-8)
     assert summary["friction"]["stick_fraction"][0] == pytest.approx(0.3296863, abs=1e-8)
@@ -119,8 +119,8 @@ def test_by_phases_other_laws_are_taken_beside(folder, changed, monkeypatch):
     monkeypatch.chdir(folder)
     stop = '[[contact.pairs]]\ndofs = [1]\nlaw = "linear"\nstiffness = 5.0\ngap = 1.0\n[forcing]'
     text = changed((folder / "lift_off.toml").read_text(), ("[forcing]", stop))
-    completed = wb.complete(text, ["time.method=phases"], unset=BASES)
-    assert 'law = "linear"' in completed and 'method = "phases"' in completed
+    completed = wb.complete(text, ["time.method=exact"], unset=BASES)
+    assert 'law = "linear"' in completed and 'method = "exact"' in completed
 
 
 def test_a_bolted_beam_is_swept_through_its_resonance_in_few_points(solve):

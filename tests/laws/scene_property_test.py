@@ -115,7 +115,7 @@ class Draw:
         elif kind == "shooting":
             scene["time"] = tolerance
         elif kind == "forced_response" and self.quarter():
-            scene["time"] = {"method": "phases", **tolerance}
+            scene["time"] = {"method": "exact", **tolerance}
         elif kind == "forced_response" and self.quarter():
             pair = {key: bases[key] for key in ("trial", "weight") if self.integer(0, 2)}
             others = {key: bases[key] for key in ("inner_products", "nyquist")}
