@@ -14,7 +14,8 @@ def round_mass(apart, **analysis):
     """A mass of 2 kg on springs along x and y, equal but for `apart`, against a stop; and a third mass beside them."""
     return {
         "structure": {"type": "matrices", "mass": MASS, "stiffness": np.diag([1e6, 1e6 * (1.0 + apart), 9e6])},
-        "contact": {"law": "linear", "stiffness": 1e7, "gap": 1e-4, "pairs": [{"dofs": [1, 2], "coefficients": [0.6, 0.8]}]},
+        "contact": {"law": "linear", "stiffness": 1e7, "gap": 1e-4,
+                    "pairs": [{"dofs": [1, 2], "coefficients": [0.6, 0.8]}]},
         "time": {"trial": "fourier", "weight": "fourier", "functions": 31},
         "analysis": {"type": "nonlinear_mode", **analysis},
     }
@@ -25,7 +26,8 @@ def shapes_of(apart, folder):
     columns = []
     for mode in (1, 2):
         output = folder / f"mode{mode}"
-        assert wb.run(round_mass(apart, mode=mode, energy_ratio=0.25, motion_points=32), output=output).status == "linear"
+        record = wb.run(round_mass(apart, mode=mode, energy_ratio=0.25, motion_points=32), output=output)
+        assert record.status == "linear"
         motion = np.asarray(scipy.io.mmread(output / "motion.mtx"))[:, 0]
         columns.append(motion / np.sqrt(motion @ MASS @ motion))
     return np.array(columns).T

@@ -1,5 +1,7 @@
 """The cases of Jones & Legrand 2014, and a blade's mode and sweep, against figures that were computed independently."""
 
+import tomllib
+
 import numpy as np
 import pytest
 import wavebalance as wb
@@ -10,9 +12,8 @@ import wavebalance as wb
     ("case2", 15.20671e-3, 16.26369e-3, 11.47116e-3, 5.694, 0.1069),
 ])
 def test_contact_phases_meet_the_reference(case, largest, largest_modulus, rms, force_ratio, contact_fraction, scenes):
-    record = wb.run(scenes / "jones_legrand_2014" / f"{case}.toml", {"time.method": "phases", "analysis.output_points": 65536},
-                    unset=[f"time.{key}" for key in ("trial", "weight", "functions", "nyquist", "formulation",
-                                                     "quadrature_points", "inner_products")])
+    scene = tomllib.loads((scenes / "jones_legrand_2014" / f"{case}.toml").read_text())
+    record = wb.run({**scene, "time": {"method": "phases"}}, {"analysis.output_points": 65536})
     assert record.converged, record.status
     u, force = record.response["displacement_m"], record.response["contact_force_N"]
     # The listed values have seven digits.
@@ -42,7 +43,8 @@ def blade(request):
 @pytest.mark.parametrize("mode, expected", enumerate([570.0, 1662.4, 2206.2, 3781.2, 4655.5], start=1))
 def test_the_reduced_blade_keeps_the_frequencies(mode, expected, blade):
     summary = blade(mode=mode, energy_ratio=0.5).summary
-    assert (summary["degrees_of_freedom"], summary["reduced_degrees_of_freedom"], summary["contacts"]) == (3936, 112, 24)
+    assert (summary["degrees_of_freedom"], summary["reduced_degrees_of_freedom"]) == (3936, 112)
+    assert summary["contacts"] == 24
     assert summary["linear_frequency_Hz"] == pytest.approx(expected, rel=5e-4)
 
 
@@ -80,7 +82,7 @@ def distance_from(curve, frequency, displacement):
     return np.min(np.abs(found - displacement) / displacement, initial=np.inf)
 
 
-# With fewer elements, loaded by 1.5 times its force, about its resonance; 16 Fourier functions leave one coefficient out.
+# With fewer elements, loaded by 1.5 times its force, about its resonance; 16 Fourier functions are solved as 15.
 @pytest.mark.parametrize("trial", ["fourier", "haar"])
 def test_the_blades_sweep_reaches_its_end_through_the_responses_at_single_frequencies(trial, scenes):
     changes = {"structure.chord_elements": 3, "structure.span_elements": 6, "forcing.amplitude": 30,

@@ -11,6 +11,7 @@ RIGID = {
     "contact": {"law": "rigid", "gap": 1e-3},
     "time": {**BAR["time"], "quadrature_points": 128},
 }
+PLAIN = {"analysis.stability": False, "analysis.phases": False}
 
 
 def test_a_tip_without_mass_gives_it_to_its_neighbour_and_keeps_the_sum():
@@ -31,10 +32,12 @@ def test_a_tip_without_mass_gives_it_to_its_neighbour_and_keeps_the_sum():
         assert np.abs(motion - exact).max() < 1e-11 * np.abs(exact).max()
 
 
-@pytest.mark.parametrize("trial, weight", [("fourier", "fourier"), ("bspline", "bspline"), ("daubechies6", "daubechies6"),
-                                           ("haar", "fourier"), ("daubechies6", "fourier"), ("haar", "bspline")])
+@pytest.mark.parametrize("trial, weight", [
+    ("fourier", "fourier"), ("bspline", "bspline"), ("daubechies6", "daubechies6"), ("haar", "fourier"),
+    ("daubechies6", "fourier"), ("haar", "bspline"),
+])
 def test_rigid_contact_holds_for_all_pairs(trial, weight):
-    record = wb.run(RIGID, {"time.trial": trial, "time.weight": weight, "analysis.stability": False, "analysis.phases": False})
+    record = wb.run(RIGID, {**PLAIN, "time.trial": trial, "time.weight": weight})
     assert record.converged, record.status
     # The discretisation error of 64 functions, below 1 % of the gap of 1 mm.
     assert record.summary["max_penetration_m"] <= 1e-5
@@ -45,8 +48,7 @@ def test_rigid_contact_holds_for_all_pairs(trial, weight):
 
 
 def test_rigid_contact_is_the_limit_of_a_stiff_spring():
-    plain = {"analysis.stability": False, "analysis.phases": False}
-    rigid = wb.run(RIGID, plain)
-    stiff = wb.run({**RIGID, "contact": {"law": "linear", "stiffness": 1e13, "gap": 1e-3}}, plain)
+    rigid = wb.run(RIGID, PLAIN)
+    stiff = wb.run({**RIGID, "contact": {"law": "linear", "stiffness": 1e13, "gap": 1e-3}}, PLAIN)
     assert rigid.converged and stiff.converged
     assert np.abs(stiff.response["displacement_m"] - rigid.response["displacement_m"]).max() < 1e-3 * 1e-3

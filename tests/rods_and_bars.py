@@ -5,14 +5,14 @@ import json
 import numpy as np
 
 ROD = {
-    "structure": {"type": "bar", "youngs_modulus": 2.1e11, "density": 7800.0, "area": 9e-4, "length": 1.0, "elements": 20,
-                  "lumped_mass_fraction": 0.5},
+    "structure": {"type": "bar", "youngs_modulus": 2.1e11, "density": 7800.0, "area": 9e-4, "length": 1.0,
+                  "elements": 20, "lumped_mass_fraction": 0.5},
     "contact": {"law": "rigid", "gap": 1e-3},
     "analysis": {"type": "nonlinear_mode", "points": 200},
 }
 BAR = {
-    "structure": {"type": "bar", "youngs_modulus": 70e9, "density": 2700, "area": 25e-4, "length": 1.0, "elements": 25,
-                  "stiffness_damping": 1e-4},
+    "structure": {"type": "bar", "youngs_modulus": 70e9, "density": 2700, "area": 25e-4, "length": 1.0,
+                  "elements": 25, "stiffness_damping": 1e-4},
     "contact": {"law": "exponential", "constant": 1e8, "exponent": 50.0, "gap": 1e-3},
     "forcing": {"amplitude": 250e3, "frequency": 150.0},
     "time": {"trial": "fourier", "weight": "fourier", "functions": 64, "quadrature_points": 256},
