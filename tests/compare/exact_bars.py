@@ -48,7 +48,7 @@ class ElasticBar:
         return np.real(self.linear * np.exp(2j * np.pi * time / self.period))
 
     def integrals(self, place, length):
-        """Of exp(rate (place - s)) times each Lagrange polynomial over 0..place of a panel, rates × nodes, s."""
+        """Integrals of exp(rate (place - s)) times the Lagrange polynomials over 0..place of a panel, rates × nodes."""
         s, w = (0.5 * place * (part + shift) for part, shift in zip(self.quadrature, (1.0, 0.0)))
         lagrange = legvander(2.0 * s - 1.0, self.nodes - 1) @ self.to_nodes
         return length * np.exp(np.outer(self.rates * length, place - s)) * w @ lagrange
@@ -147,7 +147,7 @@ class RigidBar:
         beta, inner = structure["stiffness_damping"], len(mass) - 1
         inverse = np.linalg.inv(mass[:-1, :-1])
         k, to_tip, tip = inverse @ stiffness[:-1, :-1], inverse @ stiffness[:-1, -1], stiffness[-1]
-        # Of the tip: load = force + tip . (u + beta u').
+        # At the tip, load = force + tip . (u + beta u').
         self.row = np.concatenate([tip[:-1], beta * tip[:-1]])
         self.tip_stiffness, zero, one = tip[-1], np.zeros((inner, inner)), np.eye(inner)
         closed = np.block([[zero, one], [-k, -beta * k]])
@@ -165,7 +165,7 @@ class RigidBar:
         return self.load * np.cos(2.0 * np.pi * time / self.period) - state @ self.row - self.tip_stiffness * self.gap
 
     def states(self, begin, end):
-        """Of a contact in between: at its beginning, at its end with the tip, and where it begins again."""
+        """The states of a contact in between: at its beginning, at its end with the tip, and where it begins again."""
         closed, free = self.closed.transition(end - begin), self.free.transition(begin + self.period - end)
         through = free[:-1, :-1] @ closed
         from_zero = self.free.state(np.append(self.closed.state(np.zeros(len(closed)), begin, end), self.gap), end,

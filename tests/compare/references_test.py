@@ -55,7 +55,7 @@ def test_the_reference_of_a_published_case_is_the_exact_motion(case, bar, near, 
     assert np.all(np.less(errors_of(bar(scene).motion(near, 1024), reference), tolerances))
 
 
-# Of several contacts; and of forces of the velocity with a damping that couples modes.
+# One scene with several contacts, one with forces of the velocity and a damping that couples modes.
 @pytest.mark.parametrize("scene, error", [(CHAIN, 1e-11), (CLOSED_STOP, 1e-10)], ids=["chain", "closed_stop"])
 def test_the_reference_is_the_motion_that_time_stepping_finds(scene, error):
     found, reference = compared(scene, 2.0)
