@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "compose/structure_files.hpp"
 #include "compose/symmetric_part.hpp"
@@ -41,6 +42,22 @@ Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& file
 Scene with_one_side(Scene scene) {
   for (ContactPair& pair : scene.contact.pairs) pair.side = ObstacleSide::positive;
   return scene;
+}
+
+/// The lowest modes; a semidefinite mass has fewer, since rounding alone tells others from infinitely high
+/// ones.
+fem::EigenmodesResult lowest_modes(const StructureFiles& files, const Eigen::SparseMatrix<double>& elastic,
+                                   int count, const fem::EigenmodesOptions& options) {
+  constexpr double highest = 1e6;  // ratio of frequencies, of whose square 1e-16 is 1e-4
+  if (!files.reduced) return fem::eigenmodes(elastic, files.matrices.mass, count, options);
+  for (;; --count) {
+    try {
+      fem::EigenmodesResult found = fem::eigenmodes(elastic, files.matrices.mass, count, options);
+      if (count == 1 || found.omega.tail(1)[0] < highest * found.omega[0]) return found;
+    } catch (const std::domain_error&) {
+      if (count == 1) throw;
+    }
+  }
 }
 
 /// Their frequencies are zero, and a damping ratio has no meaning.
@@ -94,7 +111,7 @@ StructureFacts structure_facts(const Scene& scene, int modes) {
   const bool free = scene.structure.matrices.free;
   fem::EigenmodesOptions options;
   options.shift = shift_of(free, elastic, matrices.mass);
-  auto found = fem::eigenmodes(elastic, matrices.mass, std::min(modes, size), options);
+  auto found = lowest_modes(*files, elastic, std::min(modes, size), options);
   StructureFacts facts;
   if (free) facts.rigid_motions = int(solvers::find_rigid_modes(matrices.mass, elastic).cols());
   leave_out_rigid_modes(found, facts.rigid_motions);
