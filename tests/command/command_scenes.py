@@ -1,0 +1,128 @@
+"""Scenes of which the tests of the command change one thing each, and readers of what a record holds."""
+
+import csv
+
+# The number at the end of a line is that line's.
+BAR = """[structure]
+type = "bar"                    # 2
+youngs_modulus = 70e9           # 3
+density = 2700                  # 4, an integer where a number is wanted
+area = 25e-4                    # 5
+length = 1.0                    # 6
+elements = 25                   # 7
+stiffness_damping = 1e-4        # 8
+[contact]
+law = "exponential"             # 10
+constant = 1e8                  # 11
+exponent = 50.0                 # 12
+gap = 1e-3                      # 13
+[forcing]
+amplitude = 250e3               # 15
+frequency = 150.0               # 16
+[time]
+trial = "fourier"               # 18
+weight = "fourier"              # 19
+functions = 64                  # 20
+quadrature_points = 256         # 21
+[analysis]
+type = "forced_response"        # 23
+"""
+
+ROD = """[structure]
+type = "bar"
+youngs_modulus = 2.1e11
+density = 7800.0
+area = 9e-4
+length = 1.0
+elements = 20
+lumped_mass_fraction = 0.5
+[contact]
+law = "rigid"
+gap = 1e-3
+[analysis]
+type = "nonlinear_mode"
+points = 200
+"""
+
+# m = k = 1, c = 0.05, a stop of 2 N/m at 1 m, 0.2 N: a bar of one element. The curve has two folds, near
+# 0.1737 Hz and 0.1892 Hz, between which there are three motions.
+STOP_AT = """[structure]
+type = "bar"
+youngs_modulus = 1.0
+density = 2.0
+area = 1.0
+length = 1.0
+elements = 1
+lumped_mass_fraction = 1.0
+stiffness_damping = 0.05
+[contact]
+law = "linear"
+stiffness = 2.0
+gap = 1.0
+[forcing]
+amplitude = 0.2
+frequency = 0.18
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 63
+quadrature_points = 1024
+[analysis]
+"""
+STOP = STOP_AT + 'type = "frequency_sweep"\nfrequency_from = 0.13\nfrequency_to = 0.25\n'
+
+# Three masses of 2 kg between springs of 1e6 N/m, free at the end; the last two touch obstacles.
+SYMMETRIC = "%%MatrixMarket matrix coordinate real symmetric\n"
+CHAIN_FILES = {
+    "k.mtx": SYMMETRIC + "3 3 5\n1 1 2e6\n2 1 -1e6\n2 2 2e6\n3 2 -1e6\n3 3 1e6\n",
+    "m.mtx": SYMMETRIC + "3 3 3\n1 1 2\n2 2 2\n3 3 2\n",
+    "f.mtx": "%%MatrixMarket matrix array real general\n3 1\n0\n0\n1\n",
+}
+CHAIN = """[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+contact_dofs = [2, 3]
+modal_damping = 0.01
+[contact]
+law = "linear"
+stiffness = 1e7
+gap = 1e-4
+[forcing]
+load_dofs = [3]
+amplitude = 100.0
+frequency = 50.0
+[time]
+trial = "fourier"
+weight = "fourier"
+functions = 32
+[analysis]
+type = "forced_response"
+"""
+
+SWEEP = ("analysis.type=frequency_sweep", "analysis.frequency_from=100", "analysis.frequency_to=105",
+         "analysis.stability=false")
+
+
+def changed(text, *pairs):
+    """A text in which each first of a pair, which it must hold, is replaced by the second."""
+    for old, new in pairs:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return text
+
+
+def with_tolerance(tolerance):
+    """The bar with a tolerance in place of pair, functions and points."""
+    return BAR[:BAR.index("trial = ")] + f"tolerance = {tolerance}\n" + BAR[BAR.index("[analysis]"):]
+
+
+def rows_of(file):
+    """The rows of a CSV file, texts by the names of their columns."""
+    with open(file, newline="", encoding="utf-8") as lines:
+        return list(csv.DictReader(lines))
+
+
+def names_in(folder):
+    """Files and folders of a folder, hidden ones included."""
+    return {one.name for one in folder.iterdir()}
