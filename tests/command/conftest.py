@@ -8,7 +8,7 @@ import time
 from types import SimpleNamespace
 
 import pytest
-from command_scenes import BAR, CHAIN, CHAIN_FILES
+from command_scenes import BAR, CHAIN, CHAIN_FILES, STOP, STOP_AT
 
 PROGRAM = os.environ["WAVEBALANCE_COMMAND"]
 
@@ -91,3 +91,14 @@ def masses(tmp_path):
         (tmp_path / name).write_text(text)
     (tmp_path / "case.toml").write_text(CHAIN)
     return tmp_path / "case.toml"
+
+
+@pytest.fixture
+def stop(tmp_path):
+    """Writes the scene of an oscillator with a stop, a frequency sweep or without an analysis; returns its file."""
+
+    def write(sweep=True):
+        (tmp_path / f"stop_{sweep}.toml").write_text(STOP if sweep else STOP_AT)
+        return tmp_path / f"stop_{sweep}.toml"
+
+    return write
