@@ -1,0 +1,105 @@
+"""Responses and modes of one structure over each other."""
+
+import math
+
+import numpy as np
+import pytest
+from command_scenes import STOP, STOP_AT, names_in, rows_of
+
+import wavebalance as wb
+
+UNDAMPED_MODE = {"analysis.type": "nonlinear_mode", "structure.stiffness_damping": 0, "analysis.last_frequency_ratio": 1.4,
+                 "analysis.points": 60, "analysis.largest_energy": 20}
+RECORDS = {
+    "low": (STOP, {"forcing.amplitude": 0.1}),
+    "high": (STOP, {}),
+    "heavy": (STOP, {"structure.density": 2.1}),
+    "near": (STOP, {"contact.gap": 0.9}),
+    "point": (STOP_AT, {"analysis.type": "forced_response"}),
+    "mode": (STOP_AT, UNDAMPED_MODE),
+}
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory):
+    """The folder of the records, each solved once."""
+    folder = tmp_path_factory.mktemp("records")
+    for name, (scene, changes) in RECORDS.items():
+        assert wb.run(scene, changes, folder / name).converged, name
+    return folder
+
+
+@pytest.fixture
+def overlay(command, records):
+    """Lays records over each other into the folder `out`."""
+    return lambda *names, more=(): command("overlay", *[records / name for name in names], "--output", "out", *more)
+
+
+def columns_of(rows):
+    return [np.array([float(row[name]) for row in rows]) for name in ("frequency_Hz", "displacement_m")]
+
+
+def frequency_at(rows, level):
+    """Frequency of a curve where its displacement first reaches a value."""
+    frequency, displacement = columns_of(rows)
+    i = np.flatnonzero((displacement[:-1] < level) & (displacement[1:] >= level))[0]
+    return np.interp(level, displacement[i:i + 2], frequency[i:i + 2])
+
+
+def test_no_file_that_no_record_lists_is_replaced(overlay, tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "overlay.csv").write_text("measured\n")
+    refused = overlay("low")
+    assert refused.code == 2
+    assert "overlay.csv: would be replaced" in refused.errors
+    assert (tmp_path / "out" / "overlay.csv").read_text() == "measured\n"
+
+
+def test_peaks_of_lightly_damped_responses_lie_on_the_backbone(overlay):
+    drawn = overlay("mode", "low", "high")
+    assert (drawn.code, drawn.errors) == (0, "")
+    assert names_in(drawn.folder) == {"overlay.svg", "overlay.png", "overlay.html", "overlay.figure.js", "overlay.csv",
+                                      "summary.json"}
+    rows = rows_of(drawn.folder / "overlay.csv")
+    backbone = [row for row in rows if row["kind"] == "nonlinear_mode"]
+    for name in ("low", "high"):
+        frequency, displacement = columns_of([row for row in rows if row["curve"] == name])
+        peak = displacement.argmax()
+        assert displacement[peak] > 1.0
+        assert frequency_at(backbone, displacement[peak]) == pytest.approx(frequency[peak], rel=0.01), name
+    assert "overlay.svg" in (drawn.folder / "overlay.html").read_text()
+
+
+@pytest.mark.parametrize("quantity", ["max", "min", "max_abs", "rms"])
+def test_responses_are_points_of_every_quantity(overlay, quantity):
+    drawn = overlay("high", "point", more=("--quantity", quantity, "-q"))
+    assert (drawn.code, drawn.text) == (0, ""), drawn.errors
+    (point,) = [row for row in rows_of(drawn.folder / "overlay.csv") if row["kind"] == "response"]
+    assert float(point["frequency_Hz"]) == 0.18
+    assert math.isfinite(float(point["displacement_m"]))
+
+
+def test_another_structure_is_refused_with_where_it_differs(overlay, tmp_path):
+    refused = overlay("high", "heavy")
+    assert refused.code == 2
+    assert "heavy is of another structure than the first folder: structure.density is 2.1 and not 2.0" in refused.errors
+    assert not (tmp_path / "out").exists()
+
+
+def test_another_gap_is_warned_of(overlay):
+    warned = overlay("high", "near")
+    assert warned.code == 0
+    assert "has another gap" in warned.errors
+
+
+@pytest.mark.parametrize("words, answer", [
+    (("empty", "-o", "out"), "holds no scene.toml"),
+    (("{records}/high", "-o", "{records}/high"), "expected another folder"),
+    (("{records}/high", "-o", "out", "--quantity", "peak"), "expected max, min, max_abs or rms"),
+], ids=["no results", "its own input", "quantity"])
+def test_what_cannot_be_drawn_is_refused_and_nothing_is_lost(command, records, tmp_path, words, answer):
+    (tmp_path / "empty").mkdir()
+    refused = command("overlay", *[word.format(records=records) for word in words])
+    assert refused.code == 2
+    assert answer in refused.errors
+    assert (records / "high" / "sweep.csv").exists()
