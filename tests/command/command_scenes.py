@@ -1,6 +1,9 @@
 """Scenes of which the tests of the command change one thing each, and readers of what a record holds."""
 
 import csv
+import html
+import json
+import re
 
 # The number at the end of a line is that line's.
 BAR = """[structure]
@@ -126,3 +129,20 @@ def rows_of(file):
 def names_in(folder):
     """Files and folders of a folder, hidden ones included."""
     return {one.name for one in folder.iterdir()}
+
+
+def words_of(page):
+    """The text of a page without markup, from its first heading on."""
+    body = re.sub(r"<(style|script)\b.*?</\1>", "", page[page.index("<h1"):], flags=re.S)
+    return html.unescape(re.sub(r"<[^>]+>", "", body))
+
+
+def tables_of(page):
+    """The tables of a page by the words that unfold them, each a list of rows of texts."""
+    return {title: [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in re.findall("<tr>(.*?)</tr>", table, re.S)]
+            for title, table in re.findall(r"<summary>([^<]*)</summary>\s*<div[^>]*><table>(.*?)</table>", page, re.S)}
+
+
+def curves_of(script):
+    """The figure that a script of a page holds."""
+    return json.loads(script[script.index("] = {") + 4:script.rindex("}") + 1])

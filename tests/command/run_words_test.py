@@ -1,0 +1,74 @@
+"""Sentences of a report are those of the numbers in its summary."""
+
+import numpy as np
+import pytest
+import wavebalance as wb
+from command_scenes import BAR, ROD, words_of
+
+
+@pytest.fixture(scope="module")
+def told(tmp_path_factory):
+    """Solves a scene, given as path or text, with other values; returns the summary and the words of its report."""
+
+    def run(scene, overrides=None):
+        folder = tmp_path_factory.mktemp("run") / "out"
+        record = wb.run(scene, overrides, folder)
+        return record.summary, words_of((folder / "report.html").read_text())
+
+    return run
+
+
+def lacking(text, *parts):
+    return [part for part in parts if part not in text]
+
+
+def test_a_motion_is_told_with_its_contact_and_its_distance_from_the_gap(told):
+    summary, text = told(BAR)
+    low, high = (1e3 * summary[name] for name in ("min_displacement_m", "max_displacement_m"))
+    assert lacking(text, "was solved, in ", f"relative residual is {summary['residual']:.2g}.", "At 150 Hz",
+                   f"{low:.4g} mm and {high:.4g} mm", f"{100 * (high - 1.0):.3g} % past the gap of 1 mm",
+                   f"{100 * summary['contact_fraction']:.3g} % of the period",
+                   f"{1e-3 * summary['max_contact_force_N']:.4g} kN") == []
+
+
+def test_a_motion_that_has_not_converged_is_called_no_solution(told):
+    _, text = told(BAR, {"analysis.type": "time_stepping", "analysis.max_periods": 1})
+    assert lacking(text, "was not solved (iteration limit)", "The motion below is not a solution.") == []
+
+
+def test_without_a_motion_nothing_is_said_to_follow(told):
+    _, text = told(ROD, {"analysis.energy_ratio": 1e9})
+    assert "There is no motion to show." in text
+    assert "is not a solution" not in text
+
+
+def test_words_of_modes_are_explained_where_they_stand(told):
+    summary, text = told(ROD)
+    assert summary["points_tongue"] > 0
+    assert lacking(text, "A tongue is a part of the curve on an internal resonance",
+                   f"The virial residual, at most {summary['virial_residual']:.2g}, is the relative error") == []
+
+
+def test_special_points_are_listed_by_type_and_are_the_structures_where_its_whole_curve_is_known(told, scenes):
+    summary, text = told(scenes / "jones_legrand_2014" / "case2_sweep.toml")
+    assert summary["structure_curve"] == "whole"
+    points = summary["structure_special_points"]
+    places = {kind: ", ".join(f"{place:.7g} Hz" for place, one in zip(points["frequency_Hz"], points["type"]) if one == kind)
+              for kind in ("fold", "grazing")}
+    assert places["fold"] == "1337.739 Hz, 1315.015 Hz"
+    assert lacking(text, f"Folds, where the curve turns back: {places['fold']}.", f"joins another: {places['grazing']}.") == []
+    balance = summary["special_points"]
+    assert f"{balance['frequency_Hz'][list(balance['type']).index('fold')]:.7g}" == "1337.768"
+    assert "1337.768 Hz" not in text
+
+
+def test_unstable_parts_of_a_curve_and_of_its_branches_are_named(told, scenes):
+    summary, text = told(scenes / "cases_of_others" / "small_gap_bar.toml",
+                         {"time.functions": 31, "time.quadrature_points": 256})
+    parts, known = summary["unstable_parts"], summary["points"] - summary["points_stability_not_known"]
+    places = [", ".join(f"{begin:.7g} to {end:.7g} Hz" for begin, end, one in
+                        zip(parts["begin_Hz"], parts["end_Hz"], parts["branch"]) if one == branch) for branch in (0, 1)]
+    assert np.bincount(np.asarray(parts["branch"], dtype=int)).tolist() == [2, 1]
+    assert lacking(text, f"Along the curve motions are unstable at {places[0]}.",
+                   f"Along branch 1 motions are unstable at {places[1]}.",
+                   f"Stability is known at {known} of {summary['points']} points. Where contact has just begun") == []
