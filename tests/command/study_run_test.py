@@ -10,8 +10,7 @@ import subprocess
 import numpy as np
 import pytest
 import wavebalance as wb
-from command_scenes import BAR, SYMMETRIC
-from wavebalance import _core
+from command_scenes import BAR, curves_of
 
 QUICK = {"time.functions": 15, "time.quadrature_points": 64}
 
@@ -181,15 +180,16 @@ def test_quantiles_are_those_of_the_runs_that_converged(tmp_path):
     assert study.svg().count("</svg>") == 1
 
 
-def test_axes_of_a_map_are_numbered_by_what_the_parameters_are_in_readable_units():
+def test_axes_of_a_map_are_numbered_by_what_the_parameters_are_in_readable_units(tmp_path):
     gaps = {"from": 1e-4, "to": 1e-2, "count": 5, "spacing": "logarithmic"}
-    svg = wb.study(BAR, {"contact.gap": gaps, "forcing.amplitude": {"from": 5e4, "to": 1e5, "count": 3}}, QUICK).svg()
-    assert ">contact.gap (mm)<" in svg and ">forcing.amplitude (kN)<" in svg
-    left, top, bottom, right = map(float, re.search(r" d='M([\d.]+),([\d.]+) L\1,([\d.]+) L([\d.]+),\3 ", svg).groups())
-    width, height = (right - left) / 5, (bottom - top) / 3  # of the places of values of gap and amplitude
-    at = {text: (float(x), float(y)) for x, y, text in re.findall(
-        r"d='M([\d.]+),([\d.]+) L\S+ +'/>\s*<g transform[^>]*>\s*<text><tspan[^>]*>([\d.]+)<", svg)}
-    assert [text for text, place in at.items() if place[1] == bottom] == ["0.1", "1", "10"]
-    assert [at[text][0] for text in ("0.1", "1", "10")] == pytest.approx(
-        [left + width * place for place in (0.5, 2.5, 4.5)], rel=0, abs=0.02)  # the digits of the file
-    assert at["100"][1] == pytest.approx(top + 0.5 * height, rel=0, abs=0.02)
+    loads = {"from": 5e4, "to": 1e5, "count": 3}
+    study = wb.study(BAR, {"contact.gap": gaps, "forcing.amplitude": loads}, QUICK, output=tmp_path)
+    (panel,) = curves_of((tmp_path / "study.figure.js").read_text())["panels"]
+    assert panel["x"]["label"] == "contact.gap (mm)"
+    assert panel["x"]["texts"] == ["0.1", "1", "10"]
+    assert panel["x"]["ticks"] == pytest.approx([-1.0, 0.0, 1.0], rel=0, abs=1e-12)
+    assert panel["y"]["label"] == "forcing.amplitude (kN)"
+    assert panel["series"][0]["y"][-1] == pytest.approx(100.0, rel=0, abs=1e-9)
+    places = [float(x) for text in panel["x"]["texts"] for x in re.findall(
+        rf"translate\(([0-9.]+),[0-9.]+\)[^>]*>\s*<text><tspan[^>]*>{text}<", study.svg())]
+    assert len(places) == 3 and places[2] - places[1] == pytest.approx(places[1] - places[0], rel=0, abs=0.02)
