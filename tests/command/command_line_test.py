@@ -8,7 +8,8 @@ import wavebalance as wb
 from command_scenes import BAR, ROD, names_in, with_tolerance
 
 SCENES = Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
-VERSION = re.search(r"project\(wavebalance VERSION ([0-9.]+)", (SCENES.parents[1] / "CMakeLists.txt").read_text()).group(1)
+PROJECT = (SCENES.parents[1] / "CMakeLists.txt").read_text()
+VERSION = re.search(r"project\(wavebalance VERSION ([0-9.]+)", PROJECT).group(1)
 
 
 @pytest.fixture

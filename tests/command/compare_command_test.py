@@ -27,10 +27,11 @@ def test_files_and_page_say_what_to_take(compare, bar):
     record = compare("--pairs", TWO_PAIRS, "--budget", "2")
     assert record.code == 0, record.errors
     assert names_in(record.folder) == {
-        "summary.json", "comparison.csv", "comparison.md", "error_over_time.svg", "error_over_functions.svg", "scene.toml",
-        "report.html", "error_over_time.figure.js", "error_over_functions.figure.js"}
-    on_page = ("For an error of 1e-4 of displacement and force", "[time]\ntrial = ", "Errors are those against contact phases.",
-               "How each pair did", "Its motion is stable.", "error_over_time.figure.js", "wavebalance compare ",
+        "summary.json", "comparison.csv", "comparison.md", "error_over_time.svg", "error_over_functions.svg",
+        "scene.toml", "report.html", "error_over_time.figure.js", "error_over_functions.figure.js"}
+    on_page = ("For an error of 1e-4 of displacement and force", "[time]\ntrial = ",
+               "Errors are those against contact phases.", "How each pair did", "Its motion is stable.",
+               "error_over_time.figure.js", "wavebalance compare ",
                f'{TWO_PAIRS} <span class="whole">--budget</span> 2')
     assert [part for part in on_page if part not in record.page] == []
     said = ("The reference is contact phases", "For an error of 1e-2 of displacement and force the cheapest is ",

@@ -49,8 +49,8 @@ def test_a_record_with_copies_stands_alone(project, solve, command, tmp_path):
 
 
 def test_a_comparison_with_copies_stands_alone(project, command, tmp_path):
-    compared = command("compare", project / "case.toml", "--output", project / "c", "--quiet", "--budget", "0.2", "--pairs",
-                       "fourier:fourier", "--copy-inputs")
+    compared = command("compare", project / "case.toml", "--output", project / "c", "--quiet", "--budget", "0.2",
+                       "--pairs", "fourier:fourier", "--copy-inputs")
     assert compared.code in (0, 3), compared.errors  # 3: the time was too short for a reference
     (project / "c").rename(tmp_path / "sent")
     shutil.rmtree(project)

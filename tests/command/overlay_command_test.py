@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import pytest
+import wavebalance as wb
 from command_scenes import STOP, STOP_AT, names_in, rows_of
 
-import wavebalance as wb
-
-UNDAMPED_MODE = {"analysis.type": "nonlinear_mode", "structure.stiffness_damping": 0, "analysis.last_frequency_ratio": 1.4,
-                 "analysis.points": 60, "analysis.largest_energy": 20}
+UNDAMPED_MODE = {"analysis.type": "nonlinear_mode", "structure.stiffness_damping": 0,
+                 "analysis.last_frequency_ratio": 1.4, "analysis.points": 60, "analysis.largest_energy": 20}
 RECORDS = {
     "low": (STOP, {"forcing.amplitude": 0.1}),
     "high": (STOP, {}),

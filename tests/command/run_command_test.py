@@ -14,8 +14,8 @@ QUICK = ("--no-report", "--quiet")
 def test_a_response_is_written_with_its_table_picture_page_and_scene(command, bar):
     record = command("run", bar, "--output", "out")
     assert (record.code, record.errors) == (0, "")
-    assert names_in(record.folder) == {"report.html", "summary.json", "response.csv", "response.svg", "response.figure.js",
-                                       "response.motion.js", "scene.toml"}
+    assert names_in(record.folder) == {"report.html", "summary.json", "response.csv", "response.svg", "scene.toml",
+                                       "response.figure.js", "response.motion.js"}
     assert record.summary["converged"] is True
     assert "response.csv" in {file["name"] for file in record.summary["files"]}
     assert len(rows_of(record.folder / "response.csv")) == 1024
@@ -68,8 +68,9 @@ def test_matrices_write_every_contact_and_the_whole_motion(run, scenes):
     scene = scenes / "matrices" / "strip_forced.toml"
     record = run(scene)
     assert record.code == 0, record.errors
-    assert {"summary.json", "response.csv", "response.svg", "contacts.csv", "motion.mtx", "scene.toml"} <= names_in(record.folder)
-    assert len(names_in(record.folder)) == 8
+    names = names_in(record.folder)
+    assert {"summary.json", "response.csv", "response.svg", "contacts.csv", "motion.mtx", "scene.toml"} <= names
+    assert len(names) == 8
     assert len(rows_of(record.folder / "contacts.csv")) == 2 * 1024
     assert "\n72 32\n" in (record.folder / "motion.mtx").read_text()
     assert record.summary["degrees_of_freedom"] == 72
@@ -96,8 +97,9 @@ def test_failure_to_converge_is_three_with_the_record(run):
 
 
 def test_without_gnuplot_the_numbers_remain(bar, tmp_path):
-    ended = subprocess.run([os.environ["WAVEBALANCE_COMMAND"], "run", bar, "--no-report", "--output", "out"], cwd=tmp_path,
-                           env={**os.environ, "PATH": "/nowhere"}, capture_output=True, text=True, check=False)
+    words = [os.environ["WAVEBALANCE_COMMAND"], "run", bar, "--no-report", "--output", "out"]
+    ended = subprocess.run(words, cwd=tmp_path, env={**os.environ, "PATH": "/nowhere"}, capture_output=True,
+                           text=True, check=False)
     assert ended.returncode == 0
     assert "no picture" in ended.stderr
     assert "summary.json" in names_in(tmp_path / "out")
@@ -154,7 +156,8 @@ def test_a_scene_that_takes_less_memory_than_allowed_is_solved(run):
 
 def test_runs_on_several_threads_have_the_digits_of_one(command, scenes, tmp_path):
     def response(threads):
-        record = command("run", scenes / "matrices" / "strip_forced.toml", "--output", threads, "--threads", threads, *QUICK)
+        record = command("run", scenes / "matrices" / "strip_forced.toml", *QUICK, "--output", threads, "--threads",
+                         threads)
         assert record.code == 0, record.errors
         return (tmp_path / threads / "response.csv").read_text()
 

@@ -1,4 +1,4 @@
-"""Runs of `wavebalance run` that are refused, interrupted or cannot be written leave no half results and no foreign file changed."""
+"""Runs that are refused, interrupted or cannot be written leave no half results and change no foreign file."""
 
 import json
 import os
@@ -24,8 +24,8 @@ def test_matrices_of_other_sizes_are_two_and_write_nothing(command, masses, tmp_
     (tmp_path / "m.mtx").write_text(SYMMETRIC + "2 2 2\n1 1 1\n2 2 1\n")
     record = command(words[0], masses, *words[1:])
     assert (record.code, record.errors) == (
-        2, f'wavebalance: {masses}:3: structure.mass = "m.mtx": the matrix in {tmp_path}/m.mtx is 2 x 2; expected 3 x 3, '
-        f"the size of structure.stiffness in {tmp_path}/k.mtx\n")
+        2, f'wavebalance: {masses}:3: structure.mass = "m.mtx": the matrix in {tmp_path}/m.mtx is 2 x 2; expected '
+        f"3 x 3, the size of structure.stiffness in {tmp_path}/k.mtx\n")
     assert names_in(tmp_path) == {"case.toml", *CHAIN_FILES}
 
 
@@ -59,7 +59,8 @@ def catches(process, sent):
 
 def test_an_interrupted_motion_leaves_nothing(begin, bar, tmp_path):
     # No two periods agree to 1e-300: without the signal it would go on for hours.
-    sets = ("analysis.type=time_stepping", "analysis.tolerance=1e-300", "analysis.max_periods=100000000", "structure.elements=200")
+    sets = ("analysis.type=time_stepping", "analysis.tolerance=1e-300", "analysis.max_periods=100000000",
+            "structure.elements=200")
     running = begin("run", bar, "--output", "out", *[word for one in sets for word in ("--set", one)])
     running.wait_until(lambda: catches(running.process, signal.SIGINT))
     running.send(signal.SIGINT)
@@ -89,8 +90,9 @@ def test_a_folder_used_twice_holds_the_second_record_and_foreign_files(run):
     (first.folder / "backbone.csv").write_text("not of this record\n")
     second = run(BAR, set=SWEEP)
     assert second.code == 0, second.errors
-    assert {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv", "report.html"} <= names_in(second.folder)
-    assert len(names_in(second.folder)) == 7
+    names = names_in(second.folder)
+    assert {"summary.json", "sweep.csv", "sweep.svg", "scene.toml", "backbone.csv", "report.html"} <= names
+    assert len(names) == 7
     assert (second.folder / "backbone.csv").read_text() == "not of this record\n"
 
 

@@ -29,8 +29,8 @@ def test_the_report_tells_what_was_asked_and_what_came_out(command, bar):
     record = command("run", bar, "--output", "out", "--set", "contact.gap=1.1e-3", "--quiet")
     assert record.code == 0, record.errors
     assert lacking(record.page, "<h1>case: Forced response of a bar</h1>", "was solved", "the gap of 1.1 mm",
-                   "--set</span> contact.gap=1.1e-3", "The motion is stable", 'href="response.csv"', 'src="response.svg"',
-                   'alt="') == []
+                   "--set</span> contact.gap=1.1e-3", "The motion is stable", 'href="response.csv"',
+                   'src="response.svg"', 'alt="') == []
     assert "<h2>Warnings" not in record.page
 
 
@@ -70,8 +70,8 @@ def test_the_report_says_where_contacts_stand_and_what_outputs_do(command, masse
                    'src="outputs.svg"', 'href="outputs.csv"') == []
     came_out = words_of(motion).split("At rest under")[0]
     assert "was solved" in came_out and "gap of" not in came_out  # contacts have different gaps
-    curve = command("run", masses, "--output", "out", "--analysis", "frequency_sweep", "--set", "analysis.frequency_from=40",
-                    "--set", "analysis.frequency_to=50", *gaps).page
+    curve = command("run", masses, "--output", "out", "--analysis", "frequency_sweep", "--set",
+                    "analysis.frequency_from=40", "--set", "analysis.frequency_to=50", *gaps).page
     assert "The vibration of contact 2 is at most " in curve
 
 

@@ -53,10 +53,11 @@ def test_special_points_are_listed_by_type_and_are_the_structures_where_its_whol
     summary, text = told(scenes / "jones_legrand_2014" / "case2_sweep.toml")
     assert summary["structure_curve"] == "whole"
     points = summary["structure_special_points"]
-    places = {kind: ", ".join(f"{place:.7g} Hz" for place, one in zip(points["frequency_Hz"], points["type"]) if one == kind)
-              for kind in ("fold", "grazing")}
+    pairs = list(zip(points["type"], points["frequency_Hz"]))
+    places = {kind: ", ".join(f"{place:.7g} Hz" for one, place in pairs if one == kind) for kind in ("fold", "grazing")}
     assert places["fold"] == "1337.739 Hz, 1315.015 Hz"
-    assert lacking(text, f"Folds, where the curve turns back: {places['fold']}.", f"joins another: {places['grazing']}.") == []
+    assert lacking(text, f"Folds, where the curve turns back: {places['fold']}.",
+                   f"joins another: {places['grazing']}.") == []
     balance = summary["special_points"]
     assert f"{balance['frequency_Hz'][list(balance['type']).index('fold')]:.7g}" == "1337.768"
     assert "1337.768 Hz" not in text

@@ -25,7 +25,8 @@ def points_of(sampling, keys):
 
 @pytest.mark.parametrize("text, expected", [
     (GAP + DECADES + "count = 3\n" + '[[parameters]]\nkey = "time.functions"\nvalues = [15, 31]\n',
-     [[f"contact.gap={gap}", f"time.functions={functions}"] for gap in ("1e-4", "0.001", "0.01") for functions in (15, 31)]),
+     [[f"contact.gap={gap}", f"time.functions={functions}"]
+      for gap in ("1e-4", "0.001", "0.01") for functions in (15, 31)]),
     ('sampling = "list"\n[[parameters]]\nkey = "time.trial"\nvalues = ["fourier", "bspline"]\n'
      + FREQUENCY + "values = [120, 150.5]\n",
      [['time.trial="fourier"', "forcing.frequency=120"], ['time.trial="bspline"', "forcing.frequency=150.5"]]),
@@ -73,7 +74,8 @@ def test_samples_stay_in_their_intervals_and_take_all_values(sampling):
     (GAP, "study.toml:1: parameters[1].from: missing"),
     (GAP + "from = 1\nto = 2\n", "parameters[1].count: missing"),
     (GAP + 'from = 0\nto = 2\ncount = 3\nspacing = "logarithmic"\n', "expected from and to of one sign"),
-    (GAP + "value = [1]\nvalues = [1]\n", "study.toml:3: parameters[1].value = [ 1 ]: unknown key; did you mean values?"),
+    (GAP + "value = [1]\nvalues = [1]\n",
+     "study.toml:3: parameters[1].value = [ 1 ]: unknown key; did you mean values?"),
     (GAP + "values = []\n", "expected a list of values of contact.gap"),
     ('sampling = "sobol"\n' + GAP + "from = 1\nto = 2\n", "samples: missing"),
     ("samples = 3\n" + GAP + "values = [1]\n", "samples = 3: has no meaning"),

@@ -65,9 +65,8 @@ def test_runs_that_share_a_structure_have_the_digits_of_each_alone(scenes):
     assert study.converged and len(study) == 8
     for run, values in enumerate(itertools.product(*keys.values())):
         alone = wb.study(scene, {key: [value] for key, value in zip(keys, values)}, {"time.functions": 15})
-        assert {name: column[run] for name, column in study.table.items() if name not in ("run", "seconds")} == pytest.approx(
-            {name: column[0] for name, column in alone.table.items() if name not in ("run", "seconds")}, rel=0, abs=0,
-            nan_ok=True)
+        for name in set(study.table) - {"run", "seconds"}:
+            np.testing.assert_array_equal(study.table[name][run], alone.table[name][0], err_msg=name)
 
 
 def test_a_run_that_is_refused_is_a_row_and_the_others_go_on():
@@ -97,8 +96,8 @@ def row(run, **values):
 
 
 def test_values_of_a_row_survive_its_journal(resumed):
-    given = {"status": "stalled", "converged": False, "message": 'a "message"\nof two lines', "number": 0.1, "whole": 1.0,
-             "count": 3, "truth": True, "text": "newton", "missing": None}
+    given = {"status": "stalled", "converged": False, "message": 'a "message"\nof two lines', "number": 0.1,
+             "whole": 1.0, "count": 3, "truth": True, "text": "newton", "missing": None}
     study = resumed(lambda rows: [row(7, **given), b'{"run": 1}\n'])
     assert study.summary["runs_solved_now"] == 11  # the line without a status is none
     assert study.summary["journal_lines_unreadable"] == 1

@@ -11,7 +11,8 @@ import wavebalance as wb
 from command_scenes import BAR, names_in
 
 QUICK = ("--no-report", "--quiet")
-ENDLESS = ("--set", "analysis.type=time_stepping", "--set", "analysis.tolerance=1e-300", "--set", "analysis.max_periods=100000000")
+ENDLESS = ("--set", "analysis.type=time_stepping", "--set", "analysis.tolerance=1e-300", "--set",
+           "analysis.max_periods=100000000")
 
 
 @pytest.fixture
@@ -50,7 +51,8 @@ def test_the_earlier_record_stays_where_the_next_one_cannot_be_written(run, limi
     assert first.code == 0, first.errors
     (first.folder / "foreign.csv").write_text("old\n")
     before = {one.name: one.read_bytes() for one in first.folder.iterdir()}
-    assert limited(16, "run", "scene.toml", "--output", "out", "--no-report", "--set", "contact.gap=2e-3").returncode == 2
+    words = ("run", "scene.toml", "--output", "out", "--no-report", "--set", "contact.gap=2e-3")
+    assert limited(16, *words).returncode == 2
     assert {one.name: one.read_bytes() for one in first.folder.iterdir()} == before
     second = run(BAR, *QUICK, set=["contact.gap=2e-3"])
     assert second.code == 0, second.errors
@@ -120,12 +122,15 @@ def table(tmp_path_factory):
     """The folder of a study whose rows are given by its journal."""
     folder = tmp_path_factory.mktemp("study")
     gaps = {"contact.gap": [i + 0.5 for i in range(len(NUMBERS))]}
-    wb.study(BAR, gaps, {"time.functions": 15, "time.quadrature_points": 64}, output=folder)
+    few = {"time.functions": 15, "time.quadrature_points": 64}
+    wb.study(BAR, gaps, few, output=folder)
     header = (folder / "study.journal").read_text().splitlines()[0]
-    rows = [{"run": i + 1, "status": "converged" if i == 5 else "stalled", "converged": i == 5, "seconds": 0.25, "message": 'a,"b"\nc' if i == 0 else "",
-             "error": number, "missing": None if i == 0 else 0.5, "count": i} for i, number in enumerate(NUMBERS)]
+    ends = [("stalled", False)] * 5 + [("converged", True)]
+    rows = [{"run": i + 1, "status": status, "converged": converged, "seconds": 0.25,
+             "message": "" if i else 'a,"b"\nc', "error": number, "missing": 0.5 if i else None, "count": i}
+            for i, (number, (status, converged)) in enumerate(zip(NUMBERS, ends))]
     (folder / "study.journal").write_text("\n".join([header, *map(json.dumps, rows)]) + "\n")
-    assert wb.study(BAR, gaps, {"time.functions": 15, "time.quadrature_points": 64}, output=folder).summary["runs_solved_now"] == 0
+    assert wb.study(BAR, gaps, few, output=folder).summary["runs_solved_now"] == 0
     return folder
 
 
@@ -164,8 +169,8 @@ def test_a_name_that_is_no_utf_8_is_replaced(command, tmp_path):
     folder = os.fsencode(tmp_path)
     with open(folder + b"/\xff\xfe.toml", "w", encoding="utf-8") as file:
         file.write(BAR)
-    ended = subprocess.run([os.environ["WAVEBALANCE_COMMAND"], "run", b"\xff\xfe.toml", "-o", "out", *QUICK], cwd=tmp_path,
-                           capture_output=True, check=False)
+    words = [os.environ["WAVEBALANCE_COMMAND"], "run", b"\xff\xfe.toml", "-o", "out", *QUICK]
+    ended = subprocess.run(words, cwd=tmp_path, capture_output=True, check=False)
     assert ended.returncode == 0, ended.stderr
     assert json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))["converged"] is True
 
