@@ -3,6 +3,7 @@
 import os
 import pty
 import select
+import signal
 import subprocess
 import time
 from types import SimpleNamespace
@@ -24,7 +25,8 @@ class Running:
             self.reader, writer = pty.openpty()
             errors = os.fdopen(writer, "w")
         with errors, (folder / "stdout").open("w") as output:
-            self.process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=folder, stdout=output, stderr=errors)
+            self.process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=folder, stdout=output, stderr=errors,
+                                            preexec_fn=take_interrupts)
 
     def errors(self):
         """All that was written so far."""
@@ -53,11 +55,14 @@ class Running:
         self.process.send_signal(sent)
 
     def wait(self):
-        """Exit code and all errors; a full terminal would stop the command, so that it is read first."""
-        while self.reader is not None and self.read():
-            pass
-        code = self.process.wait(timeout=60)
-        return SimpleNamespace(code=code, errors=self.errors())
+        """Exit code and all errors, which are read as they come: a full terminal would stop the command."""
+        self.wait_until(lambda: self.errors() is not None and self.process.poll() is not None)
+        return SimpleNamespace(code=self.process.returncode, errors=self.errors())
+
+
+def take_interrupts():
+    """A shell lets what it begins in the background ignore them."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @pytest.fixture
