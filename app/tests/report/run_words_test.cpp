@@ -18,9 +18,9 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
-Summary motion(bool converged) {
-  return {{"converged", converged},
-          {"status", std::string(converged ? "converged" : "stalled_at_start")},
+Summary motion() {
+  return {{"converged", true},
+          {"status", std::string("converged")},
           {"residual", 1e-12},
           {"wall_seconds", 0.0025},
           {"max_displacement_m", 1.02e-3},
@@ -32,7 +32,7 @@ Summary motion(bool converged) {
 }
 
 TEST(RunWords, PeaksHaveTheDigitsThatThePointsOfTheirCurveDetermine) {
-  Summary curve = motion(true);
+  Summary curve = motion();
   for (auto& entry : curve)
     if (entry.name == "analysis") entry.value = std::string("frequency_sweep");
   curve.insert(curve.end(), {{"points", std::int64_t{20}},

@@ -76,6 +76,12 @@ TEST(StudyRun, AStructureIsReducedOnceWhereItIsTheSame) {
   EXPECT_EQ(last.made(), 2);
 }
 
+TEST(StudyRun, ARowIsOneLineOfItsJournal) {
+  const std::string line = json_line(StudyRow{7, "stalled", false, 0.25, "a \"message\"\nof two lines", {}});
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  EXPECT_EQ(json_line(parse_row(line)), line);
+}
+
 /// Messages between threads in place of processes.
 class MailBoxes {
  public:
