@@ -107,6 +107,12 @@ def test_values_of_a_row_survive_its_journal(resumed):
     assert study.table["seconds"][6] == 0.25
 
 
+def test_a_study_shows_results_below_the_least_normal_number(resumed):
+    study = resumed(lambda rows: [row(7, max_displacement_m=5e-324), *rows[7:]])
+    assert study.table["max_displacement_m"][6] == 5e-324
+    assert "<svg" in study.svg()
+
+
 def test_a_killed_study_goes_on_with_nothing_lost_and_nothing_twice(twelve, resumed, tmp_path):
     # Killed as it wrote a row, which is cut off.
     study = resumed(lambda rows: [rows[3], rows[0], rows[8], b'{"run":5,"status":"conv'])

@@ -8,7 +8,7 @@ import wavebalance as wb
 from comparisons import CHAIN, CLOSED_STOP, errors_of, motion_of, rows_of
 from exact_bars import ElasticBar, RigidBar
 
-PHASES = {"method": "phases", "tolerance": 1e-12}
+PHASES = {"method": "exact", "tolerance": 1e-12}
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10)
 
 

@@ -8,7 +8,7 @@ import wavebalance as wb
 from comparisons import CLOSED_STOP, TWO_PAIRS, errors_of, motion_of, rows_of
 from rods_and_bars import BAR, matrices_of
 
-PHASES = {"method": "phases", "tolerance": 1e-12}
+PHASES = {"method": "exact", "tolerance": 1e-12}
 
 
 @pytest.fixture(scope="module")

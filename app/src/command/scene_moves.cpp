@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/number_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -178,7 +179,7 @@ Step damping_depth(const Scene& scene) {
   if (damper == nullptr) return std::nullopt;
   const bool own = damper->pair && damper->law != scene.contact.law;
   const std::string key = (own ? pair_section(*damper->pair) : "contact") + "." + std::string(depth_name);
-  if (damper->gap > 0.0) return set_to(key, std::stod(fmt::format("{:.2g}", of_gap * damper->gap)));
+  if (damper->gap > 0.0) return set_to(key, rounded(of_gap * damper->gap, 2));
   return changed("a positive", key, 1e-6);
 }
 
@@ -195,7 +196,7 @@ Step elastic_friction(const Scene& scene) {
     const double limit = number("friction") * number("normal_load"),
                  stiffness = limit > 0.0 ? limit / displacement : 1e6;
     return set_to((own ? pair_section(*one.pair) : "contact") + ".tangential_stiffness",
-                  std::stod(fmt::format("{:.1g}", stiffness)));
+                  rounded(stiffness, 1));
   }
   return std::nullopt;
 }

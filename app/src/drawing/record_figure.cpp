@@ -221,7 +221,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
   const PeriodWindow window(response);
   const MotionPicture picture{response, window, contact_spans(scene, response, window),
-                              contacts.size() > 1 ? ", " + title_of(contact) : ""};
+                              contacts.size() > 1 ? ", " + plain(title_of(contact)) : ""};
   const std::string unit = displacement_unit(scene, contact), force_unit = unit == "rad" ? "N m" : "N";
   add_motion(figure, picture, "Displacement", unit, response.displacement());
   if (response.impacts || !response.struck.empty()) {

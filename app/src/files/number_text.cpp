@@ -1,8 +1,11 @@
 #include "files/number_text.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace wavebalance::app {
 
@@ -19,6 +22,12 @@ std::string number_text(double value) {
   const auto digits = exponent + (text[exponent + 1] == '-' ? 2 : 1);
   if (text[digits] == '0') text.erase(digits, 1);
   return text;
+}
+
+double rounded(double value, int digits) {
+  if (!std::isfinite(value)) return value;
+  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr) +
+         0.0;  // stod refuses subnormals
 }
 
 }  // namespace wavebalance::app

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "files/number_text.hpp"
 #include "plot/plot_text.hpp"
 #include "plot/thin_curve.hpp"
 
@@ -18,13 +19,11 @@ using Json = nlohmann::ordered_json;
 constexpr double thinning = 1e-4;  // of the range of an axis
 constexpr std::size_t most_points = 5000;
 
-double rounded(double value) {
-  return std::isfinite(value) ? std::stod(fmt::format("{:.6g}", value)) : value;
-}
+double short_number(double value) { return rounded(value, 6); }
 
-std::vector<double> rounded(const std::vector<double>& values) {
+std::vector<double> short_numbers(const std::vector<double>& values) {
   std::vector<double> result;
-  for (const double value : values) result.push_back(rounded(value));
+  for (const double value : values) result.push_back(short_number(value));
   return result;
 }
 
@@ -87,14 +86,16 @@ std::string_view dash_lengths(Dash dash) {
   return "";
 }
 
-Json optional_number(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(); }
+Json optional_number(const std::optional<double>& value) {
+  return value ? Json(short_number(*value)) : Json();
+}
 
 Json axis_data(const Axis& axis) {
   return {{"label", axis.label},
           {"lower", optional_number(axis.lower)},
           {"upper", optional_number(axis.upper)},
           {"logarithmic", axis.logarithmic},
-          {"ticks", rounded(axis.ticks)},
+          {"ticks", short_numbers(axis.ticks)},
           {"texts", axis.tick_texts},
           {"format", axis.tick_format}};
 }
@@ -102,9 +103,9 @@ Json axis_data(const Axis& axis) {
 Json series_data(const Series& series, std::size_t index, const Panel& panel) {
   std::vector<double> x, y, told;
   for (const std::size_t i : shown_points(series, panel)) {
-    x.push_back(rounded(series.x[i]));
-    y.push_back(rounded(series.y[i]));
-    if (!series.told_x.empty()) told.push_back(rounded(series.told_x[i]));
+    x.push_back(short_number(series.x[i]));
+    y.push_back(short_number(series.y[i]));
+    if (!series.told_x.empty()) told.push_back(short_number(series.told_x[i]));
   }
   const bool automatic = series.colour == Colour::automatic;
   Json data{{"label", series.label},
@@ -137,17 +138,17 @@ Json map_data(const HeatMap& map) {
     return 0.5 * (places.back() - places.front()) / static_cast<double>(places.size() - 1);
   };
   Json cells{{"title", map.label},
-             {"half", {rounded(half(map.x)), rounded(half(map.y))}},
-             {"range", {rounded(map.from_zero ? map.least : -map.largest), rounded(map.largest)}},
+             {"half", {short_number(half(map.x)), short_number(half(map.y))}},
+             {"range", {short_number(map.from_zero ? map.least : -map.largest), short_number(map.largest)}},
              {"colours", map_colours(map)},
              {"heads", map.told_heads}};
   std::vector<double> x, y, values;
   for (std::size_t i = 0; i < map.told_rows.size(); ++i) {
     if (map.told_rows[i].empty()) continue;
-    x.push_back(rounded(map.x[i % map.x.size()]));
-    y.push_back(rounded(map.y[i / map.x.size()]));
-    values.push_back(rounded(map.values[i]));
-    cells["rows"].push_back(rounded(map.told_rows[i]));
+    x.push_back(short_number(map.x[i % map.x.size()]));
+    y.push_back(short_number(map.y[i / map.x.size()]));
+    values.push_back(short_number(map.values[i]));
+    cells["rows"].push_back(short_numbers(map.told_rows[i]));
   }
   cells["values"] = values;
   return {{"label", ""}, {"style", "cells"}, {"x", x}, {"y", y}, {"cells", cells}};
@@ -162,8 +163,8 @@ Json panel_data(const Panel& panel) {
     data["series"].push_back(series_data(panel.series[i], i, panel));
   for (const Segment& one : panel.segments) data["segments"].push_back(segment_data(one));
   for (const Rectangle& one : panel.rectangles)
-    data["rectangles"].push_back({{"x", {rounded(one.x1), rounded(one.x2)}},
-                                  {"y", {rounded(one.y1), rounded(one.y2)}},
+    data["rectangles"].push_back({{"x", {short_number(one.x1), short_number(one.x2)}},
+                                  {"y", {short_number(one.y1), short_number(one.y2)}},
                                   {"colour", colour_code(one.fill)},
                                   {"opacity", one.opacity}});
   for (const TextMark& one : panel.texts) {
@@ -171,7 +172,7 @@ Json panel_data(const Panel& panel) {
                          : one.align == TextMark::Align::right ? "end"
                                                                : "middle";
     data["texts"].push_back(
-        {{"x", rounded(one.x)}, {"y", rounded(one.y)}, {"text", one.text}, {"anchor", anchor}});
+        {{"x", short_number(one.x)}, {"y", short_number(one.y)}, {"text", one.text}, {"anchor", anchor}});
   }
   return data;
 }

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "files/number_text.hpp"
+
 namespace wavebalance::app {
 namespace {
 
@@ -42,7 +44,7 @@ Scale axis_scale(double largest) {
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not known";
   const double least = unit == "Hz" ? 1.0 : 1e-12;
-  const double magnitude = std::stod(fmt::format("{:.4g}", std::abs(value)));  // "1 mm" for 999.99 µm
+  const double magnitude = rounded(std::abs(value), 4);  // "1 mm" for 999.99 µm
   if (magnitude < least || magnitude == 0.0) return fmt::format("{:.4g} {}", value, unit);
   const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
   return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/number_text.hpp"
 #include "plot/unit_prefix.hpp"
 
 namespace wavebalance::app {
@@ -14,10 +15,6 @@ namespace {
 int digits_of(double value, double resolution, int most) {
   if (!(resolution > 0.0)) return most;
   return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
-}
-
-double rounded(double value, int digits) {
-  return std::isfinite(value) ? std::stod(fmt::format("{:.{}e}", value, digits - 1)) : value;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace wavebalance::app {
 namespace {
 
 /// Digits that a reader takes in; scene.toml has all of them.
-std::string seven_digits(double value) { return number_text(std::stod(fmt::format("{:.7g}", value))); }
+std::string seven_digits(double value) { return number_text(rounded(value, 7)); }
 
 std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.

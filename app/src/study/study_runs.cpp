@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "files/number_text.hpp"
 #include "study/samples.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -50,7 +51,7 @@ double at_share(const StudyParameter& parameter, double share) {
   if (share == 1.0) return parameter.to;
   const double value = parameter.logarithmic ? parameter.from * std::pow(parameter.to / parameter.from, share)
                                              : std::lerp(parameter.from, parameter.to, share);
-  return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr);
+  return rounded(value, 15);
 }
 
 /// Grids vary the last parameter fastest.

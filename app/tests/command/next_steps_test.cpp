@@ -26,7 +26,7 @@ std::vector<std::string> scenes_of_laws_and_analyses() {
       "law = \"coulomb\"\nfriction = 0.3\nnormal_load = 3.0\ntangential_stiffness = 1e4",
       "law = \"coulomb\"\nfriction = 0.3\nnormal_load = 3.0"};
   const std::string bases = "[time]\ntrial = \"fourier\"\nweight = \"fourier\"\nfunctions = 32\n",
-                    phases = "[time]\nmethod = \"phases\"\n", tolerance = "[time]\ntolerance = 1e-2\n",
+                    phases = "[time]\nmethod = \"exact\"\n", tolerance = "[time]\ntolerance = 1e-2\n",
                     load = "[forcing]\nload_dofs = [1]\n", amplitude = "amplitude = 5.0\n",
                     frequency = "frequency = 3.0\n";
   const std::string sweep = "type = \"frequency_sweep\"\nfrequency_from = 3.0\nfrequency_to = 6.0\n";

@@ -29,7 +29,7 @@ struct Section {
   std::vector<Record> records;
   std::map<std::string, std::uintmax_t>
       files;                                 ///< what its folder holds, "scenes/" too, and the bytes of each
-  std::map<std::string, std::string> sizes;  ///< app::picture_size() of its pictures
+  std::map<std::string, std::string> sizes{};  ///< app::picture_size() of its pictures
 };
 
 /// Where results come from. The page shows these texts at every artefact.
