@@ -1,9 +1,9 @@
 # Thin names for the CMake workflow presets of CMakePresets.json.
-.PHONY: all command reproduce docs test campaign bench dev sanitize native package install uninstall clean
+.PHONY: all command reproduce docs check test campaign bench dev sanitize native package install uninstall clean
 
 all: command
 
-command reproduce docs test campaign bench dev sanitize native package:
+command reproduce docs check test campaign bench dev sanitize native package:
 	cmake --workflow --preset $@
 
 PREFIX ?= /usr/local

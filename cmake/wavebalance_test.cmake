@@ -41,7 +41,7 @@ endfunction()
 # wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>] [UNIT <name>]
 #                      [PROPERTIES <name> <value> ..])
 # adds GoogleTest files to `program`, which the first call declares. CTest runs each of their test suites in one process
-# under the name of the suite, with the label: to start a process takes longer than most cases do, and the cases of a
+# under the name of the suite, with the label (`make check` builds and runs those of the label unit): to start a process takes longer than most cases do, and the cases of a
 # suite can share what one of them has solved. CASES of each property are tried, 100 by default. A suite has one label
 # within a program. The files of one folder are compiled as one source, or, where that takes too much memory, those of
 # one UNIT.
@@ -66,6 +66,9 @@ function(wavebalance_add_test program)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${group}${T_UNIT})
   endforeach()
   target_link_libraries(${program} PRIVATE ${T_LINK})
+  if(T_LABEL STREQUAL unit)
+    set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_UNIT_PROGRAMS ${program})
+  endif()
   wavebalance_test_suites(${program} suites ${T_SOURCES})
   set(parameters "seed=20140817")
   if(T_CASES)
@@ -127,6 +130,7 @@ function(wavebalance_add_readme_test module)
   add_executable(${module}_readme ${source})
   target_link_libraries(${module}_readme PRIVATE wavebalance::${module})
   target_compile_options(${module}_readme PRIVATE $<$<CONFIG:Release>:-O1>)
+  set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_UNIT_PROGRAMS ${module}_readme)
   add_test(NAME ${module}.readme_program_runs COMMAND ${module}_readme)
   set_tests_properties(${module}.readme_program_runs PROPERTIES LABELS unit)
 endfunction()

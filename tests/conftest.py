@@ -3,11 +3,16 @@
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-SCENES = Path(__file__).resolve().parents[1] / "reproduce" / "scenes"
+ROOT = Path(__file__).resolve().parents[1]
+SCENES = ROOT / "reproduce" / "scenes"
+os.environ.setdefault("WAVEBALANCE_COMMAND", str(ROOT / "build" / "default" / "wavebalance"))
+if "PYTHONPATH" not in os.environ:  # CTest names the package of its own build
+    sys.path.insert(0, str(ROOT / "build" / "default" / "python"))
 
 
 class Record:
