@@ -1,4 +1,4 @@
-// The whole structure in the motion of time.method = "phases". The rest:
+// The whole structure in the motion of time.method = "exact". The rest:
 // tests/analyses/phases_method_test.py.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ TEST(PhasesMethod, HasTheWholeStructureNearThatOfAFineBalance) {
   const ResponseOptions options{.structure_points = 64};
   const Response phases = phases_response(
       parse_scene(
-          bar_scene, "case.toml", std::vector<std::string>{"time.method=phases"},
+          bar_scene, "case.toml", std::vector<std::string>{"time.method=exact"},
           std::vector<std::string>{"time.trial", "time.weight", "time.functions", "time.quadrature_points"}),
       options);
   const Response balance =
