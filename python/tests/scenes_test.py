@@ -219,3 +219,11 @@ def test_a_scene_that_is_no_text_is_refused_as_by_the_command(tmp_path):
     for scene in (tmp_path / "bytes.toml", "/dev/zero", tmp_path):
         with pytest.raises(wavebalance.SceneError):
             wavebalance.check(scene)
+
+
+def test_a_structure_is_a_scene_of_a_nonlinear_mode():
+    structure = wavebalance.Structure(np.eye(1), None, 100.0 * np.eye(1), contacts=[0], load=[1.0])
+    scene = structure.scene(wavebalance.Penalty(400.0, 0.01), type="nonlinear_mode", energy_ratio=2.0)
+    stiff = np.sqrt(500.0)  # free for 3/4 of the own period, then with the stop, from the speed w gap
+    period = 1.5 * np.pi / 10.0 + 2.0 * np.arctan2(10.0 / stiff, 0.2) / stiff
+    assert wavebalance.run(scene).summary["frequency_Hz"] == pytest.approx(1.0 / period, rel=1e-4)

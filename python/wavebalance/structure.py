@@ -269,8 +269,8 @@ class Pair(_core.Pair):
         return _restored_pair, (self.name, self._keys)
 
     def scene_keys(self) -> dict[str, Any]:
-        """The keys of ``[time]`` in a scene."""
-        return dict(self._keys)
+        """The keys of ``[time]`` in a scene; without sample_offset where it is 0, as modes have none."""
+        return {key: value for key, value in self._keys.items() if key != "sample_offset" or value != 0.0}
 
     def symbol(self, derivative: int) -> npt.NDArray[np.complex128]:
         """The eigenvalues of A_d[i, j] = <p_i, q_j^(d)> over translates k = 0..M/2, for d = 0, 1 or 2; M values / 2 + 1."""
