@@ -3,8 +3,12 @@ function(wavebalance_add_python_test name)
   cmake_parse_arguments(PARSE_ARGV 1 T "" "LABEL" "COMMAND")
   add_test(NAME python.${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR} MPLBACKEND=Agg
     PYTHONDONTWRITEBYTECODE=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command>
-    WAVEBALANCE_REPORT_PAGE=$<$<TARGET_EXISTS:wavebalance_report_page>:$<TARGET_FILE:wavebalance_report_page>> ${Python_EXECUTABLE} ${T_COMMAND})
-  set_tests_properties(python.${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT 240 SKIP_RETURN_CODE 77)
+    WAVEBALANCE_REPORT_PAGE=$<$<TARGET_EXISTS:wavebalance_report_page>:$<TARGET_FILE:wavebalance_report_page>> ${sanitizers} ${Python_EXECUTABLE} ${T_COMMAND})
+  set(timeout 240)
+  if(sanitizers)
+    set(timeout 2400)
+  endif()
+  set_tests_properties(python.${name} PROPERTIES LABELS ${T_LABEL} TIMEOUT ${timeout} SKIP_RETURN_CODE 77)
 endfunction()
 
 execute_process(COMMAND ${Python_EXECUTABLE} -c "import pytest" RESULT_VARIABLE no_pytest OUTPUT_QUIET ERROR_QUIET)

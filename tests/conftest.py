@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "reproduce" / "scenes"
 os.environ.setdefault("WAVEBALANCE_COMMAND", str(ROOT / "build" / "default" / "wavebalance"))
+os.environ.pop("LD_PRELOAD", None)  # of sanitizers, which this process has loaded and the command has built in
 if "PYTHONPATH" not in os.environ:  # CTest names the package of its own build
     sys.path.insert(0, str(ROOT / "build" / "default" / "python"))
 
