@@ -1,17 +1,13 @@
-// What is measured of the blade's motions, and its figures.
+// What is measured of the blade's motions, and the models that they are of.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "blade_motion.hpp"
-#include "figures.hpp"
 #include "forced_blade.hpp"
-#include "paper_results.hpp"
 #include "rotating_blade.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::blade {
 namespace {
@@ -121,61 +117,6 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
   }
   EXPECT_GT(at(up, 630.0).displacement.maxCoeff(), 2.0 * at(down, 630.0).displacement.maxCoeff());
   EXPECT_THROW(at(up, 400.0), std::out_of_range);
-}
-
-report::PaperResults& results() {
-  static report::PaperResults all(figures());
-  return all;
-}
-
-TEST(BladeResults, CampbellDiagramStiffensWithSpeedAndWithEnergy) {
-  results().need({"campbell"});
-  for (const auto& check : results().record("campbell").checks) EXPECT_TRUE(check.passes) << check.sentence;
-  const auto table = results().read("campbell.csv");
-  EXPECT_NEAR(table.numbers("linear_Hz").front(), 570.0, 0.5);
-  // Energy 1 is the linear mode at grazing.
-  EXPECT_EQ(table.numbers("energy_1"), table.numbers("linear_Hz"));
-  EXPECT_NEAR(table.numbers("energy_7").front() / 570.0, 1.1931, 0.003);
-}
-
-/// The figure on a coarser scene: half the functions and points, twice the step.
-TEST(BladeResults, ForcedResponseIsBentByContactInEveryPair) {
-  std::string text = app::read_file(fs::path(WAVEBALANCE_SCENES) / "blade" / "forced_response.toml");
-  for (const auto& [from, to] : {std::pair{"functions = 64", "functions = 32"},
-                                 {"quadrature_points = 128", "quadrature_points = 64"},
-                                 {"largest_step = 10.0", "largest_step = 30.0"}}) {
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    text.replace(text.find(from), std::string(from).size(), to);
-  }
-  ASSERT_NE(text.find("frequency = 600.0"), std::string::npos);
-  text.replace(text.find("frequency = 600.0"), 17, "frequency = 590.0");
-  const TemporaryFolder folder;
-  app::write_file(folder.path() / "forced_response.toml", text);
-  report::Artefact artefact({"blade", "", "", "forced_response"}, folder.path(), folder.path());
-  forced_response(artefact);
-  artefact.write(0.0);
-  const auto record = folder.path() / "records" / "forced_response.json";
-  EXPECT_TRUE(report::parse_record(app::read_file(record), record).checks.at(0).passes);
-  const auto table = app::read_csv(folder.path() / "forced_response.csv");
-  EXPECT_EQ(table.columns(),
-            (std::vector<std::string>{"frequency_Hz", "fourier_fourier", "daubechies6_daubechies6",
-                                      "haar_fourier", "fourier_fourier_downwards"}));
-  EXPECT_EQ(app::read_csv(folder.path() / "forced_response_histories.csv").rows(), 64u);
-  EXPECT_TRUE(fs::is_regular_file(folder.path() / "forced_response.png"));
-  // Whoever draws the curve again finds its folds beside its turns, and where it is known to be stable.
-  const auto curve = app::read_csv(folder.path() / "forced_response_curve.csv");
-  const auto frequency = curve.numbers("frequency_Hz"), unstable = curve.numbers("unstable");
-  std::vector<double> turns;
-  for (std::size_t i = 1; i + 1 < frequency.size(); ++i)
-    if ((frequency[i] - frequency[i - 1]) * (frequency[i + 1] - frequency[i]) < 0.0)
-      turns.push_back(frequency[i]);
-  const auto folds = app::read_csv(folder.path() / "forced_response_special_points.csv");
-  ASSERT_GE(folds.rows(), 2u);
-  for (const double fold : folds.numbers("frequency_Hz"))
-    EXPECT_TRUE(std::any_of(turns.begin(), turns.end(), [&](double turn) {
-      return std::abs(turn - fold) < 3.0;
-    })) << fold;
-  EXPECT_TRUE(std::any_of(unstable.begin(), unstable.end(), [](double count) { return count == 0.0; }));
 }
 
 }  // namespace
