@@ -6,7 +6,8 @@
 
 #include "page/body_script.hpp"
 #include "page/page_parts.hpp"
-#include "paper_results.hpp"
+#include "temporary_folder.hpp"
+#include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/page/assets.hpp"
 #include "wavebalance/fem/vtu.hpp"
 

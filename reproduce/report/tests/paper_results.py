@@ -23,6 +23,12 @@ class Table:
         self.columns = list(columns)
         self.rows = rows
 
+    @classmethod
+    def read(cls, file):
+        with open(file, newline="") as lines:
+            reader = csv.DictReader(lines)
+            return cls(reader.fieldnames, list(reader))
+
     def __len__(self):
         return len(self.rows)
 
@@ -61,9 +67,7 @@ class Results:
         return (self.folder / file).read_text()
 
     def table(self, file):
-        with open(self.folder / file, newline="") as lines:
-            reader = csv.DictReader(lines)
-            return Table(reader.fieldnames, list(reader))
+        return Table.read(self.folder / file)
 
     def panels(self, stem):
         """The panels of a picture, as its page draws them."""
