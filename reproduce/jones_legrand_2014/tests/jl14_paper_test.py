@@ -1,4 +1,4 @@
-"""What the program jl14 writes, held to known values: shooting for the references, another implementation for errors."""
+"""What the program jl14 writes, held to known values: references to shooting, errors to another implementation."""
 
 import json
 import re
@@ -123,8 +123,9 @@ def test_the_first_reading_is_that_of_the_scenes_and_of_the_text(results):
     assert reading["name"] == "256 left ends, same sums" and reading["of_text"]
 
 
-@pytest.mark.parametrize("stem", ["reference_case1", "reference_case2", "fig02_fourier_functions", "fig03_bspline_levels",
-                                  "fig04_daubechies6_levels", "fig05_haar_levels", "tab02_pairs"])
+@pytest.mark.parametrize("stem", ["reference_case1", "reference_case2", "fig02_fourier_functions",
+                                  "fig03_bspline_levels", "fig04_daubechies6_levels", "fig05_haar_levels",
+                                  "tab02_pairs"])
 def test_checks_of_the_code_pass(results, stem):
     checks = results.record(stem)["checks"]
     assert checks

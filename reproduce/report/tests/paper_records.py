@@ -22,7 +22,8 @@ def statement(place, quote, criterion, measured, verdict, **parts):
 
 
 def check(sentence, passes):
-    return {"place": "", "sentence": sentence, "criterion": "y < 1", "measured": "0.5" if passes else "2", "passes": passes}
+    measured = "0.5" if passes else "2"
+    return {"place": "", "sentence": sentence, "criterion": "y < 1", "measured": measured, "passes": passes}
 
 
 def pages_of(folder, records, paper, beside):

@@ -217,8 +217,10 @@ def test_checks_are_folded_and_not_counted(page):
 
 @pytest.mark.parametrize("part", [
     "jl14 fig01 --output results/jones_legrand_2014",
-    "wavebalance run reproduce/scenes/jones_legrand_2014/one.toml --set time.functions=8 --set time.trial=haar --output DIR",
-    'href="jones_legrand_2014/scenes/one.toml"', "in SI units; a remark on the data", "commit abc123", "GNU 12", "0.25 s"])
+    "wavebalance run reproduce/scenes/jones_legrand_2014/one.toml --set time.functions=8 --set time.trial=haar "
+    "--output DIR",
+    'href="jones_legrand_2014/scenes/one.toml"', "in SI units; a remark on the data", "commit abc123", "GNU 12",
+    "0.25 s"])
 def test_a_page_says_at_each_figure_how_to_compute_it_again_and_where_it_comes_from(page, part):
     assert part in copied(page())
 
@@ -282,7 +284,8 @@ def test_artefacts_stand_in_the_order_of_the_paper(pages):
     assert [name for name in attributes(text, "id") if name in stems] == ["fig01_a", "tab01_c", "fig06_b", "rigid"]
 
 
-@pytest.mark.parametrize("quote, shown", [("word " * 50, "word " * 40 + "…"), ("word " * 39 + "words", "word " * 39 + "words")])
+@pytest.mark.parametrize("quote, shown", [("word " * 50, "word " * 40 + "…"),
+                                          ("word " * 39 + "words", "word " * 39 + "words")])
 def test_quotations_of_the_matrix_are_shortened_at_a_blank(page, quote, shown):
 
     def long(one):
