@@ -1,10 +1,9 @@
 """Records as the steps of a paper leave them, and the pages that the program of the report makes of them."""
 
 import json
-import os
 import subprocess
 
-from paper_results import ROOT
+from paper_results import built_program
 
 IMAGE = '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="600"></svg>'
 
@@ -35,7 +34,6 @@ def pages_of(folder, records, paper, beside):
     for one in records:
         one["identity"]["paper"] = paper
         (folder / paper / "records" / f"{one['identity']['stem']}.json").write_text(json.dumps(one))
-    built = ROOT / "build" / "default" / "reproduce" / "report" / "wavebalance_report_page"
-    program = os.environ.get("WAVEBALANCE_REPORT_PAGE", built)
+    program = built_program("WAVEBALANCE_REPORT_PAGE", "report", "wavebalance_report_page")
     subprocess.run([program, "--results", folder, "--commit", "abc123", "--compiler", "GNU 12"], check=True)
     return folder

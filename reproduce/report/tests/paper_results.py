@@ -114,10 +114,15 @@ def relative_rms_error(values, reference):
     return rms(values - reference) / rms(reference)
 
 
+def built_program(variable, folder, name):
+    """The program of reproduce/`folder` that the variable names, else that of `make`."""
+    built = ROOT / "build" / "default" / "reproduce" / folder / name
+    if variable not in os.environ and not built.is_file():
+        pytest.skip(f"{built} is missing: make")
+    return os.environ.get(variable, built)
+
+
 def run_program(folder, name, *arguments):
     """Runs the program `name` of the figures of reproduce/`folder`, as a user does."""
-    built = ROOT / "build" / "default" / "reproduce" / folder / name
-    program = os.environ.get("WAVEBALANCE_PAPER_PROGRAM", built)
-    if program is built and not built.is_file():
-        pytest.skip(f"{built} is missing: make")
+    program = built_program("WAVEBALANCE_PAPER_PROGRAM", folder, name)
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, check=False, timeout=200)
