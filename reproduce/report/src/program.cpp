@@ -70,10 +70,4 @@ int run_program(int argc, const char* const* argv, const std::vector<Step>& step
   }
 }
 
-void run_step(const std::vector<Step>& steps, const std::string& name, const std::filesystem::path& output) {
-  Arguments arguments = defaults(steps);
-  arguments.output = output.string();
-  run(find(steps, name), "run_step", arguments);
-}
-
 }  // namespace wavebalance::report

@@ -23,8 +23,4 @@ struct Step {
 /// paper.
 int run_program(int argc, const char* const* argv, const std::vector<Step>& steps);
 
-/// Makes the step `name` from the scenes of the paper into `output`. Throws std::out_of_range for an unknown
-/// name, and what the step throws.
-void run_step(const std::vector<Step>& steps, const std::string& name, const std::filesystem::path& output);
-
 }  // namespace wavebalance::report
