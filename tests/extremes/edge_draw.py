@@ -26,7 +26,7 @@ class Draw:
         return float(self.generator.uniform(least, most))
 
     def chance(self, probability):
-        return self.uniform(0.0, 1.0) < probability
+        return probability > 0.0 and self.uniform(0.0, 1.0) < probability
 
     def magnitude(self, least_power, most_power):
         return 10.0 ** self.uniform(least_power, most_power)
