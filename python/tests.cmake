@@ -32,6 +32,17 @@ else()
       wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
     endforeach()
   endforeach()
+  # Inputs at the edge and tolerances. Dense algebra takes one thread, beside other tests.
+  function(wavebalance_add_numeric_tests topic label timeout)
+    foreach(name IN LISTS ARGN)
+      wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/${topic}/${name}.py)
+      set_tests_properties(python.${topic}_${name} PROPERTIES TIMEOUT ${timeout} ENVIRONMENT OPENBLAS_NUM_THREADS=1)
+    endforeach()
+  endfunction()
+  wavebalance_add_numeric_tests(extremes extremes 240 edge_family_test daubechies_test random_texts_test)
+  wavebalance_add_numeric_tests(tolerance convergence 240 tolerance_test random_tolerance_test)
+  # Random campaigns: full ones take minutes.
+  wavebalance_add_numeric_tests(extremes campaign 3600 random_bars_test random_chains_test random_stability_test)
   # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
   wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/mixtures ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
   set_tests_properties(python.random_mixtures PROPERTIES TIMEOUT 3600)

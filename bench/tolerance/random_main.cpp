@@ -77,7 +77,7 @@ void run(const Program& program) {
       program.output, "tolerance_random", table,
       {"Random bars against stops to a tolerance, beside the contact phases near the motion that was found",
        "SI; s of processor time; errors are relative rms of the contact displacement",
-       "tests/tolerance/random_motions.hpp",
+       "bench/tolerance/random_motions.hpp",
        {"true_error is empty where the structure has no motion near that one; cancelled: after 1 s."}});
   report(table);
 }

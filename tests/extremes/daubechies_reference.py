@@ -94,9 +94,11 @@ def condition(matrix):
 def value_equations(p):
     """phi(k) = sum_l p_l phi(2k - l), k = 1..L-2, the last equation replaced by sum phi = 1."""
     size = len(p) - 2
-    rows = [[(p[2 * k - m] if 0 <= 2 * k - m < len(p) else Decimal(0)) - (1 if k == m else 0) for m in range(1, size + 1)]
-            for k in range(1, size)]
-    return [*rows, [Decimal(1)] * size]
+
+    def entry(k, m):
+        return (p[2 * k - m] if 0 <= 2 * k - m < len(p) else Decimal(0)) - (1 if k == m else 0)
+
+    return [*([entry(k, m) for m in range(1, size + 1)] for k in range(1, size)), [Decimal(1)] * size]
 
 
 def compare_values(p, result):
@@ -116,7 +118,8 @@ def filter_accuracy(coefficients):
         jacobian, residual = equations(computed, moment_rows(coefficients))
         errors = [abs(a - b) for a, b in zip(exact, computed)]
         result = FilterAccuracy(
-            coefficients, float(max(errors) / max(map(abs, exact))), float(max(e / abs(a) for e, a in zip(errors, exact))),
+            coefficients, float(max(errors) / max(map(abs, exact))),
+            float(max(e / abs(a) for e, a in zip(errors, exact))),
             float(max(map(abs, residual[: coefficients // 2]))), condition(jacobian))
         if coefficients > 2:
             compare_values(exact, result)

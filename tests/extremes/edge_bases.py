@@ -10,7 +10,8 @@ class FourierPair:
 
     def __init__(self, functions, points):
         self.points, self.kept = points, np.arange((functions - 1) // 2 + 1)
-        self.noise = np.full(len(self.kept), points ** -0.5)  # of a coefficient, by samples with errors of deviation one
+        # The deviation of a coefficient by samples with errors of deviation one.
+        self.noise = np.full(len(self.kept), points ** -0.5)
 
     def symbol(self, derivative):
         return (2j * np.pi * self.kept) ** derivative
@@ -89,7 +90,8 @@ class TranslatePair:
 
 def pair_of(time):
     """The pair of a completed scene's [time], in its default formulation and inner products."""
-    assert time["formulation"] == "distributional" and time["inner_products"] == "quadrature" and time["nyquist"] == "drop"
+    for key, default in (("formulation", "distributional"), ("inner_products", "quadrature"), ("nyquist", "drop")):
+        assert time.get(key, default) == default
     functions, points = time["functions"], time["quadrature_points"]
     if time["trial"] == time["weight"] == "fourier":
         return FourierPair(functions, points)

@@ -26,7 +26,7 @@ def balance(scene, overrides):
 
 @functools.cache
 def linear_motions(scene, kept):
-    """The free motion of the contacts, their compliances to a force on each pair, and a motion pressed on the casing."""
+    """The free motion of the contacts, their compliances to a force on each pair, and a motion on the casing."""
     base = {} if kept is None else {"structure.kept_modes": kept}
     free, _ = spectra(balance(scene, {**base, **NEVER}))
     compliances = []

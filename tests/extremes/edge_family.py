@@ -35,7 +35,12 @@ class Case:
 
 
 def toml(value):
-    return str(value).lower() if isinstance(value, bool) else f"{value}"
+    """A value as the program writes it: 1e9 for 1e+09, 1 for 1.0."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml, value))}]"
+    if isinstance(value, bool) or not isinstance(value, float):
+        return str(value).lower() if isinstance(value, bool) else str(value)
+    return repr(value).removesuffix(".0").replace("e+", "e").replace("e-0", "e-")
 
 
 def led_to_what_it_must(case: Case, found: Found):
@@ -44,7 +49,7 @@ def led_to_what_it_must(case: Case, found: Found):
     if case.must == SOLVED or (case.may_be_solved and solved):
         return solved
     if not case.named:
-        raise ValueError(f"{case.group}, {case.scene}: must end with {case.must}, but gives no words that the text must hold")
+        raise ValueError(f"{case.group}, {case.scene}: must end with {case.must}, but gives no words for its text")
     return found.outcome == case.must and case.named in found.text
 
 
@@ -52,7 +57,8 @@ def natural_frequency(bar, mode):
     """Hz, of the clamped bar of consistent elements, in closed form."""
     step = bar["length"] / bar["elements"]
     angle = (2 * mode - 1) * math.pi / (2.0 * bar["elements"])
-    square = 6.0 * bar["youngs_modulus"] / (bar["density"] * step * step) * 2.0 * math.sin(0.5 * angle) ** 2 / (2.0 + math.cos(angle))
+    square = 6.0 * bar["youngs_modulus"] / (bar["density"] * step * step)
+    square *= 2.0 * math.sin(0.5 * angle) ** 2 / (2.0 + math.cos(angle))
     return math.sqrt(square) / (2.0 * math.pi)
 
 
@@ -116,11 +122,13 @@ def frequencies():
 
 def sizes():
     cases = each("elements", (BAR,), "structure.elements", (1, 2, 1000))
-    cases += solves("elements", (BAR, {"structure.elements": 100000, "time.functions": 15, "time.quadrature_points": 64}))
+    few = {"time.functions": 15, "time.quadrature_points": 64}
+    cases += solves("elements", (BAR, {"structure.elements": 100000, **few}))
     for functions in (1, 2, 3, 1024, 16384):
         cases += solves("functions", (BAR, {"time.functions": functions, "time.quadrature_points": 4 * functions}))
     cases += names("functions", BAR, {"time.functions": 0}, "time.functions")
-    cases += names("functions", BAR, {"time.functions": 63, "time.quadrature_points": 62}, "fewer quadrature points than functions")
+    cases += names("functions", BAR, {"time.functions": 63, "time.quadrature_points": 62},
+                   "fewer quadrature points than functions")
     return cases + names("elements", BAR, {"structure.elements": 0}, "structure.elements")
 
 
@@ -167,7 +175,8 @@ def tiny_numbers():
 
 
 def masses():
-    group, massless, lumped = "massless contact node", {"structure.massless_tip": True}, {"structure.lumped_mass_fraction": 1.0}
+    group, massless = "massless contact node", {"structure.massless_tip": True}
+    lumped = {"structure.lumped_mass_fraction": 1.0}
     return (solves(group, (BAR, massless), (BAR, {**massless, **lumped}), (RIGID, massless))
             + names(group, RIGID, {"contact.mass": "keep"}, "a continuum of motions")
             + names(group, BAR, {**massless, "structure.elements": 1}, "structure.elements"))
@@ -180,10 +189,12 @@ def matrices():
     group = "matrices, two contacts"
     for gap in (1e-4, 0.0, -1e-4, 1e15, [0.0, -1e-4], [1e-4, 1e15]):
         gaps = {"contact.gap": gap}
-        cases += solves(group, (CHAIN, gaps), (RIGID_CHAIN, gaps), (RIGID_CHAIN, {**gaps, "time.quadrature_points": 31}))
+        cases += solves(group, (CHAIN, gaps), (RIGID_CHAIN, gaps),
+                        (RIGID_CHAIN, {**gaps, "time.quadrature_points": 31}))
     for penalty in (1e-3, 1e9, 1e12, 1e15, 1e18):
         stiffness = {"contact.stiffness": penalty}
-        cases += solves(group, *((CHAIN, {**stiffness, **gap}) for gap in ({}, {"contact.gap": 0.0}, {"contact.gap": -1e-4})))
+        for gap in ({}, {"contact.gap": 0.0}, {"contact.gap": -1e-4}):
+            cases += solves(group, (CHAIN, {**stiffness, **gap}))
     return cases
 
 
@@ -202,7 +213,8 @@ def found():
 
 @functools.cache
 def family():
-    parts = (penalties, contacts, damping, frequencies, sizes, bases, amplitudes, tiny_numbers, masses, matrices, blades, found)
+    parts = (penalties, contacts, damping, frequencies, sizes, bases, amplitudes, tiny_numbers, masses, matrices,
+             blades, found)
     return [case for part in parts for case in part()]
 
 

@@ -21,7 +21,7 @@ SOLVED, ERROR, NOT_CONVERGED, WRONG = "solved", "error", "not converged", "wrong
 
 @dataclasses.dataclass
 class Found:
-    """What an input led to."""
+    """The outcome of an input, and why."""
 
     outcome: str
     text: str = ""
@@ -54,7 +54,7 @@ def largest_entry(matrix):
 
 
 def outputs_of(scene):
-    """All degrees of freedom; of a bar with very many one, beside which the record keeps the motion of all."""
+    """All degrees of freedom; one of a bar with very many, beside which the record keeps the motion of all."""
     if scene["structure"]["type"] == "blade":
         return {}
     rows = scene["structure"].get("elements", 3)
@@ -97,7 +97,8 @@ def motion_residual(one):
              (structure.stiffness, pair.symbol(0))]
     terms = [matrix @ (coefficients * symbol) for matrix, symbol in parts]
     residual = sum(terms) - np.outer(structure.load, load) + structure.directions.T @ contact
-    sizes = sum(np.abs(term).max(axis=0) for term in terms) + np.abs(contact).max(axis=0) + largest(structure.load) * np.abs(load)
+    sizes = np.abs(contact).max(axis=0) + largest(structure.load) * np.abs(load)
+    sizes = sizes + sum(np.abs(term).max(axis=0) for term in terms)
     noise = DEVIATIONS * np.finfo(float).eps * largest(one.motion) * pair.noise
     rounding = noise * sum(np.abs(symbol) * largest_entry(matrix) for matrix, symbol in parts)
     worst = largest(residual) if np.isfinite(residual).all() else math.inf
@@ -152,8 +153,8 @@ def complementarity(one):
 
 def violated_condition(one, found):
     """The first condition that a converged response violates; empty if none."""
-    samples = [*one.record.response.values(), one.displacement, one.force, *([] if one.motion is None else [one.motion])]
-    if not all(np.isfinite(each).all() for each in samples):
+    samples = [*one.record.response.values(), one.displacement, one.force, one.motion]
+    if not all(np.isfinite(each).all() for each in samples if each is not None):
         return "converged with samples that are not finite"
     if not one.record.summary["residual"] >= 0.0:
         return "converged with a residual that is no number"
@@ -165,7 +166,7 @@ def violated_condition(one, found):
 
 
 def measured(scene, overrides, folder):
-    """What a scene leads to, where it is accepted."""
+    """The outcome of a scene, errors aside."""
     keys, record = solve(scene, overrides)
     if not record.converged:
         return Found(NOT_CONVERGED, record.status)

@@ -45,7 +45,8 @@ def bar_matrices(bar, massless):
     springs = np.full(count, 2.0 * spring)
     springs[-1] = spring
     coupling = np.full(count - 1, -spring)
-    return scipy.sparse.diags([off, diagonal, off], [-1, 0, 1]), scipy.sparse.diags([coupling, springs, coupling], [-1, 0, 1])
+    return (scipy.sparse.diags([off, diagonal, off], [-1, 0, 1]),
+            scipy.sparse.diags([coupling, springs, coupling], [-1, 0, 1]))
 
 
 def bar_of(scene):
@@ -54,7 +55,8 @@ def bar_of(scene):
     mass, stiffness = bar_matrices(bar, massless)
     tip = np.zeros(bar["elements"])
     tip[-1] = 1.0
-    return Structure(mass, bar["stiffness_damping"] * stiffness, stiffness, scene["forcing"]["amplitude"] * tip, tip[None, :])
+    load = scene["forcing"]["amplitude"] * tip
+    return Structure(mass, bar["stiffness_damping"] * stiffness, stiffness, load, tip[None, :])
 
 
 def matrices_of(scene, folder):

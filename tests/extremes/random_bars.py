@@ -7,8 +7,9 @@ from edge_draw import PAIRS, Draw
 
 def draw_bar(draw, wild):
     reach = 60.0 if wild else 4.0
-    bar = {"type": "bar", "youngs_modulus": 70e9 * draw.magnitude(-reach, reach), "density": 2700.0 * draw.magnitude(-reach, reach),
-           "area": 25e-4 * draw.magnitude(-reach, reach), "length": draw.magnitude(-reach, reach), "elements": draw.between(1, 30),
+    bar = {"type": "bar", "youngs_modulus": 70e9 * draw.magnitude(-reach, reach),
+           "density": 2700.0 * draw.magnitude(-reach, reach), "area": 25e-4 * draw.magnitude(-reach, reach),
+           "length": draw.magnitude(-reach, reach), "elements": draw.between(1, 30),
            "lumped_mass_fraction": draw.one_of((0.0, 0.5, 1.0))}
     bar["massless_tip"] = bar["elements"] > 1 and draw.chance(0.1)
     return bar
@@ -53,4 +54,5 @@ def random_bar(seed):
     amplitude = stiffness * displacement * (0.0 if draw.chance(0.05) else 1.0)
     bar["stiffness_damping"] = 0.0 if draw.chance(0.2) else draw.magnitude(-4.0, 0.0) / frequency
     contact = draw_contact(draw, bar, displacement, stiffness)
-    return {"structure": bar, "contact": contact, "forcing": {"amplitude": amplitude, "frequency": frequency}, "time": draw_time(draw)}
+    forcing = {"amplitude": amplitude, "frequency": frequency}
+    return {"structure": bar, "contact": contact, "forcing": forcing, "time": draw_time(draw)}

@@ -14,7 +14,7 @@ from edge_structures import Structure
 
 import wavebalance as wb
 
-FIRST_SEED = 20140817
+FIRST_SEED = 13
 
 
 @dataclasses.dataclass

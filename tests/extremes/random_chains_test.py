@@ -1,7 +1,7 @@
-"""Structures with one to six contacts: most have a response, or a named motion of another period, and every answer holds."""
+"""Structures with one to six contacts: most have a response, or a named motion of another period, and all hold."""
 
 import numpy as np
-from edge_bases import FourierPair, TranslatePair
+from edge_bases import pair_of
 from edge_draw import campaign_seeds
 from edge_residuals import Solution, column, held_displacement, largest
 from edge_structures import Law
@@ -20,8 +20,8 @@ def solved(drawn):
 def misses(drawn, record):
     """By how much a response misses its laws, relative to the largest force, and the motion under its forces by dense
     solves, relative to the contact-free one."""
-    sizes = drawn.functions, drawn.points
-    pair = FourierPair(*sizes) if drawn.trial == drawn.weight == "fourier" else TranslatePair(drawn.trial, drawn.weight, *sizes)
+    pair = pair_of({"trial": drawn.trial, "weight": drawn.weight, "functions": drawn.functions,
+                    "quadrature_points": drawn.points})
     u, force = column(record, "displacement_m"), column(record, "contact_force_N")
     structure, contact, load = drawn.structure, pair.project(force), pair.load()
     free, moved = np.zeros(contact.shape, complex), np.zeros(contact.shape, complex)
@@ -34,8 +34,10 @@ def misses(drawn, record):
     laws = [Law(law.scene_keys(), law.gap) for law in drawn.laws]
     held = held_displacement(Solution(None, record, structure, pair, None, u, force), laws)
     near = 1e-9 * size
-    law = max(max((f - one.force(w + near)).max(), (one.force(w - near) - f).max()) for one, w, f in zip(laws, held, force))
-    return max(law, 0.0) / (largest(force) or 1.0), largest(free - moved - u) / size
+    law = 0.0
+    for one, w, f in zip(laws, held, force):
+        law = max(law, (f - one.force(w + near)).max(), (one.force(w - near) - f).max())
+    return law / (largest(force) or 1.0), largest(free - moved - u) / size
 
 
 def test_most_random_structures_are_answered_and_every_answer_holds():
@@ -52,5 +54,6 @@ def test_most_random_structures_are_answered_and_every_answer_holds():
                 wrong[seed] = law, motion
     print(f"{len(seeds)} structures, {answered} answered, {converged} converged")
     assert not wrong
-    assert answered >= 0.65 * len(seeds)  # the aim is 0.98
+    # 109 of 150 seeds are answered and 97 converge; 5 and 4 of the first 5. The aim is 0.98.
+    assert answered >= 0.65 * len(seeds)
     assert converged >= 0.55 * len(seeds)

@@ -19,7 +19,8 @@ def free_motion(drawn):
     """The contacts' displacements without contact, contacts x points."""
     pair, structure = FourierPair(2 * HARMONICS + 1, POINTS), drawn.structure
     motion = np.zeros((len(structure.load), HARMONICS + 1), complex)
-    motion[:, 1] = np.linalg.solve(structure.dynamic(pair, drawn.frequency, 1).toarray(), structure.load * pair.load()[1])
+    dynamic = structure.dynamic(pair, drawn.frequency, 1).toarray()
+    motion[:, 1] = np.linalg.solve(dynamic, structure.load * pair.load()[1])
     return pair.evaluate(structure.directions @ motion)
 
 
@@ -41,8 +42,9 @@ def depth(time, series, gap):
 def switches(displacement, series, gap):
     """The instants, fractions of the period, at which a motion of few harmonics reaches or leaves a gap."""
     closed = np.append(displacement, displacement[0]) > gap
-    places = np.flatnonzero(closed[1:] != closed[:-1]) / len(displacement)
-    return [scipy.optimize.brentq(depth, place, place + 1.0 / len(displacement), (series, gap), xtol=1e-14) for place in places]
+    width = 1.0 / len(displacement)
+    places = np.flatnonzero(closed[1:] != closed[:-1]) * width
+    return [scipy.optimize.brentq(depth, place, place + width, (series, gap), xtol=1e-14) for place in places]
 
 
 class Flow:
@@ -50,7 +52,8 @@ class Flow:
 
     def __init__(self, structure, stops):
         lower = np.linalg.cholesky(structure.mass.toarray())
-        self.stiffness, self.damping = (self.scaled(lower, one.toarray()) for one in (structure.stiffness, structure.damping))
+        self.stiffness = self.scaled(lower, structure.stiffness.toarray())
+        self.damping = self.scaled(lower, structure.damping.toarray())
         self.directions = scipy.linalg.solve_triangular(lower, structure.directions.toarray().T, lower=True)
         self.stops = np.array(stops)
 

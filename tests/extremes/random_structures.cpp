@@ -1,14 +1,11 @@
 #include "random_structures.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <numbers>
 #include <vector>
 
 #include "draw.hpp"
-#include "wavebalance/contact/exponential_law.hpp"
-#include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
 namespace wavebalance::extremes {
@@ -82,26 +79,6 @@ std::vector<int> draw_contacts(Draw& draw, int size) {
   return dofs;
 }
 
-app::Time draw_time(Draw& draw) {
-  const auto [trial, weight] = draw.pair_of_bases();
-  app::Time time{trial, weight};
-  time.functions = 1 << draw.between(5, 7);
-  time.quadrature_points = time.functions << draw.between(1, 3);
-  return time;
-}
-
-// The amplitude of the contact-free response at the degrees of freedom.
-Eigen::VectorXd free_amplitude(const solvers::LinearStructure& structure, double frequency) {
-  using Complex = std::complex<double>;
-  const Complex rate(0.0, 2.0 * std::numbers::pi * frequency);
-  const Eigen::MatrixXcd dynamic = Eigen::MatrixXcd(structure.mass.cast<Complex>()) * rate * rate +
-                                   Eigen::MatrixXcd(structure.damping.cast<Complex>()) * rate +
-                                   Eigen::MatrixXcd(structure.stiffness.cast<Complex>());
-  const Eigen::HouseholderQR<Eigen::MatrixXcd> solver(dynamic);
-  const Eigen::VectorXcd response = solver.solve(structure.load.cast<Complex>());
-  return response.cwiseAbs();
-}
-
 }  // namespace
 
 RandomStructure random_structure(std::uint64_t seed) {
@@ -118,22 +95,6 @@ RandomStructure random_structure(std::uint64_t seed) {
   const std::vector<int> dofs = draw_contacts(draw, size);
   structure.contact_directions = solvers::contact_rows(dofs, size);
   out.frequency = first / (2.0 * std::numbers::pi) * draw.magnitude(-0.7, 0.5);
-  const Eigen::VectorXd free = free_amplitude(structure, out.frequency);
-  const Eigen::MatrixXd flexibility = matrices.stiffness.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
-  std::vector<solvers::AnyContactLaw> laws;
-  const bool linear = draw.chance(0.5);
-  for (const int dof : dofs) {
-    const double gap = free[dof] * draw.uniform(-0.3, 1.0),
-                 stop = draw.magnitude(0.0, 4.0) / flexibility(dof, dof);
-    if (linear) {
-      laws.emplace_back(contact::LinearLaw(stop, gap));
-    } else {
-      const double exponent = draw.magnitude(-0.5, 1.0) / free[dof];
-      laws.emplace_back(contact::ExponentialLaw(stop / exponent, exponent, gap));
-    }
-  }
-  out.laws = solvers::ContactLaws(std::move(laws));
-  out.time = draw_time(draw);
   return out;
 }
 

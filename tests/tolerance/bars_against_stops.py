@@ -69,7 +69,8 @@ def random_bar(seed):
         scene["contact"] = {"law": "linear", "gap": gap, "stiffness": dice.logarithmic(1e7, 1e11)}
     else:
         exponent = dice.logarithmic(0.05, 5.0) / amplitude
-        scene["contact"] = {"law": "exponential", "gap": gap, "exponent": exponent, "constant": dice.logarithmic(1e7, 1e11) / exponent}
+        constant = dice.logarithmic(1e7, 1e11) / exponent
+        scene["contact"] = {"law": "exponential", "gap": gap, "exponent": exponent, "constant": constant}
     return scene
 
 
@@ -82,16 +83,23 @@ def force_and_tangent(contact, displacement):
     return constant * np.expm1(exponent * depth), constant * exponent * np.exp(exponent * depth) * closed
 
 
+def resampled(samples, points):
+    return np.fft.irfft(np.fft.rfft(samples)[: points // 2 + 1] * (points / len(samples)), points)
+
+
 def balance_nearby(scene, displacement, harmonics=HARMONICS):
-    """The samples of the tip, as many as those given, in the motion that Newton's method finds from these; None where it
-    finds none. u = G (load - f(u)), G the tip's compliance."""
+    """The samples of the tip, as many as given, in the motion that Newton's method finds from these, or None:
+    u = G (load - f(u)), G the tip's compliance."""
     points = 4 * (harmonics + 1)
     flexibility = np.zeros(points // 2 + 1, complex)
     flexibility[: harmonics + 1] = compliance(scene, harmonics)
     load = np.cos(2.0 * np.pi * np.arange(points) / points) * scene["forcing"]["amplitude"]
     answer = np.fft.irfft(flexibility, points)  # to a force at one point
-    moved = lambda force: np.fft.irfft(flexibility * np.fft.rfft(force), points)
-    u = np.fft.irfft(np.fft.rfft(displacement)[: points // 2 + 1] * (points / len(displacement)), points)
+
+    def moved(force):
+        return np.fft.irfft(flexibility * np.fft.rfft(force), points)
+
+    u = resampled(displacement, points)
     for _ in range(40):
         force, tangent = force_and_tangent(scene["contact"], u)
         residual = u - moved(load - force)
@@ -102,5 +110,5 @@ def balance_nearby(scene, displacement, harmonics=HARMONICS):
         change = -residual - moved(tangent * change)
         u = u + change
         if np.linalg.norm(change) <= 1e-10 * np.linalg.norm(u):
-            return np.fft.irfft(np.fft.rfft(u)[: len(displacement) // 2 + 1] * (len(displacement) / points), len(displacement))
+            return resampled(u, len(displacement))
     return None

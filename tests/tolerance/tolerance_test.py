@@ -32,8 +32,9 @@ MOTIONS = {
     "massless_tip": ("case1", {"structure.massless_tip": True}),
     "third_of_resonance": ("case1", {"forcing.frequency": 420}),
 }
-GRAZING = ("linear_stop", {"structure.stiffness_damping": 1.1725e-5, "forcing.frequency": 389.954, "contact.gap": 1.52607e-3,
-                           "contact.stiffness": 6.11416e10})
+GRAZING = ("linear_stop", {"structure.stiffness_damping": 1.1725e-5, "forcing.frequency": 389.954,
+                           "contact.gap": 1.52607e-3, "contact.stiffness": 6.11416e10})
+ALONE = {"analysis.phases": False, "analysis.stability": False}
 
 
 def solved(motion, changes, unset=()):
@@ -45,17 +46,17 @@ def solved(motion, changes, unset=()):
 
 
 def to_tolerance(motion, tolerance, changes=()):
-    return solved(motion, {"time.tolerance": tolerance, "analysis.phases": False, "analysis.stability": False, **dict(changes)})
+    return solved(motion, {"time.tolerance": tolerance, **ALONE, **dict(changes)})
 
 
 def reference(motion):
-    """The tip by contact phases, whose own error is below 1e-10. Of a tip without mass by 511 Fourier functions and eight
+    """The tip by contact phases, whose own error is below 1e-10; a tip without mass by 511 Fourier functions and eight
     times as many points."""
     if not motion[1].get("structure.massless_tip"):
         return solved(motion, {"analysis.type": "shooting", "time.tolerance": 1e-11}).response["displacement_m"]
-    fine = {"time.trial": "fourier", "time.weight": "fourier", "time.functions": 511, "time.quadrature_points": 4096,
-            "analysis.phases": False, "analysis.stability": False}
-    return solved(motion, fine, unset=["time.tolerance"]).response["displacement_m"]
+    fine = {"trial": "fourier", "weight": "fourier", "functions": 511, "quadrature_points": 4096}
+    changes = {**ALONE, **{f"time.{key}": value for key, value in fine.items()}}
+    return solved(motion, changes, unset=["time.tolerance"]).response["displacement_m"]
 
 
 def relative_error(record, exact):
