@@ -6,6 +6,7 @@ import numpy as np
 import scipy.io
 import scipy.linalg
 import scipy.sparse
+import scipy.sparse.linalg
 
 
 class Structure:
