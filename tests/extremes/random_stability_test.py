@@ -11,7 +11,8 @@ from random_chains import random_structure
 
 import wavebalance as wb
 
-HARMONICS, POINTS = 31, 256
+HARMONICS, POINTS = 63, 512
+# Both counts are those of a motion in so many functions. With 63, one in 500 differs from that of the structure itself.
 INSTANTS = 4096  # at which contact is looked for
 
 
