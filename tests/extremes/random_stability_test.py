@@ -11,8 +11,8 @@ from random_chains import random_structure
 
 import wavebalance as wb
 
+# Both counts are those of a motion of so many harmonics. With 31 of them, one in 500 differs from that of the structure.
 HARMONICS, POINTS = 63, 512
-# Both counts are those of a motion in so many functions. With 63, one in 500 differs from that of the structure itself.
 INSTANTS = 4096  # at which contact is looked for
 
 
