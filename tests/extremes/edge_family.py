@@ -167,7 +167,7 @@ def contacts():
 
 
 def tiny_numbers():
-    return (solves("sub-normal", (BAR, {"contact.constant": 4e-320}))
+    return (solves("sub-normal", (BAR, {"contact.constant": 4e-320}), (BAR, {"contact.gap": 4e-320}))
             + names("sub-normal", BAR, {"forcing.amplitude": 4e-320}, "static displacement")
             + names("overflow", BAR, {"structure.area": 1e308}, "structure")
             + names("underflow", BAR, {"structure.area": 1e-310, "structure.density": 1e-10}, "structure")

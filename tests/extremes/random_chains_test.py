@@ -41,7 +41,7 @@ def misses(drawn, record):
 
 
 def test_most_random_structures_are_answered_and_every_answer_holds():
-    seeds, answered, converged, wrong = campaign_seeds(5, 150), 0, 0, {}
+    seeds, answered, converged, wrong = campaign_seeds(15, 150), 0, 0, {}
     for seed in seeds:
         drawn = random_structure(seed)
         record = solved(drawn)
@@ -54,6 +54,6 @@ def test_most_random_structures_are_answered_and_every_answer_holds():
                 wrong[seed] = law, motion
     print(f"{len(seeds)} structures, {answered} answered, {converged} converged")
     assert not wrong
-    # 109 of 150 seeds are answered and 97 converge; 5 and 4 of the first 5. The aim is 0.98.
+    # 110 of 150 seeds are answered and 97 converge. The aim is 0.98.
     assert answered >= 0.65 * len(seeds)
     assert converged >= 0.55 * len(seeds)
