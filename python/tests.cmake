@@ -21,13 +21,16 @@ else()
     wavebalance_add_python_test(${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
   endforeach()
   # What a user sees, through the command and the package, without a compiler.
-  foreach(topic scenes analyses command compare laws structures)
+  foreach(topic scenes analyses command compare laws structures impacts)
     file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
     foreach(test IN LISTS tests)
       get_filename_component(name ${test} NAME_WE)
       set(label scene)
       if(name STREQUAL every_analysis_test)
         set(label unit)  # which `make check` runs
+      endif()
+      if(name STREQUAL random_impacts_test)
+        continue()  # a campaign, below
       endif()
       wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
     endforeach()
@@ -46,6 +49,9 @@ else()
   # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
   wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/mixtures ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
   set_tests_properties(python.random_mixtures PROPERTIES TIMEOUT 3600)
+  # Random chains with impacts against motions in time by matrix exponentials.
+  wavebalance_add_python_test(random_impacts LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/impacts/random_impacts_test.py)
+  set_tests_properties(python.random_impacts PROPERTIES TIMEOUT 3600)
   # The cases of others, which are data, and what they are compared with.
   if(WAVEBALANCE_BUILD_REPRODUCE)
     foreach(name cases_test flows_test references_test)

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "constants.hpp"
@@ -14,9 +13,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::cosine_load, testing::impact_oscillator, testing::ImpactScene, testing::lumped_bar,
-    testing::oscillator_between_stops, testing::two_masses_with_impacts;
-using Type = SpecialPointType;
+using testing::cosine_load, testing::impact_oscillator, testing::ImpactScene, testing::two_masses_with_impacts;
 
 /// A structure with impacts, whose curves start where it settles.
 class TracedImpacts {
@@ -48,68 +45,6 @@ class TracedImpacts {
   CondensedProblem problem_;
 };
 
-std::vector<double> places_of(const ExactCurve& curve, Type type) {
-  std::vector<double> places;
-  for (const ExactEvent& event : curve.events)
-    if (event.type == type) places.push_back(event.value);
-  return places;
-}
-
-TEST(ImpactCurveTest, BeginsToTouchWhereTheMotionWithoutContactReachesTheGap) {
-  constexpr double damping = 0.1, gap = 2.0;
-  const ImpactScene scene = impact_oscillator(damping, gap, 0.8, 0.5);
-  const ExactCurve curve = TracedImpacts(scene).over_omega(0.5, 1.0);
-  EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  // (1 - w^2)^2 + c^2 w^2 = 1 / gap^2
-  const double half = 1.0 - 0.5 * damping * damping;
-  const double expected = std::sqrt(half - std::sqrt(half * half - 1.0 + 1.0 / (gap * gap)));
-  const std::vector<double> grazing = places_of(curve, Type::grazing);
-  ASSERT_FALSE(grazing.empty());
-  EXPECT_NEAR(two_pi * grazing.front(), expected, 1e-11);
-  EXPECT_EQ(curve.points.front().motion.impacts.size(), 0u);
-  EXPECT_EQ(curve.points.back().motion.impacts.size(), 1u);
-}
-
-TEST(ImpactCurveTest, BeginsToTouchAtTheLoadWhoseMotionReachesTheGap) {
-  const ImpactScene scene = impact_oscillator(0.1, 2.0, 0.8, 0.9);
-  TracedImpacts traced(scene);
-  const double frequency = scene.frequency();
-  const PhaseFamily family = traced.family(frequency, SweepParameter::load_scale);
-  const double reach = std::abs(scene.free_amplitudes()[0]);
-  const double from = 0.5 * 2.0 / reach, to = 2.0 * 2.0 / reach;
-  const ExactCurve curve = exact_curve(family, impact_motion(family.at(from), {}), {.from = from, .to = to});
-  EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  ASSERT_FALSE(places_of(curve, Type::grazing).empty());
-  EXPECT_NEAR(places_of(curve, Type::grazing).front(), 2.0 / reach, 1e-12);
-}
-
-// One impact in a period of an oscillator without damping [Shaw and Holmes 1983].
-TEST(ImpactCurveTest, HasTheClosedFormOfTheOscillatorWithoutDampingAtEveryPoint) {
-  constexpr double gap = 0.0, restitution = 0.8;
-  const ImpactScene scene = impact_oscillator(0.0, gap, restitution, 2.6);
-  TracedImpacts traced(scene);
-  const double from = scene.frequency();
-  const PhaseFamily family = traced.family(from);
-  const double reach = std::abs(scene.free_amplitudes()[0]), first_period = two_pi / scene.omega;
-  const double turn = 0.5 * (1.0 + restitution) * std::sin(first_period) / (1.0 - std::cos(first_period)),
-               rest = 0.5 * (1.0 - restitution) / scene.omega, speed = reach / std::hypot(turn, rest);
-  const PhaseMotion first =
-      impact_motion(family.at(from), {{0, std::atan2(rest, -turn) / two_pi, (1.0 + restitution) * speed}});
-  ASSERT_TRUE(first.converged()) << to_string(first.status);
-  const ExactCurve curve = exact_curve(family, first, {.from = from, .to = 3.0 / two_pi});
-  ASSERT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  for (const ExactPoint& point : curve.points) {
-    const double omega = two_pi * point.value, period = two_pi / omega,
-                 amplitude = 1.0 / (1.0 - omega * omega);
-    ASSERT_EQ(point.motion.impacts.size(), 1u);
-    // v = velocity before: with s, c of the phase, u(0) = 0 and u'(0+) = -e v, u(T) = 0 and u'(T-) = v.
-    const double v = point.motion.impacts[0].velocity_before;
-    const double sum = 0.5 * v * (1.0 + restitution) * std::sin(period) / (1.0 - std::cos(period)),
-                 difference = 0.5 * v * (1.0 - restitution) / omega;
-    EXPECT_NEAR(std::hypot(sum, difference), std::abs(amplitude), 1e-11) << omega;
-  }
-}
-
 TEST(ImpactCurveTest, PassesMotionsOfEachFrequency) {
   const ImpactScene scene = two_masses_with_impacts(0.3, 0.7, 0.8);
   TracedImpacts traced(scene);
@@ -127,77 +62,6 @@ TEST(ImpactCurveTest, PassesMotionsOfEachFrequency) {
     for (std::size_t i = 0; i < motion.impacts.size(); ++i)
       EXPECT_NEAR(motion.impacts[i].impulse, point.motion.impacts[i].impulse, 1e-9);
   }
-}
-
-TEST(ImpactCurveTest, HasTheMultiplierOfEachSpecialPointOnTheCircle) {
-  int folds = 0, doublings = 0;
-  for (const double gap : {0.1, 0.5})
-    for (const double restitution : {0.7, 0.8}) {
-      TracedImpacts traced(impact_oscillator(0.1, gap, restitution, 3.0));
-      const ExactCurve curve = gap < 0.2 ? traced.over_omega(3.0, 1.2) : traced.over_omega(2.2, 1.2);
-      for (const ExactEvent& event : curve.events) {
-        if (event.type == Type::grazing) continue;
-        EXPECT_NEAR(std::abs(event.multiplier), 1.0, 1e-7) << to_string(event.type);
-        EXPECT_TRUE(event.motion.converged());
-        const double real = event.multiplier.real();
-        EXPECT_TRUE(event.type != Type::fold || std::abs(real - 1.0) < 1e-5) << real;
-        EXPECT_TRUE(event.type != Type::period_doubling || std::abs(real + 1.0) < 1e-7) << real;
-        folds += event.type == Type::fold;
-        doublings += event.type == Type::period_doubling;
-      }
-    }
-  EXPECT_GE(folds, 1);
-  EXPECT_GE(doublings, 1);
-}
-
-TEST(ImpactCurveTest, FollowsTheMotionsOfTwoPeriodsFromADoubling) {
-  ExactCurveOptions options;
-  TracedImpacts traced(impact_oscillator(0.1, 0.1, 0.8, 3.0));
-  const ExactCurve curve = traced.over_omega(3.0, 1.2);
-  options.from = 3.0 / two_pi;
-  options.to = 1.2 / two_pi;
-  const PhaseFamily family = traced.family(options.from);
-  int followed = 0;
-  for (const ExactEvent& event : curve.events) {
-    if (event.type != Type::period_doubling) continue;
-    const double periods = std::round(event.value / event.motion.frequency());
-    const ExactCurve doubled = doubled_curve(family, event, options);
-    if (doubled.status == SweepStatus::no_start) continue;
-    ++followed;
-    EXPECT_GE(doubled.points.size(), 3u);
-    EXPECT_NEAR(doubled.points.front().value, event.value, 1e-2 * event.value);
-    for (const ExactPoint& point : doubled.points) {
-      EXPECT_TRUE(point.motion.converged());
-      EXPECT_NEAR(point.motion.frequency(), point.value / (2.0 * periods), 1e-12);
-    }
-  }
-  EXPECT_GE(followed, 1);
-}
-
-// Of frequencies at which the structure settles to a stable motion of the curve's period, the curve has it.
-TEST(ImpactCurveTest, PassesTheMotionsThatTheStructureSettlesTo) {
-  const ImpactScene scene = oscillator_between_stops(0.2, 0.4, 0.7, 0.5);
-  TracedImpacts traced(scene);
-  const ExactCurve curve = traced.over_omega(0.7, 2.5);
-  int compared = 0;
-  for (std::size_t i = 0; i < curve.points.size(); i += 7) {
-    const ExactPoint& point = curve.points[i];
-    if (point.unstable != 0) continue;
-    const ImpactResponse settled = impact_response(traced.family(point.value).at(point.value));
-    if (settled.load_periods != 1 || settled.motion.impacts.size() != point.motion.impacts.size()) continue;
-    ++compared;
-    EXPECT_NEAR(settled.motion.energy_lost(), point.motion.energy_lost(), 1e-8) << point.value;
-  }
-  EXPECT_GE(compared, 3);
-}
-
-TEST(ImpactCurveTest, FollowsABarOfManyModes) {
-  const ImpactScene scene = lumped_bar(30, 0.5, 0.02, 0.8, 0.6, 0.6);
-  const ExactCurve curve = TracedImpacts(scene).over_omega(0.6, 1.0);
-  EXPECT_EQ(curve.status, SweepStatus::reached_end) << to_string(curve.status);
-  for (const ExactPoint& point : curve.points) EXPECT_TRUE(point.motion.converged());
-  for (const ExactEvent& event : curve.events)
-    EXPECT_TRUE(event.type == Type::grazing || std::abs(std::abs(event.multiplier) - 1.0) < 1e-6);
 }
 
 TEST(ImpactCurveTest, StopsWhereItsObserverSaysSo) {
