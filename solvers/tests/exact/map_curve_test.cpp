@@ -1,4 +1,4 @@
-// Exact curves by the map of the flow against closed forms, curves by phases and event-driven integrations.
+// Exact curves by the map of the flow against curves by phases and event-driven integrations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,13 +21,14 @@ namespace {
 using testing::FrictionMotion, testing::FrictionScene;
 using Type = SpecialPointType;
 
-// From the motion of a scene up to another value of the parameter.
-ExactCurve curve_of(FrictionMotion& first, double to, SweepParameter parameter = SweepParameter::frequency) {
+// From the motion of a scene up to another frequency.
+ExactCurve curve_of(FrictionMotion& first, double to) {
   ExactCurveOptions options;
-  options.from = parameter == SweepParameter::frequency ? first.scene.frequency() : 1.0;
+  options.from = first.scene.frequency();
   options.to = to;
-  return exact_curve({first.problem, first.scene.contact_laws(), first.dynamics, parameter},
-                     first.phases.motion, options);
+  return exact_curve(
+      {first.problem, first.scene.contact_laws(), first.dynamics, SweepParameter::frequency},
+      first.phases.motion, options);
 }
 
 void expect_events(const ExactCurve& curve, const std::vector<std::pair<Type, double>>& expected,
@@ -38,29 +39,6 @@ void expect_events(const ExactCurve& curve, const std::vector<std::pair<Type, do
     EXPECT_EQ(to_string(curve.events[i].type), to_string(expected[i].first));
     EXPECT_NEAR(curve.events[i].value, expected[i].second, tolerance * expected[i].second);
   }
-}
-
-// The slider holds up to its limit where |k + k_t - w^2 + i c w| = k_t F / limit.
-TEST(MapCurve, SlipBeginsAndCeasesWhereTheMotionThatSticksReachesTheLimit) {
-  constexpr double load = 0.6, spring = 3.0, damping = 0.05;
-  FrictionMotion first(testing::slider_on_oscillator(load, spring, 1.0));
-  const double middle = 1.0 + spring - 0.5 * damping * damping, limit = spring * load,
-               root = std::sqrt(middle * middle - (1.0 + spring) * (1.0 + spring) + limit * limit);
-  const auto hertz = [](double square) { return std::sqrt(square) / (2.0 * std::numbers::pi); };
-  const ExactCurve curve = curve_of(first, 0.477);
-  expect_events(curve, {{Type::slip, hertz(middle - root)}, {Type::slip, hertz(middle + root)}}, 1e-7);
-  for (const ExactPoint& point : curve.points) {
-    const double below = hertz(middle - root) - point.value, above = point.value - hertz(middle + root);
-    if (std::abs(std::max(below, above)) > 1e-7) {
-      EXPECT_EQ(point.motion.friction[0].always_sticks(), below > 0.0 || above > 0.0) << point.value;
-    }
-    EXPECT_EQ(to_string(point.motion.status), "converged") << point.value;
-  }
-}
-
-TEST(MapCurve, SlipBeginsAtItsLoad) {
-  FrictionMotion first(testing::slider_on_oscillator(1.0, 1.0, 0.45));
-  expect_events(curve_of(first, 3.0, SweepParameter::load_scale), {{Type::slip, 1.7976408151}}, 1e-7);
 }
 
 // Curves by phases share the poles with the flow, and no equation.

@@ -21,69 +21,6 @@ namespace {
 
 using testing::FrictionMotion, testing::FrictionOracle, testing::FrictionRow, testing::FrictionScene;
 
-double work_of(const PhaseMotion& motion) {
-  double work = 0.0;
-  for (const FrictionCycle& cycle : friction_cycles(motion)) work += cycle.work;
-  return work;
-}
-
-TEST(ExactMotion, HaveTheHarmonicTheWorkAndTheMultipliersOfExactMotions) {
-  constexpr int points = 16384;
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
-  for (const FrictionRow& row : testing::friction_rows()) {
-    const bool in_plane = row.scene.laws.front().tangents() > 1;
-    const PhaseMotion motion =
-        FrictionMotion(row.scene, {.tolerance = 1e-10}, 63, in_plane ? 512 : 1024).phases.motion;
-    ASSERT_EQ(to_string(motion.status), "converged") << row.name;
-    EXPECT_LE(motion.unknowns, 400) << row.name;
-    const double digits = in_plane ? 1e-8 : 1e-9;
-    const Eigen::VectorXd samples = motion.displacement(times).row(row.compared);
-    EXPECT_LE(std::abs(testing::first_harmonic(samples) - exact_of(row)), digits * row.amplitude) << row.name;
-    EXPECT_NEAR(work_of(motion), row.work, digits * row.work) << row.name;
-    EXPECT_EQ(motion.count_unstable(), 0) << row.name;
-    if (row.largest == 0.0) continue;  // not known
-    const Eigen::VectorXcd multipliers = motion.multipliers();
-    // The last digit of the beams' rows is that of matrix exponentials with fast poles.
-    const double allowed = row.name.starts_with("beam") ? 2e-8 : 1e-8;
-    EXPECT_NEAR(std::abs(multipliers[0]), row.largest, allowed) << row.name;
-    EXPECT_NEAR(std::abs(multipliers[1]), row.second, allowed) << row.name;
-  }
-}
-
-TEST(ExactMotion, BeginAndEndAtTheInstantsOfTheExactMotion) {
-  const PhaseMotion motion = FrictionMotion(testing::lift_off(2.0, 2.0, 0.6, 0.5, 3.0)).phases.motion;
-  ASSERT_TRUE(motion.converged());
-  ASSERT_EQ(motion.friction.size(), 1u);
-  const std::vector<FrictionPart>& parts = motion.friction[0].parts;
-  ASSERT_EQ(parts.size(), 3u);
-  using State = FrictionPart::State;
-  const State states[] = {State::slip, State::open, State::stick};
-  const double begins[] = {0.280840393, 0.299434949, 0.951154093};
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(parts[std::size_t(i)].state, states[i]);
-    EXPECT_NEAR(parts[std::size_t(i)].begin, begins[i], 1e-9);
-  }
-  EXPECT_EQ(parts[0].sign, -1.0);
-  const std::vector<FrictionCycle> cycles = friction_cycles(motion);
-  ASSERT_EQ(cycles.size(), 1u);
-  EXPECT_NEAR(cycles[0].stick_share, 0.3296863, 1e-8);
-  EXPECT_NEAR(cycles[0].slip_share, 0.018594557, 1e-8);
-  EXPECT_NEAR(cycles[0].open_share, 0.651719143, 1e-8);
-}
-
-// Forces over the period by the law's own samples, which are of second order.
-TEST(ExactMotion, HaveTheForcesOfTheLawAlongThem) {
-  constexpr int points = 1 << 15;
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
-  for (const FrictionScene& scene :
-       {testing::lift_off(1.0, 1.0, 0.6, 0.5, 2.4), testing::chain_of_three(3.0, 0.85)}) {
-    const PhaseMotion motion = FrictionMotion(scene).phases.motion;
-    ASSERT_TRUE(motion.converged());
-    const Eigen::MatrixXd force = motion.force(times);
-    EXPECT_LE((scene.contact_laws().force(motion.displacement(times)) - force).norm(), 1e-7 * force.norm());
-  }
-}
-
 // Where R_0 > 0 the velocity jumps as slip begins.
 TEST(ExactMotion, HaveTheForcesOfTheLawAtContactsWithoutMass) {
   constexpr int points = 1 << 15;
@@ -115,55 +52,6 @@ TEST(ExactMotion, TheEstimatedErrorIsAboveTheError) {
           << row.name << ' ' << tolerance;
     }
   }
-}
-
-// The response of the structure with the spring of a contact that never slips.
-TEST(ExactMotion, OfAContactThatSticksAlwaysIsTheMotionWithItsSpring) {
-  const FrictionScene scene = testing::rubbing_masses(1.0, 2.0, 100.0, 1.1);
-  const FrictionMotion found(scene);
-  ASSERT_TRUE(found.phases.motion.converged());
-  const Eigen::Matrix2cd stiffness =
-      Eigen::Matrix2cd(Eigen::MatrixXd(scene.structure.stiffness)) +
-      std::complex<double>(0.0, scene.omega) * Eigen::MatrixXd(scene.structure.damping) -
-      scene.omega * scene.omega * Eigen::Matrix2d::Identity() + Eigen::Matrix2d{{2.0, 0.0}, {0.0, 0.0}};
-  const Eigen::Vector2cd exact = stiffness.inverse() * Eigen::Vector2cd(0.0, 1.0);
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(64, 0.0, 1.0 - 1.0 / 64);
-  const Eigen::VectorXd samples = found.phases.motion.displacement(times).row(0);
-  EXPECT_LE(std::abs(testing::first_harmonic(samples) - std::conj(exact[0])), 1e-11 * std::abs(exact[0]));
-  EXPECT_TRUE(found.phases.motion.friction[0].always_sticks());
-  EXPECT_LE(std::abs(found.phases.motion.multipliers()[0]), 1.0);
-}
-
-// Slip begins exactly at the load (L / k_t) |1 + k_t - omega^2 + i c omega|.
-TEST(ExactMotion, SlipJustAboveTheLoadAtWhichItBegins) {
-  constexpr double first_slip = 1.7976408151;  // at omega = 0.45
-  const PhaseMotion stuck =
-      FrictionMotion(testing::slider_on_oscillator(0.9999 * first_slip, 1.0, 0.45)).phases.motion;
-  ASSERT_TRUE(stuck.converged());
-  EXPECT_TRUE(stuck.friction[0].always_sticks());
-  for (const double above : {1e-2, 1e-3, 1e-4}) {
-    const PhaseMotion slips =
-        FrictionMotion(testing::slider_on_oscillator((1.0 + above) * first_slip, 1.0, 0.45)).phases.motion;
-    ASSERT_EQ(to_string(slips.status), "converged") << above;
-    EXPECT_EQ(slips.friction[0].parts.size(), 4u) << above;
-    EXPECT_GT(work_of(slips), 0.0);
-    EXPECT_LE(work_of(slips), 10.0 * above);
-  }
-}
-
-TEST(ExactMotion, OfOneCoefficientOfZeroAreThoseWithoutFriction) {
-  FrictionScene scene = testing::lift_off(2.0, 2.0, 0.6, 0.5, 3.0);
-  scene.laws = {contact::CoulombLaw({0.0, 5.0, 0.6}, contact::LinearLaw(21.0, 0.0))};
-  const FrictionMotion found(scene);
-  ASSERT_EQ(to_string(found.phases.motion.status), "converged");
-  const ContactLaws apart(std::vector<AnyContactLaw>{contact::LinearLaw(21.0, -0.6 / 21.0), AnyContactLaw()});
-  const PhaseMotion exact =
-      contact_phases(phases_problem(found.problem, apart, found.dynamics),
-                     found.phases.motion.displacement(Eigen::VectorXd::LinSpaced(256, 0.0, 255.0 / 256)));
-  ASSERT_TRUE(exact.converged());
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(128, 0.0, 127.0 / 128);
-  const Eigen::MatrixXd u = exact.displacement(times);
-  EXPECT_LE((found.phases.motion.displacement(times) - u).norm(), 1e-9 * u.norm());
 }
 
 TEST(ExactMotion, ComeBackAfterAPeriodOfTheEventDrivenMotionWithItsMultipliers) {
