@@ -23,8 +23,9 @@ def impacts_of(record):
 def test_the_stable_motion_of_two_periods_of_the_table_is_found_from_every_start(found):
     (known,) = [one for one in KNOWN if one.name == "two periods"]
     motions = found.summary["motions"]
+    impulses = pytest.approx(known.impulses, abs=1e-8, rel=0.0)
     (k,) = [k for k, impacts in enumerate(impacts_of(found))
-            if motions["period"][k] == known.periods and list(impacts["impulse_Ns"]) == pytest.approx(known.impulses, abs=1e-8, rel=0.0)]
+            if motions["period"][k] == known.periods and list(impacts["impulse_Ns"]) == impulses]
     assert motions["found_by"][k] != "newton" and motions["unstable_multipliers"][k] == 0.0
     assert found.summary["random_starts"] == 24
     # The shares are those of the starts, of which no one is lost.
@@ -37,7 +38,8 @@ def test_the_stable_motion_of_two_periods_of_the_table_is_found_from_every_start
 def test_motions_are_there_once_also_where_periods_of_the_load_lie_between(structure):
     record = wb.run(scene_of(structure, "motions"))
     periods = record.summary["motions"]["period"]
-    measures = [(period, len(one["time_fraction"]), one["energy_lost_J"].sum()) for period, one in zip(periods, impacts_of(record))]
+    measures = [(period, len(one["time_fraction"]), one["energy_lost_J"].sum())
+                for period, one in zip(periods, impacts_of(record))]
     for i, (period, count, lost) in enumerate(measures):
         for other in measures[:i]:
             assert not ((period, count) == other[:2] and abs(lost - other[2]) < 1e-9 * (1.0 + lost))

@@ -4,7 +4,7 @@ import math
 
 import pytest
 import wavebalance as wb
-from friction_structures import slider_on_oscillator
+from friction_structures import jenkins
 
 
 def curve(given, **analysis):
@@ -22,7 +22,7 @@ def test_slip_begins_and_ceases_over_the_frequency():
     middle, limit = 1.0 + spring - 0.5 * damping * damping, spring * load
     root = math.sqrt(middle * middle - (1.0 + spring) ** 2 + limit * limit)
     begins, ceases = (math.sqrt(square) / (2.0 * math.pi) for square in (middle - root, middle + root))
-    record = curve(slider_on_oscillator(load, spring, 1.0), type="frequency_sweep", frequency_from=1.0 / (2.0 * math.pi),
+    record = curve(jenkins(load, spring, 1.0), type="frequency_sweep", frequency_from=1.0 / (2.0 * math.pi),
                    frequency_to=0.477)
     points = record.summary["special_points"]
     assert points["type"] == ["slip", "slip"]
@@ -35,7 +35,7 @@ def test_slip_begins_and_ceases_over_the_frequency():
 
 
 def test_slip_begins_at_its_load():
-    record = curve(slider_on_oscillator(1.0, 1.0, 0.45), type="amplitude_sweep", amplitude_from=1.0, amplitude_to=3.0)
+    record = curve(jenkins(1.0, 1.0, 0.45), type="amplitude_sweep", amplitude_from=1.0, amplitude_to=3.0)
     points = record.summary["special_points"]
     assert points["type"] == ["slip"]
     assert list(points["amplitude_N"]) == pytest.approx([1.7976408151], rel=1e-7, abs=0.0)

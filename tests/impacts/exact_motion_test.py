@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import ROWS, chain_of_three, lift_off, rubbing_masses, slider_on_oscillator
+from friction_structures import ROWS, chain, lift_off, masses, jenkins
 
 FIRST_SLIP = 1.7976408151  # the load (L / k_t) |1 + k_t - omega^2 + i c omega| at omega = 0.45
 
@@ -23,7 +23,8 @@ def first_harmonic(samples):
 
 @pytest.mark.parametrize("name", ROWS)
 def test_a_motion_has_the_harmonic_the_work_and_the_multipliers_of_the_exact_one(name):
-    given, compared, amplitude, degrees, work, largest, second = ROWS[name]
+    given, amplitude, degrees, work, largest, second = ROWS[name]
+    compared = 3 if name.startswith("beam") else 1  # the degree of freedom
     record = solve(given, 16384, outputs=[compared])
     summary, digits = record.summary, 1e-8 if largest is None else 1e-9
     assert summary["solved_by"] == "exact" and summary["phases_unknowns"] <= 400
@@ -46,9 +47,9 @@ def test_slip_lift_off_and_landing_are_at_the_instants_of_the_exact_motion():
     summary = record.summary
     (_, tangential), times = rows_of(record)[1], np.arange(1024) / 1024.0
     assert (tangential[(times > 0.280840393) & (times < 0.299434949)] < 0.0).all()  # it slips backward
-    along = {state: begin for state, begin in zip(summary["phases"]["state"], summary["phases"]["begin"])}
-    assert along == {"slip": pytest.approx(0.280840393, abs=1e-9, rel=0.0), "open": pytest.approx(0.299434949, abs=1e-9, rel=0.0),
-                     "stick": pytest.approx(0.951154093, abs=1e-9, rel=0.0)}
+    assert list(summary["phases"]["state"]) == ["slip", "open", "stick"]
+    begins = [0.280840393, 0.299434949, 0.951154093]
+    assert list(summary["phases"]["begin"]) == pytest.approx(begins, abs=1e-9, rel=0.0)
     shares = [summary["friction"][f"{state}_fraction"][0] for state in ("stick", "slip", "open")]
     assert shares == pytest.approx([0.3296863, 0.018594557, 0.651719143], abs=1e-8, rel=0.0)
 
@@ -61,7 +62,8 @@ def force_of_law(pair, tangential, normal=None):
     limit, before = np.maximum(raw, 0.0), np.roll(raw, 1)
     lands = (before < 0.0) & (raw > 0.0)
     closed = np.divide(raw, raw - before, out=np.ones_like(raw), where=lands)  # the part of a step after landing
-    bound, steps = pair["friction"] * limit, closed * pair["tangential_stiffness"] * np.diff(tangential, prepend=tangential[-1])
+    bound = pair["friction"] * limit
+    steps = closed * pair["tangential_stiffness"] * np.diff(tangential, prepend=tangential[-1])
     force, now = np.empty(len(bound)), 0.0
     for _ in range(2):
         for k in range(len(bound)):
@@ -86,14 +88,14 @@ def test_a_lifting_contact_has_the_forces_of_its_law():
 
 
 def test_sliders_of_a_chain_have_the_forces_of_their_law():
-    given = chain_of_three(3.0, 0.85)
+    given = chain(3.0, 0.85)
     u, force = rows_of(solve(given, 1 << 15))
     expected = np.array([force_of_law(pair, row)[0] for pair, row in zip(given["contact"]["pairs"], u)])
     assert np.linalg.norm(expected - force) <= 1e-7 * np.linalg.norm(force)
 
 
 def test_a_contact_that_sticks_always_has_the_motion_with_its_spring():
-    given, omega = rubbing_masses(1.0, 2.0, 100.0, 1.1), 1.1
+    given, omega = masses(1.0, 2.0, 100.0, 1.1), 1.1
     record = solve(given, 64)
     parts = given["structure"]
     impedance = parts["stiffness"] + 1j * omega * parts["damping"] - omega**2 * np.eye(2) + np.diag([2.0, 0.0])
@@ -104,13 +106,13 @@ def test_a_contact_that_sticks_always_has_the_motion_with_its_spring():
 
 
 def test_a_slider_sticks_below_the_load_at_which_slip_begins():
-    summary = solve(slider_on_oscillator(0.9999 * FIRST_SLIP, 1.0, 0.45)).summary
+    summary = solve(jenkins(0.9999 * FIRST_SLIP, 1.0, 0.45)).summary
     assert summary["friction"]["stick_fraction"][0] == 1.0
 
 
 @pytest.mark.parametrize("above", [1e-2, 1e-3, 1e-4])
 def test_a_slider_slips_just_above_the_load_at_which_slip_begins(above):
-    summary = solve(slider_on_oscillator((1.0 + above) * FIRST_SLIP, 1.0, 0.45)).summary
+    summary = solve(jenkins((1.0 + above) * FIRST_SLIP, 1.0, 0.45)).summary
     assert len(summary["phases"]["state"]) == 4
     assert 0.0 < summary["friction_work_J"] <= 10.0 * above
 

@@ -13,7 +13,8 @@ TAU = 2.0 * math.pi
 
 def curve(structure, begin, end, **analysis):
     """Over angular frequencies."""
-    return wb.run(scene_of(structure, "frequency_sweep", frequency_from=begin / TAU, frequency_to=end / TAU, **analysis))
+    ends = {"frequency_from": begin / TAU, "frequency_to": end / TAU}
+    return wb.run(scene_of(structure, "frequency_sweep", **ends, **analysis))
 
 
 def special(record, kind, axis="frequency_Hz"):
@@ -43,12 +44,13 @@ def test_contact_begins_at_the_load_whose_motion_reaches_the_gap():
 def closes(structure, omega, impulse, velocity):
     """How far the motion without contact is from what makes one impact in a period of the load at the gap.
 
-    Behind the impact of a linear structure the rest of the motion is the impulse times a constant; what is left of gap and
-    velocity is a point of the ellipse of the motion without contact.
+    Behind the impact of a linear structure the rest of the motion is the impulse times a constant; what is left of gap
+    and velocity is a point of the ellipse of the motion without contact.
     """
     size, row, gap = len(structure.mass), structure.contacts[0], structure.gaps[0]
     inverse = np.linalg.inv(structure.mass)
-    rates = np.block([[np.zeros((size, size)), np.eye(size)], [-inverse @ structure.stiffness, -inverse @ structure.damping]])
+    rates = np.block([[np.zeros((size, size)), np.eye(size)],
+                      [-inverse @ structure.stiffness, -inverse @ structure.damping]])
     blow = np.r_[np.zeros(size), -impulse * inverse @ row]
     own = np.linalg.solve(np.eye(2 * size) - expm(TAU / omega * rates), blow)  # just behind it
     u, v = gap - row @ own[:size], -structure.restitution * velocity - row @ own[size:]
@@ -67,9 +69,9 @@ def test_every_point_of_one_impact_has_its_closed_form(structure, begin, end, al
     sweep = record.sweep
     assert len(sweep["impacts"]) >= 10 and set(sweep["impacts"]) == {1.0}
     mobility = (structure.contacts @ np.linalg.inv(structure.mass) @ structure.contacts.T)[0, 0]
-    np.testing.assert_allclose(sweep["max_impulse_Ns"] * mobility, (1.0 + structure.restitution) * sweep["max_impact_velocity_m_per_s"],
-                               rtol=1e-12)
-    for frequency, impulse, velocity in zip(*(sweep[key] for key in ("frequency_Hz", "max_impulse_Ns", "max_impact_velocity_m_per_s"))):
+    impulses, velocities = sweep["max_impulse_Ns"], sweep["max_impact_velocity_m_per_s"]
+    np.testing.assert_allclose(impulses * mobility, (1.0 + structure.restitution) * velocities, rtol=1e-12)
+    for frequency, impulse, velocity in zip(sweep["frequency_Hz"], impulses, velocities):
         assert abs(closes(structure, TAU * frequency, impulse, velocity)) <= allowed, frequency
 
 

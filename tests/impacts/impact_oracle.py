@@ -114,6 +114,6 @@ class ImpactOracle:
 
     def growth_by_differences(self, state, period, change=1e-6):
         """The largest modulus of the multipliers by differences of motions in time."""
-        columns = [(self.advance(state + step, 0.0, period)[0] - self.advance(state - step, 0.0, period)[0]) / (2.0 * change)
+        columns = [self.advance(state + step, 0.0, period)[0] - self.advance(state - step, 0.0, period)[0]
                    for step in change * np.eye(len(state))]
-        return np.abs(np.linalg.eigvals(np.array(columns).T)).max()
+        return np.abs(np.linalg.eigvals(np.array(columns).T / (2.0 * change))).max()

@@ -58,7 +58,8 @@ def lumped_bar(elements, end_mass, damping, gap, restitution, omega):
     """A bar held at one end, EA = rho A = L = 1, C = damping K; at its other end a mass, the load and the stop."""
     length = 1.0 / elements
     mass = np.diag(np.r_[np.full(elements - 1, length), 0.5 * length + end_mass])
-    stiffness = (np.diag(np.r_[np.full(elements - 1, 2.0), 1.0]) - np.eye(elements, k=1) - np.eye(elements, k=-1)) / length
+    springs = np.diag(np.r_[np.full(elements - 1, 2.0), 1.0]) - np.eye(elements, k=1) - np.eye(elements, k=-1)
+    stiffness = springs / length
     end = np.eye(elements)[-1:]
     return Structure(mass, damping * stiffness, stiffness, end, gap, restitution, omega, elements - 1)
 
@@ -67,8 +68,8 @@ def scene_of(structure, kind="forced_response", **analysis):
     """The structure as a scene of the package, under a load of 1 N."""
     pairs = []
     for row, gap in zip(structure.contacts, structure.gaps):
-        dofs = np.flatnonzero(row)
-        pairs.append({"dofs": [int(k) + 1 for k in dofs], "coefficients": [float(row[k]) for k in dofs], "gap": float(gap)})
+        (dof,) = np.flatnonzero(row)
+        pairs.append({"dofs": [int(dof) + 1], "coefficients": [float(row[dof])], "gap": float(gap)})
     forcing = {"load_dofs": [structure.loaded + 1], "amplitude": 1.0}
     if kind != "frequency_sweep":
         forcing["frequency"] = structure.frequency

@@ -25,8 +25,10 @@ def flight(damping, gap, omega, begin):
         return y[0] - gap if time > begin + 0.1 else -1.0
 
     back.terminal, back.direction = True, 1.0
-    found = solve_ivp(lambda t, y: [y[1], math.cos(omega * t) - damping * y[1] - y[0]], (begin, begin + 50.0), [gap, 0.0],
-                      method="DOP853", events=back, rtol=1e-13, atol=1e-13)
+    def rates(time, y):
+        return [y[1], math.cos(omega * time) - damping * y[1] - y[0]]
+
+    found = solve_ivp(rates, (begin, begin + 50.0), [gap, 0.0], method="DOP853", events=back, rtol=1e-13, atol=1e-13)
     return found.t_events[0][0], found.y_events[0][0][1]
 
 
@@ -52,7 +54,8 @@ def test_a_contact_opens_where_the_load_no_longer_presses_and_closes_where_it_co
 
 def force_harmonic(n, record, impacts, frequency):
     """Of contact force and impulses; between begin and end of a contact the samples have a spline."""
-    times, force, closed = record.response["time_fraction"], record.response["contact_force_N"], record.summary["lasting_contacts"]
+    times, force = record.response["time_fraction"], record.response["contact_force_N"]
+    closed = record.summary["lasting_contacts"]
     points, weights = np.polynomial.legendre.leggauss(8)
     total = 0.0j
     for begin, end in zip(closed["begin"], closed["end"]):
@@ -83,8 +86,8 @@ def test_a_bar_has_forces_that_make_its_motion():
 
 def test_the_mean_force_of_a_bar_tends_to_a_limit_as_its_elements_are_refined():
     # The compliance of the bar is 1, so that the force's mean is the displacement's, but for its sign.
-    means = [-solve(lumped_bar(elements, 0.0, 0.02, 0.5, 0.0, 0.7), output_points=4096).response["displacement_m"].mean()
-             for elements in (10, 20, 40)]
+    records = [solve(lumped_bar(elements, 0.0, 0.02, 0.5, 0.0, 0.7), output_points=4096) for elements in (10, 20, 40)]
+    means = [-record.response["displacement_m"].mean() for record in records]
     assert abs(means[2] - means[1]) < 0.6 * abs(means[1] - means[0])
 
 
@@ -104,7 +107,8 @@ def test_impacts_that_follow_each_other_ever_faster_end_in_rest():
     record = solve(oscillator(0.1, 0.0, 0.3, 0.5), output_points=997)
     assert record.summary["impacts"] > 8 and record.summary["unstable_multipliers"] == 0
     assert record.response["displacement_m"].max() <= 1e-9 and record.response["contact_force_N"].min() >= -1e-12
-    assert record.summary["lasting_contacts"]["end"][-1] - 1.0 == pytest.approx(math.acos(0.0) / TAU, abs=1e-10, rel=0.0)
+    opens = math.acos(0.0) / TAU
+    assert record.summary["lasting_contacts"]["end"][-1] - 1.0 == pytest.approx(opens, abs=1e-10, rel=0.0)
 
 
 def test_rest_begins_where_the_geometric_series_of_the_impacts_in_time_ends():

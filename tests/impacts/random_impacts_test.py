@@ -49,7 +49,8 @@ def compare(seed, structure, record):
     if [one.contact for one in found] != [one.contact for one in expected]:
         return f"contacts strike in another order: {found}, {expected}"
     for one, other in zip(found, expected):
-        if not (abs(one.time - other.time) <= 1e-8 * growth * period and abs(one.velocity - other.velocity) <= 1e-7 * growth):
+        apart, faster = abs(one.time - other.time), abs(one.velocity - other.velocity)
+        if not (apart <= 1e-8 * growth * period and faster <= 1e-7 * growth):
             return f"an impact is another: {one}, {other}"
     if seed % 8 == 0 and expected and not abs(oracle.growth_by_differences(begin, period) - size) <= 1e-3 * growth:
         return f"the leading multiplier is not {size:.6f}"
