@@ -13,7 +13,8 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::cosine_load, testing::impact_oscillator, testing::ImpactScene, testing::two_masses_with_impacts;
+using testing::cosine_load, testing::impact_oscillator, testing::ImpactScene,
+    testing::two_masses_with_impacts;
 
 /// A structure with impacts, whose curves start where it settles.
 class TracedImpacts {
@@ -24,9 +25,9 @@ class TracedImpacts {
         dynamics_(structure_),
         problem_(testing::fourier_pair(7, 32), structure_, cosine_load()) {}
 
-  PhaseFamily family(double frequency, SweepParameter parameter = SweepParameter::frequency) {
+  PhaseFamily family(double frequency) {
     problem_.set_frequency(frequency);
-    return {problem_, scene_.laws(), dynamics_, parameter};
+    return {problem_, scene_.laws(), dynamics_, SweepParameter::frequency};
   }
   /// Over the angular frequency.
   ExactCurve over_omega(double from, double to, ExactCurveOptions options = {}) {
@@ -36,7 +37,6 @@ class TracedImpacts {
     const ImpactResponse first = impact_response(over.at(options.from));
     return exact_curve(over, first.motion, options);
   }
-  const ContactDynamics& dynamics() const { return dynamics_; }
 
  private:
   ImpactScene scene_;

@@ -26,9 +26,8 @@ ExactCurve curve_of(FrictionMotion& first, double to) {
   ExactCurveOptions options;
   options.from = first.scene.frequency();
   options.to = to;
-  return exact_curve(
-      {first.problem, first.scene.contact_laws(), first.dynamics, SweepParameter::frequency},
-      first.phases.motion, options);
+  return exact_curve({first.problem, first.scene.contact_laws(), first.dynamics, SweepParameter::frequency},
+                     first.phases.motion, options);
 }
 
 void expect_events(const ExactCurve& curve, const std::vector<std::pair<Type, double>>& expected,
