@@ -69,6 +69,7 @@ def command(tmp_path):
 
     def run(*arguments):
         program = os.environ["WAVEBALANCE_COMMAND"]
-        return subprocess.run([program, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True, check=False)
+        own = {key: value for key, value in os.environ.items() if key != "LD_PRELOAD"}  # the command has its sanitizers
+        return subprocess.run([program, *map(str, arguments)], cwd=tmp_path, capture_output=True, text=True, check=False, env=own)
 
     return run
