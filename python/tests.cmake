@@ -47,7 +47,7 @@ else()
   # Random campaigns: full ones take minutes.
   wavebalance_add_numeric_tests(extremes campaign 3600 random_bars_test random_chains_test random_stability_test)
   # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
-  wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/mixtures ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
+  wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
   set_tests_properties(python.random_mixtures PROPERTIES TIMEOUT 3600)
   # Random chains with impacts against motions in time by matrix exponentials.
   wavebalance_add_python_test(random_impacts LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/impacts/random_impacts_test.py)

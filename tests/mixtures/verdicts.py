@@ -1,7 +1,8 @@
 """What an integration of the tests' own says of the periodic motion that a record has."""
 
 import numpy as np
-from event_flow import EndlessEvents, EventFlow, Samples
+from event_flow import Samples
+from near_motion import NearMotion
 
 # Written down before the first campaign.
 DISTANCE = 1e-8    # of displacements at the contacts, relative to their largest vibration
@@ -26,127 +27,15 @@ def masses(mixture, record):
     return np.array([record.outputs[f"row_{k + 1}_m"] for k in range(len(mixture["mass"]))])
 
 
-class NoSlope(Exception):
-    """States at the end of a period depend on how its beginning is perturbed."""
-
-
-class Comparison:
+class Comparison(NearMotion):
     """The motion of the integration that closes its period near that of a record, and how far they lie apart."""
 
     def __init__(self, mixture, record):
-        self.mixture, self.record = mixture, record
-        self.periods = int(record.summary.get("period_of_motion") or 1)
-        self.flow = EventFlow(mixture, self.periods)
-        self.hold()
-        self.displacement, self.force = contact_motion(mixture, record)
-        self.u = masses(mixture, record)
-        self.points = self.u.shape[1]
-        self.size = np.ptp(self.u, axis=1).max() / 2.0
-
-    def start(self, k):
-        """States and z at sample k, roughly: velocities by differences."""
-        flow, n = self.flow, self.flow.size
-        spacing = flow.period / self.points
-        ahead = [self.u[:, (k + j) % self.points] for j in (-2, -1, 1, 2)]
-        z = np.zeros(flow.length)
-        along = np.array([one["direction"] for one in self.mixture["contacts"]])
-        z[:n] = self.u[:, k] + np.linalg.lstsq(along, self.displacement[:, k] - along @ self.u[:, k], rcond=None)[0]
-        z[n : 2 * n] = (ahead[0] - 8.0 * ahead[1] + 8.0 * ahead[2] - ahead[3]) / (12.0 * spacing)
-        angle = self.mixture["omega"] * k * spacing
-        z[flow.one :] = 1.0, np.cos(angle), np.sin(angle)
-        states = []
-        for c, one in enumerate(self.mixture["contacts"]):
-            states.append(self.state(c, one, z, self.displacement[c, k], self.force[c, k]))
-        return tuple(states), z
-
-    def state(self, c, one, z, displacement, force):
-        flow, n = self.flow, self.flow.size
-        along, law = one["direction"], one["law"]
-        if law in ("stop", "dashpot", "rigid_stop"):
-            if force > 0.0 and law == "rigid_stop":
-                z[n : 2 * n] -= along * (along @ z[n : 2 * n]) / (along @ along)
-            return "closed" if force > 0.0 else "left" if law == "dashpot" and displacement > one["gap"] else "open"
-        limit = flow.limit(c) @ z
-        if law == "lifting" and limit <= 0.0:
-            return "open"
-        if abs(force) >= (1.0 - 1e-6) * limit:
-            return "forward" if force > 0.0 else "backward"
-        if law == "rigid_slider":
-            z[n : 2 * n] -= along * (along @ z[n : 2 * n])
-        else:
-            z[flow.memory[c]] = displacement - force / one["tangential"]
-        return "stick"
-
-    def calm(self, states, z):
-        """States, z and time since in the middle of the longest time without events of a period."""
-        flow = self.free
-        flow.over(states, z, flow.period)  # for the fastest impacts
-        flow.over(states, z, flow.period)
-        self.flow.fastest = flow.fastest
-        times = [0.0, *(event[0] for event in flow.events), flow.period]
-        lengths = np.diff(times)
-        at = int(np.argmax(lengths))
-        time = times[at] + 0.45 * lengths[at]
-        return *flow.over(states, z, time), time
-
-    def hold(self):
-        """Lets contacts that stick all along do so under perturbations, too: their positions are no unknowns."""
-        table = self.record.summary.get("friction") or {"contact": [], "history_dependent": []}
+        self.record = record
+        table = record.summary.get("friction") or {"contact": [], "history_dependent": []}
         held = {int(c) - 1 for c, stays in zip(table["contact"], table["history_dependent"]) if stays}
-        contacts = [{**one, **{key: 1e3 * one[key] for key in ("limit", "friction") if key in one}} if c in held else one
-                    for c, one in enumerate(self.mixture["contacts"])]
-        self.free = EventFlow({**self.mixture, "contacts": contacts}, self.periods)
-        self.moving = set(range(len(contacts))) - held
-
-    def coordinates(self, states):
-        """A basis of what may be perturbed: not what rigid contacts hold, nor memories that a state does not have or never leaves."""
-        flow = self.flow
-        rows = []
-        for c in flow.held(states):
-            along = flow.contacts[c]["direction"]
-            rows.append(flow.row(velocity=along))
-            if flow.contacts[c]["law"] == "rigid_stop" or c not in self.moving:
-                rows.append(flow.row(along))
-        for c, place in flow.memory.items():
-            if states[c] != "stick" or c not in self.moving:
-                rows.append(np.eye(flow.length)[place])
-        rows += list(np.eye(flow.length)[flow.one :])
-        _, values, basis = np.linalg.svd(np.array(rows))
-        assert values.min() > 1e-9
-        return basis[len(rows) :].T
-
-    def solve(self, k):
-        """Newton's method on the period; True where it closes."""
-        flow = self.flow
-        states, z, self.begin = self.calm(*self.start(k))
-        basis = self.coordinates(states)
-        self.begin += k * flow.period / self.points
-        self.map = None
-        for step in range(12):
-            after, end = self.free.over(states, z, flow.period)
-            distance = np.abs(end - z)[: flow.size].max() / self.size
-            if after != states:
-                return False
-            closed = distance < 1e-11
-            if closed or step % 4 == 0:
-                self.map = self.slopes(states, z, basis)
-            if closed:
-                self.states, self.z = states, z
-                return True
-            z = z + basis @ np.linalg.solve(np.eye(basis.shape[1]) - self.map, basis.T @ (end - z))
-        return False
-
-    def slopes(self, states, z, basis):
-        """The map of a period on the basis, by differences."""
-        columns = []
-        for direction in basis.T:
-            h = 1e-6 * self.size
-            ahead = self.free.over(states, z + h * direction, self.flow.period)
-            behind = self.free.over(states, z - h * direction, self.flow.period)
-            if not ahead[0] == behind[0] == states:
-                raise NoSlope
-            columns.append((ahead[1] - behind[1]) / (2.0 * h))
-        return basis.T @ np.array(columns).T
+        super().__init__(mixture, *contact_motion(mixture, record), masses(mixture, record),
+                         periods=int(record.summary.get("period_of_motion") or 1), held=held)
 
     def distance(self):
         """Of the displacements along the contacts, at the record's samples."""
@@ -162,37 +51,18 @@ class Comparison:
 
     def run(self):
         """'right', or what is wrong."""
-        for k in self.calm_samples():
-            try:
-                if self.solve(k):
-                    break
-            except (EndlessEvents, NoSlope, np.linalg.LinAlgError):
-                continue
-        else:
+        if not self.find():
             return "wrong: no motion of the integration closes near it"
         self.apart = self.distance()
         if not self.apart <= DISTANCE:
             return f"wrong: displacements differ by {self.apart:.1e}"
         return self.compare_multipliers()
 
-    def calm_samples(self):
-        """Samples where displacements are smoothest, apart from each other."""
-        rough = np.abs(np.diff(np.pad(self.u, ((0, 0), (3, 3)), mode="wrap"), 6, axis=1)).max(axis=0)
-        rough = np.convolve(np.pad(rough, 8, mode="wrap"), np.ones(17), "valid")
-        chosen = []
-        for k in np.argsort(rough):
-            if all(min(abs(k - one), self.points - abs(k - one)) > self.points // 16 for one in chosen):
-                chosen.append(int(k))
-            if len(chosen) == 4:
-                break
-        return chosen
-
     def compare_multipliers(self):
         summary = self.record.summary
-        own = np.linalg.eigvals(self.map) if self.map.size else np.zeros(1)
+        own = self.multipliers()
         leading = abs(complex(summary["leading_multiplier_real"], summary["leading_multiplier_imag"]))
         largest = np.abs(own).max()
-        self.multipliers = (largest, leading)
         if not np.isfinite(leading):
             return "right, multipliers not known"
         if abs(largest - leading) > MULTIPLIER * (1.0 + largest):

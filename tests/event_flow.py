@@ -32,7 +32,7 @@ class Mode:
 
 
 class EventFlow:
-    """Integrates a mixture of tests/mixtures/chains.py over its period, or over several of them."""
+    """Integrates a mixture, as of tests/mixtures/chains.py, over its period, or over several of them. Its loads: load cos wt + sine sin wt + static."""
 
     def __init__(self, mixture, periods=1):
         self.mixture, self.contacts = mixture, mixture["contacts"]
@@ -111,6 +111,7 @@ class EventFlow:
         load = np.zeros((n, self.length))
         load[:, :n], load[:, n : 2 * n] = -m["stiffness"], -m["damping"]
         load[:, self.one + 1] = m["load"]
+        load[:, self.one], load[:, self.one + 2] = m.get("static", 0.0), m.get("sine", 0.0)
         for c, state in enumerate(states):
             for direction, row in self.forces(c, state):
                 load -= np.outer(direction, row)

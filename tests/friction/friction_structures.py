@@ -1,0 +1,62 @@
+"""Structures that rub, as mixtures of tests/event_flow.py and as structures of the package."""
+
+import numpy as np
+import wavebalance as wb
+
+
+def slider(direction, tangential, limit):
+    return {"law": "slider", "direction": np.array(direction, float), "tangential": tangential, "limit": limit}
+
+
+def lifting(direction, normal, tangential, friction, normal_load, normal_stiffness):
+    return {"law": "lifting", "direction": np.array(direction, float), "normal": np.array(normal, float),
+            "tangential": tangential, "friction": friction, "normal_load": normal_load, "normal_stiffness": normal_stiffness}
+
+
+def stop(direction, stiffness, gap):
+    return {"law": "stop", "direction": np.array(direction, float), "stiffness": stiffness, "gap": gap}
+
+
+def mixture(mass, damping, stiffness, omega, load, contacts, phased=None, static=None):
+    """Loads: load cos wt, Re phased exp(i w t) and static."""
+    zero = np.zeros(len(mass))
+    phased = zero.astype(complex) if phased is None else phased
+    return {"mass": mass, "damping": damping, "stiffness": stiffness, "omega": omega, "contacts": contacts,
+            "load": load + phased.real, "sine": -phased.imag, "static": zero if static is None else static}
+
+
+def rows_of(contact):
+    return [contact["normal"], contact["direction"]] if contact["law"] == "lifting" else [contact["direction"]]
+
+
+def law_of(contact):
+    if contact["law"] == "stop":
+        return wb.Penalty(contact["stiffness"], contact["gap"])
+    if contact["law"] == "slider":
+        return wb.Coulomb(1.0, contact["tangential"], contact["limit"])
+    return wb.Coulomb(contact["friction"], contact["tangential"], contact["normal_load"], contact["normal_stiffness"])
+
+
+def laws_of(mixture):
+    return [law_of(one) for one in mixture["contacts"]]
+
+
+def structure_of(mixture):
+    """The mixture as a structure of the package."""
+    rows = np.array([row for one in mixture["contacts"] for row in rows_of(one)])
+    forces = [(mixture["sine"], [0.0, -1.0j])] if mixture["sine"].any() else []
+    static = {"static_load": mixture["static"]} if mixture["static"].any() else {}
+    return wb.Structure(mixture["mass"], mixture["damping"], mixture["stiffness"], mixture["load"], rows, forces=forces, **static)
+
+
+def frequency_of(mixture):
+    return mixture["omega"] / (2.0 * np.pi)
+
+
+def response_of(mixture, pair, **options):
+    return wb.forced_response(structure_of(mixture), laws_of(mixture), frequency_of(mixture), pair, **options)
+
+
+def rubbing_rows(mixture):
+    """The rows of S along which each contact has its direction."""
+    return np.cumsum([len(rows_of(one)) for one in mixture["contacts"]]) - 1
