@@ -17,6 +17,11 @@ def stop(direction, stiffness, gap):
     return {"law": "stop", "direction": np.array(direction, float), "stiffness": stiffness, "gap": gap}
 
 
+def plane(directions, tangential, limit):
+    """Slip along two tangents; no contact of tests/event_flow.py."""
+    return {"law": "plane", "directions": np.array(directions, float), "tangential": tangential, "limit": limit}
+
+
 def mixture(mass, damping, stiffness, omega, load, contacts, phased=None, static=None):
     """Loads: load cos wt, Re phased exp(i w t) and static."""
     zero = np.zeros(len(mass))
@@ -26,6 +31,8 @@ def mixture(mass, damping, stiffness, omega, load, contacts, phased=None, static
 
 
 def rows_of(contact):
+    if contact["law"] == "plane":
+        return list(contact["directions"])
     return [contact["normal"], contact["direction"]] if contact["law"] == "lifting" else [contact["direction"]]
 
 
@@ -34,6 +41,8 @@ def law_of(contact):
         return wb.Penalty(contact["stiffness"], contact["gap"])
     if contact["law"] == "slider":
         return wb.Coulomb(1.0, contact["tangential"], contact["limit"])
+    if contact["law"] == "plane":
+        return wb.Coulomb(1.0, contact["tangential"], contact["limit"], tangents=2)
     return wb.Coulomb(contact["friction"], contact["tangential"], contact["normal_load"], contact["normal_stiffness"])
 
 
@@ -51,6 +60,15 @@ def structure_of(mixture):
 
 def frequency_of(mixture):
     return mixture["omega"] / (2.0 * np.pi)
+
+
+def scene_of(mixture, pair, **analysis):
+    """The mixture as the scene of a forced response."""
+    scene = structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=pair, type="forced_response", **analysis)
+    for one, entry in zip(mixture["contacts"], scene["contact"]["pairs"]):
+        if one["law"] == "plane":  # without a normal direction the first tangent stands in `dofs`
+            entry["second_tangent"], entry["second_tangent_coefficients"] = entry.pop("tangent"), entry.pop("tangent_coefficients")
+    return scene
 
 
 def response_of(mixture, pair, **options):

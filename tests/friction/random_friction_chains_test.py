@@ -5,7 +5,7 @@ import collections
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import frequency_of, laws_of, response_of, rubbing_rows, structure_of
+from friction_structures import response_of, rubbing_rows, scene_of
 from near_motion import NearMotion
 from random_structures import chain_that_rubs
 from standard_random import campaign_seeds
@@ -50,9 +50,7 @@ def test_responses_of_random_chains_repeat_after_a_period_of_another_integration
 
 @pytest.mark.parametrize("seed", [84, 155])
 def test_chains_whose_motions_never_repeat_have_unstable_responses_near_pieces_that_nearly_return(seed):
-    mixture = chain_that_rubs(seed)
-    record = wb.run(structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=FEW,
-                                                type="forced_response"))
+    record = wb.run(scene_of(chain_that_rubs(seed), FEW))
     assert record.converged
     assert record.summary["strategy"] == "recurrence"
     assert record.summary["attractor_periods"] == 0
