@@ -21,7 +21,7 @@ else()
     wavebalance_add_python_test(${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
   endforeach()
   # What a user sees, through the command and the package, without a compiler.
-  foreach(topic scenes analyses command compare laws structures impacts)
+  foreach(topic scenes analyses command compare laws structures impacts friction)
     file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
     foreach(test IN LISTS tests)
       get_filename_component(name ${test} NAME_WE)
@@ -52,6 +52,10 @@ else()
   # Random chains with impacts against motions in time by matrix exponentials.
   wavebalance_add_python_test(random_impacts LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/impacts/random_impacts_test.py)
   set_tests_properties(python.random_impacts PROPERTIES TIMEOUT 3600)
+  # Structures that rub; of random ones a full campaign takes minutes.
+  foreach(name random_friction_chains_test friction_sweeps_test random_friction_stability_test random_curves_test)
+    set_tests_properties(python.friction_${name} PROPERTIES LABELS campaign TIMEOUT 3600)
+  endforeach()
   # The cases of others, which are data, and what they are compared with.
   if(WAVEBALANCE_BUILD_REPRODUCE)
     foreach(name cases_test flows_test references_test)

@@ -1,13 +1,14 @@
-// Responses with elastic Coulomb friction against event-driven exact motions: first harmonic and friction
-// work of oscillators, two masses, a chain with two contacts, a beam, contact with lift-off, slip in a plane.
+// Balances with rigid Coulomb friction at contacts without mass, which no structure of scenes has: at the end
+// of a spring against event-driven exact motions of the elastic slider.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "support/friction_scenes.hpp"
-#include "support/friction_table.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -15,68 +16,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::exact_of, testing::FrictionScene;
-using Row = testing::FrictionRow;
-
-struct Solved {
-  PeriodicResponse response;
-  double work = 0.0;
-  std::vector<contact::FrictionPeriod> contacts;
-  Eigen::VectorXd row(int index, int points) const {
-    return response.displacement.segment(Eigen::Index(index) * points, points);
-  }
-};
-
-Solved solve(const FrictionScene& scene, const TimePair& pair) {
-  CondensedProblem problem(pair, scene.structure, testing::cosine_load());
-  problem.set_frequency(scene.frequency());
-  Solved solved;
-  solved.response = forced_response(problem, scene.contact_laws(), {});
-  Eigen::Index row = 0;
-  for (const contact::CoulombLaw& law : scene.laws) {
-    const Eigen::Index first = row * problem.points();
-    solved.contacts.push_back(law.over_period(
-        problem.points(),
-        {solved.response.displacement.data() + first, std::size_t(law.rows() * problem.points())}, false));
-    solved.work += solved.contacts.back().work;
-    row += law.rows();
-  }
-  return solved;
-}
-
-// The error of the balance is that of its functions: at 63 the worst row, a stiff slider, has 1.6e-4.
-TEST(Friction, HasTheHarmonicAndTheWorkOfItsExactMotions) {
-  for (const Row& row : testing::friction_rows()) {
-    // Slip in a plane remembers many samples, all of which are then unknowns of Newton's system.
-    const int points = row.scene.laws.front().tangents() == 1 ? 1024 : 256;
-    const TimePair fourier = testing::fourier_pair(63, points),
-                   spline = testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, points);
-    const double of_points = points == 256 ? 5e-4 : 2e-4;  // of second order in their number
-    for (const auto& [pair, allowed] : {std::pair(fourier, of_points), std::pair(spline, 1e-3)}) {
-      const Solved solved = solve(row.scene, pair);
-      ASSERT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
-      EXPECT_LE(solved.response.iterations, 20) << row.name;
-      EXPECT_LE(std::abs(testing::first_harmonic(solved.row(row.compared, points)) - exact_of(row)),
-                allowed * row.amplitude)
-          << row.name;
-      EXPECT_NEAR(solved.work, row.work, allowed * row.work) << row.name;
-    }
-  }
-}
-
-TEST(Friction, HasThemToFiveDigitsWithEnoughFunctions) {
-  constexpr int points = 4096;
-  const TimePair pair = testing::fourier_pair(255, points);
-  for (const Row& row : testing::friction_rows()) {
-    if (row.scene.laws.front().tangents() > 1) continue;
-    const Solved solved = solve(row.scene, pair);
-    ASSERT_TRUE(solved.response.converged()) << row.name << ' ' << to_string(solved.response.status);
-    EXPECT_LE(std::abs(testing::first_harmonic(solved.row(row.compared, points)) - exact_of(row)),
-              1e-5 * row.amplitude)
-        << row.name;
-    EXPECT_NEAR(solved.work, row.work, 1e-4 * row.work) << row.name;
-  }
-}
+using testing::FrictionScene;
 
 // The slider of an oscillator with its spring k_t as a part of the structure: the contact, at its end, has no
 // mass, and friction there is rigid. The motion of the mass is u + f / k_t.
