@@ -32,7 +32,10 @@ class Mode:
 
 
 class EventFlow:
-    """Integrates a mixture, as of tests/mixtures/chains.py, over its period, or over several of them. Its loads: load cos wt + sine sin wt + static."""
+    """Integrates a mixture, as of tests/mixtures/chains.py, over its period, or over several of them.
+
+    Its loads are load cos wt + sine sin wt + static.
+    """
 
     def __init__(self, mixture, periods=1):
         self.mixture, self.contacts = mixture, mixture["contacts"]

@@ -9,7 +9,7 @@ class NoSlope(Exception):
 
 
 class NearMotion:
-    """The motion that closes its period near samples: displacements along the contacts' directions, forces there, all masses."""
+    """The motion that closes its period near samples: displacements and forces of the contacts, and of all masses."""
 
     def __init__(self, mixture, displacement, force, u, velocity=None, *, periods=1, held=()):
         self.mixture, self.periods = mixture, periods
@@ -69,8 +69,10 @@ class NearMotion:
 
     def hold(self, held):
         """Lets contacts that stick all along do so under perturbations, too: their positions are no unknowns."""
-        contacts = [{**one, **{key: 1e3 * one[key] for key in ("limit", "friction") if key in one}} if c in held else one
-                    for c, one in enumerate(self.mixture["contacts"])]
+        def stuck(one):
+            return {**one, **{key: 1e3 * one[key] for key in ("limit", "friction") if key in one}}
+
+        contacts = [stuck(one) if c in held else one for c, one in enumerate(self.mixture["contacts"])]
         self.free = EventFlow({**self.mixture, "contacts": contacts}, self.periods)
         self.moving = set(range(len(contacts))) - held
 

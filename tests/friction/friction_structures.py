@@ -10,11 +10,7 @@ def slider(direction, tangential, limit):
 
 def lifting(direction, normal, tangential, friction, normal_load, normal_stiffness):
     return {"law": "lifting", "direction": np.array(direction, float), "normal": np.array(normal, float),
-            "tangential": tangential, "friction": friction, "normal_load": normal_load, "normal_stiffness": normal_stiffness}
-
-
-def stop(direction, stiffness, gap):
-    return {"law": "stop", "direction": np.array(direction, float), "stiffness": stiffness, "gap": gap}
+            "friction": friction, "tangential": tangential, "normal_load": normal_load, "normal_stiffness": normal_stiffness}
 
 
 def plane(directions, tangential, limit):
@@ -37,8 +33,6 @@ def rows_of(contact):
 
 
 def law_of(contact):
-    if contact["law"] == "stop":
-        return wb.Penalty(contact["stiffness"], contact["gap"])
     if contact["law"] == "slider":
         return wb.Coulomb(1.0, contact["tangential"], contact["limit"])
     if contact["law"] == "plane":
@@ -55,7 +49,8 @@ def structure_of(mixture):
     rows = np.array([row for one in mixture["contacts"] for row in rows_of(one)])
     forces = [(mixture["sine"], [0.0, -1.0j])] if mixture["sine"].any() else []
     static = {"static_load": mixture["static"]} if mixture["static"].any() else {}
-    return wb.Structure(mixture["mass"], mixture["damping"], mixture["stiffness"], mixture["load"], rows, forces=forces, **static)
+    matrices = (mixture[name] for name in ("mass", "damping", "stiffness", "load"))
+    return wb.Structure(*matrices, rows, forces=forces, **static)
 
 
 def frequency_of(mixture):
@@ -64,10 +59,12 @@ def frequency_of(mixture):
 
 def scene_of(mixture, pair, **analysis):
     """The mixture as the scene of a forced response."""
-    scene = structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=pair, type="forced_response", **analysis)
+    scene = structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=pair,
+                                        type="forced_response", **analysis)
     for one, entry in zip(mixture["contacts"], scene["contact"]["pairs"]):
         if one["law"] == "plane":  # without a normal direction the first tangent stands in `dofs`
-            entry["second_tangent"], entry["second_tangent_coefficients"] = entry.pop("tangent"), entry.pop("tangent_coefficients")
+            entry["second_tangent"] = entry.pop("tangent")
+            entry["second_tangent_coefficients"] = entry.pop("tangent_coefficients")
     return scene
 
 

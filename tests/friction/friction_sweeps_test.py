@@ -36,7 +36,8 @@ class Sweeps:
     def holds_all(self, one, other, frequency):
         """Whether all responses of one curve at a frequency are responses of the other."""
         there = self.responses_at(other, frequency)
-        return all(any(np.linalg.norm(a - b) <= 1e-5 * np.linalg.norm(a) for b in there) for a in self.responses_at(one, frequency))
+        wanted = self.responses_at(one, frequency)
+        return all(any(np.linalg.norm(a - b) <= 1e-5 * np.linalg.norm(a) for b in there) for a in wanted)
 
     def are_the_same(self, one, other):
         inside = self.low + np.array([0.2, 0.4, 0.6, 0.8]) * (self.high - self.low)

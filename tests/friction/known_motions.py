@@ -30,7 +30,8 @@ def chain_of_three(load, omega):
 def lift_off(load_x, load_y, normal_load, friction, omega):
     """A mass that moves along x and towards an obstacle along y, on which it rubs."""
     contact = lifting([1.0, 0.0], [0.0, 1.0], 5.0, friction, normal_load, 21.0)
-    return mixture(np.eye(2), 0.35 * np.eye(2), np.array([[12.0, -3.0], [-3.0, 10.0]]), omega, np.array([load_x, 0.0]), [contact],
+    stiffness = np.array([[12.0, -3.0], [-3.0, 10.0]])
+    return mixture(np.eye(2), 0.35 * np.eye(2), stiffness, omega, np.array([load_x, 0.0]), [contact],
                    phased=np.array([0.0, load_y * np.exp(-0.7j)]), static=np.array([0.0, normal_load]))
 
 
@@ -52,7 +53,8 @@ def cantilever(load, tangential, limit, frequency):
         stiffness[e : e + 4, e : e + 4] += k
         mass[e : e + 4, e : e + 4] += m
     unit, held = np.eye(8), stiffness[2:, 2:]
-    return mixture(mass[2:, 2:], 2e-4 * held, held, 2.0 * np.pi * frequency, load * unit[6], [slider(unit[2], tangential, limit)])
+    omega = 2.0 * np.pi * frequency
+    return mixture(mass[2:, 2:], 2e-4 * held, held, omega, load * unit[6], [slider(unit[2], tangential, limit)])
 
 
 # Name: structure, row of S, amplitude and angle (degrees) of 2/T times the integral of u exp(i w t), work of a period.

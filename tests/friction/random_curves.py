@@ -23,7 +23,7 @@ def chain(random, size):
 
 
 class RandomCurve:
-    """Static loads are none, two or twenty times the vibrating one, stops 10 to 1000 times as stiff as the chain itself."""
+    """Static loads are none, two or twenty times the vibrating one, stops 10 to 1000 times as stiff as the chain."""
 
     def __init__(self, seed):
         random = StandardRandom(9001 + seed)
@@ -37,7 +37,8 @@ class RandomCurve:
         mode = 0 if any() < 0.7 else min(1, size - 1)
         omega = np.sqrt(squares[mode])
         load = np.eye(size)[int(any() * size)]
-        rows = np.array([np.eye(size)[(size - 1 + c) % size] * (-1.0 if any() < 0.5 else 1.0) for c in range(contacts)])
+        rows = np.eye(size)[[(size - 1 + c) % size for c in range(contacts)]]
+        rows *= np.array([[-1.0 if any() < 0.5 else 1.0] for _ in range(contacts)])
         share = (0.0, 2.0, 20.0)[int(3.0 * any())]
         weight = share * (1.0 if any() < 0.5 else -1.0) * load
         at_rest = rows @ np.linalg.solve(stiffness, weight)

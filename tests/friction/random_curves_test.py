@@ -1,4 +1,4 @@
-"""Curves of random structures on supports and between stops: the same ends and folds by usual steps and by ten times smaller ones."""
+"""Curves of random structures on supports and between stops: the same ends and folds by steps ten times smaller."""
 
 import pytest
 from random_curves import RandomCurve

@@ -1,4 +1,4 @@
-"""Random chains of one to ten contacts that open and rub: nine in ten have a response, and every one returns after a period."""
+"""Random chains of one to ten contacts that open and rub: nine in ten have a response, and each one is periodic."""
 
 import collections
 
@@ -17,7 +17,8 @@ FEW, MANY = wb.Pair("fourier", 31, 256), wb.Pair("fourier", 127, 1024)
 def distance_after_a_period(mixture, response):
     """Between the state at the beginning of a response and that a period later, over the size of the former."""
     whole, rows = response.structure_motion(response.displacement.shape[1]), rubbing_rows(mixture)
-    near = NearMotion(mixture, response.displacement[rows], response.contact_force[rows], whole.displacement, whole.velocity)
+    near = NearMotion(mixture, response.displacement[rows], response.contact_force[rows], whole.displacement,
+                      whole.velocity)
     states, begin = near.start(0)
     _, end = near.flow.over(states, begin, near.flow.period)
     moving = slice(0, 2 * near.flow.size)
@@ -37,7 +38,8 @@ def test_responses_of_random_chains_repeat_after_a_period_of_another_integration
         response = response_of(mixture, FEW)
         found[response.strategy if response.converged else response.status] += 1
         if not response.converged:
-            print(f"seed {seed}, {len(mixture['contacts'])} contacts: {response.status} after {response.wall_seconds:.1f} s")
+            contacts = len(mixture["contacts"])
+            print(f"seed {seed}, {contacts} contacts: {response.status} after {response.wall_seconds:.1f} s")
             continue
         distances[seed] = distance_after_a_period(mixture, response)
         if distances[seed] >= SAME:

@@ -1,4 +1,4 @@
-"""Counts of Floquet multipliers of random structures with elastic friction, against differences of another integration's period."""
+"""Counts of Floquet multipliers of random structures with elastic friction, against those of another integration."""
 
 import numpy as np
 import wavebalance as wb
@@ -13,7 +13,8 @@ PAIR = wb.Pair("fourier", 127, 1024)
 
 def near_motion(mixture, response):
     whole, rows = response.structure_motion(PAIR.points), rubbing_rows(mixture)
-    return NearMotion(mixture, response.displacement[rows], response.contact_force[rows], whole.displacement, whole.velocity)
+    return NearMotion(mixture, response.displacement[rows], response.contact_force[rows], whole.displacement,
+                      whole.velocity)
 
 
 def sticks_always(contact, displacement, force):

@@ -6,9 +6,9 @@ from standard_random import StandardRandom
 
 
 def chain_that_rubs(seed):
-    """Unit masses that move along x and y between springs, each pressed against an obstacle along y on which it rubs along x.
+    """Unit masses that move along x and y between springs, each pressed against an obstacle along y.
 
-    The last one is driven along both, with a phase.
+    They rub on it along x. The last one is driven along both, with a phase.
     """
     any = StandardRandom(seed).uniform
     masses = 1 + int(10 * any())
@@ -29,13 +29,14 @@ def chain_that_rubs(seed):
     normal, tangential = 10.0 ** (0.5 + 1.5 * any()), 10.0 ** (0.3 + 1.7 * any())
     amplitude, omega = 0.5 + 2.0 * any(), 0.4 + 1.6 * any()
     unit = np.eye(size)
-    contacts = [lifting(unit[2 * i], unit[2 * i + 1], tangential, friction, normal_load, normal) for i in range(masses)]
+    contacts = [lifting(unit[2 * i], unit[2 * i + 1], tangential, friction, normal_load, normal)
+                for i in range(masses)]
     return mixture(unit, damping, stiffness, omega, amplitude * unit[-2] + 0.5 * unit[1], contacts,
                    phased=0.8 * amplitude * np.exp(-1.0j) * unit[-1], static=normal_load * unit[1::2].sum(axis=0))
 
 
 def coupled_masses(seed):
-    """Up to three masses that move along x and y and rub along x, pressed against obstacles along y or by a constant load.
+    """Up to three masses that move along x and y and rub along x, against obstacles along y or under a constant load.
 
     Some dampers are negative, so that without contact the structure is unstable.
     """
@@ -68,7 +69,8 @@ def rubbing_chain(masses, rubbing, driven, tangential, limit, load):
     stiffness = 2.0 * np.eye(masses) - np.eye(masses, k=1) - np.eye(masses, k=-1)
     stiffness[-1, -1] = 1.0
     unit = np.eye(masses)
-    return mixture(unit, 0.01 * stiffness, stiffness, 1.0, load * unit[driven], [slider(unit[rubbing], tangential, limit)])
+    contacts = [slider(unit[rubbing], tangential, limit)]
+    return mixture(unit, 0.01 * stiffness, stiffness, 1.0, load * unit[driven], contacts)
 
 
 def random_rubbing_chain(seed):
