@@ -154,3 +154,18 @@ def test_damping_on_a_rotation_alone_is_refused(beam, matrix):
     matrix("c.mtx", damping.tolist())
     refused(changed(SCENE, ("modal_damping = 0.01", 'damping = "c.mtx"')), "structure.mass",
             "Of its rows 6 have no mass: 2, 4, 6, 8, 10, ...")
+
+
+@pytest.mark.parametrize("tangent", [3, 4, -1])
+@pytest.mark.parametrize("key", ["tangent", "second_tangent"])
+def test_a_tangent_along_a_row_without_mass_or_no_row_is_refused(key, tangent):
+    stiffness = np.array([[12.0, -3.0, 0.0], [-3.0, 10.0, -5.0], [0.0, -5.0, 5.0]])
+    pair = {"dofs": [1], "law": "coulomb", "friction": 0.5, "normal_load": 0.6, "normal_stiffness": 21.0,
+            "tangential_stiffness": 5.0, "tangent": [2], key: [tangent]}
+    scene = {"structure": {"type": "matrices", "mass": np.diag([1.0, 1.0, 0.0]), "stiffness": stiffness},
+             "contact": {"pairs": [pair]}, "forcing": {"load_dofs": [1], "amplitude": 1.0, "frequency": 0.3},
+             "time": {"trial": "fourier", "weight": "fourier", "functions": 15, "quadrature_points": 64},
+             "analysis": {"type": "forced_response"}}
+    with pytest.raises(wb.SceneError, match="no mass" if tangent == 3 else "expected") as refusal:
+        wb.check(scene)
+    assert refusal.value.key.endswith("." + key)

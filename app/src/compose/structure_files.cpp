@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <span>
 
@@ -222,13 +223,19 @@ void check_mass(const std::vector<int>& dofs, const StructureFiles& files, std::
           fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
 }
 
+/// The rows of the directions of a pair, by their keys.
+std::array<std::pair<const char*, const std::vector<int>*>, 3> rows_of(const ContactPair& pair) {
+  return {{{".dofs", &pair.dofs}, {".tangent", &pair.tangent}, {".second_tangent", &pair.second_tangent}}};
+}
+
 /// Rows of the pairs in 1..n, each with a coefficient.
 void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    for (const int dof : pairs[i].dofs)
-      if (dof < 1 || dof > size)
-        throw StructureFault(pair_section(i) + ".dofs",
-                             fmt::format("there is no degree of freedom {}; expected 1..{}", dof, size));
+    for (const auto& [name, rows] : rows_of(pairs[i]))
+      for (const int dof : *rows)
+        if (dof < 1 || dof > size)
+          throw StructureFault(pair_section(i) + name,
+                               fmt::format("there is no degree of freedom {}; expected 1..{}", dof, size));
     if (pairs[i].coefficients.size() != pairs[i].dofs.size())
       throw StructureFault(pair_section(i) + ".coefficients",
                            fmt::format("there are {}; expected one for each of {} dofs",
@@ -286,8 +293,10 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
   check_mass(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
   check_pairs(scene.contact.pairs, all);
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
-    check_unknown(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
-    check_mass(scene.contact.pairs[i].dofs, files, pair_section(i) + ".dofs");
+    for (const auto& [name, rows] : rows_of(scene.contact.pairs[i])) {
+      check_unknown(*rows, files, pair_section(i) + name);
+      check_mass(*rows, files, pair_section(i) + name);
+    }
   }
   check_loads(scene, files);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
