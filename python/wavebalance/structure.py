@@ -184,7 +184,9 @@ class Structure(_core.Structure):
                 raise ValueError(f"laws[{contact}] is {law!r}; expected {first['law']!r} for all contacts, as for the first")
             own = keys if kept is None else {key: keys[key] for key in kept}
             pair: dict[str, Any] = {}
-            for names, row in zip(_PAIR_DIRECTIONS, self.S[begin : begin + law.rows]):
+            in_plane = keys["law"] == "coulomb" and law.rows == 2 and not keys.get("normal_stiffness")
+            directions = _PAIR_DIRECTIONS[::2] if in_plane else _PAIR_DIRECTIONS  # two tangents without a normal
+            for names, row in zip(directions, self.S[begin : begin + law.rows]):
                 pair.update(zip(names, ([int(i) + 1 for i in row.indices], row.data.tolist())))
             pairs.append({**pair, **own})
             begin += law.rows

@@ -59,13 +59,8 @@ def frequency_of(mixture):
 
 def scene_of(mixture, pair, **analysis):
     """The mixture as the scene of a forced response."""
-    scene = structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=pair,
-                                        type="forced_response", **analysis)
-    for one, entry in zip(mixture["contacts"], scene["contact"]["pairs"]):
-        if one["law"] == "plane":  # without a normal direction the first tangent stands in `dofs`
-            entry["second_tangent"] = entry.pop("tangent")
-            entry["second_tangent_coefficients"] = entry.pop("tangent_coefficients")
-    return scene
+    return structure_of(mixture).scene(laws_of(mixture), frequency=frequency_of(mixture), pair=pair, type="forced_response",
+                                       **analysis)
 
 
 def response_of(mixture, pair, **options):
