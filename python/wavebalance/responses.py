@@ -256,7 +256,8 @@ class Stability:
     unstable: int
         Multipliers outside the unit circle; -1 where not known.
     multipliers: numpy.ndarray
-        The largest ones in modulus, complex, of each conjugate pair that with Im >= 0; those below 1e-2 are left out.
+        The largest ones in modulus, complex, of each conjugate pair that with Im >= 0; those below 1e-2 are left out,
+        and with friction all.
     exponents: numpy.ndarray
         Their Floquet exponents, 1/s.
     """
