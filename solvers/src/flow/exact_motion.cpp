@@ -57,6 +57,13 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                                 " Hz; it must be positive and finite");
 }
 
+// A large static deflection without contact is rounded before contacts take it back: relative to the rms of
+// the displacements, the least error of any solution.
+double rounding_of(const PhasesProblem& problem, const Eigen::MatrixXd& displacement) {
+  const double size = displacement.norm() / std::sqrt(double(displacement.cols()));
+  return std::numeric_limits<double>::epsilon() * problem.contact_free.rowwise().norm().maxCoeff() / size;
+}
+
 class MotionSearch {
  public:
   MotionSearch(const PhasesProblem& problem, PeriodStart start, Index points,
@@ -98,7 +105,7 @@ class MotionSearch {
 
   // The motion with a tolerance of the flow, and how far it lies from the one before.
   bool refine(double tolerance) {
-    constexpr double least = 1e-13, rounding = std::numeric_limits<double>::epsilon();
+    constexpr double least = 1e-13;
     const FlowOptions flow_options;
     exhausted_ = operations_left_ < flow_options.panels * operations_of_panel;
     if (exhausted_) return false;
@@ -116,9 +123,7 @@ class MotionSearch {
     if (!closed.found) return false;
     motion_ = motion_of(original_, flow, {from_.begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
-    // A large static deflection without contact is rounded before contacts take it back.
-    const double size = now.norm() / std::sqrt(double(times_.size())),
-                 rounded = rounding * problem_.contact_free.rowwise().norm().maxCoeff() / size;
+    const double rounded = rounding_of(problem_, now);
     // The solution before is farther off. Both may have the same panels, so that their distance says nothing
     // of what these leave out of the forces, of which displacements have less than a tenth.
     const double left_out = 0.1 * flow.unresolved();
@@ -181,6 +186,11 @@ PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& st
   const bool failed =
       motion.status == not_found || motion.status == too_many_phases || motion.status == tolerance_missed;
   if (!failed) return motion;
+  if (motion.status == tolerance_missed) {
+    const Eigen::VectorXd times =
+        Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()));
+    if (rounding_of(problem, motion.displacement(times)) > options.tolerance) return motion;
+  }
   PhaseMotion other = flow_motion(problem, start, options, start_force);
   if (other.status == cancelled) motion.status = cancelled;  // nothing is known of what was not tried
   const bool better =
