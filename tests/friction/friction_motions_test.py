@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import scene_of
+from rubbing_structures import scene_of
 from known_motions import KNOWN
 
 SPLINE = "bspline:bspline"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import laws_of, structure_of
+from rubbing_structures import laws_of, structure_of
 from random_structures import random_rubbing_chain, rubbing_chain
 from standard_random import campaign_seeds
 

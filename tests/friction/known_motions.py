@@ -4,7 +4,7 @@ The residuals of its map of a period are below 1e-11.
 """
 
 import numpy as np
-from friction_structures import lifting, mixture, plane, slider
+from rubbing_structures import lifting, mixture, plane, slider
 
 
 def slider_on_oscillator(load, tangential, omega, limit=1.0):

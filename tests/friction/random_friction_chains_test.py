@@ -5,7 +5,7 @@ import collections
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import response_of, rubbing_rows, scene_of
+from rubbing_structures import response_of, rubbing_rows, scene_of
 from near_motion import NearMotion
 from random_structures import chain_that_rubs
 from standard_random import campaign_seeds

@@ -2,7 +2,7 @@
 
 import numpy as np
 import wavebalance as wb
-from friction_structures import response_of, rubbing_rows
+from rubbing_structures import response_of, rubbing_rows
 from near_motion import NearMotion
 from random_structures import coupled_masses
 from standard_random import campaign_seeds

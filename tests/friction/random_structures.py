@@ -1,7 +1,7 @@
 """Random structures whose contacts rub, and chains on supports or between stops."""
 
 import numpy as np
-from friction_structures import lifting, mixture, slider
+from rubbing_structures import lifting, mixture, slider
 from standard_random import StandardRandom
 
 

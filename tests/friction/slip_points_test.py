@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import wavebalance as wb
-from friction_structures import frequency_of, laws_of, structure_of
+from rubbing_structures import frequency_of, laws_of, structure_of
 from known_motions import slider_on_oscillator
 
 
