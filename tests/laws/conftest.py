@@ -4,56 +4,10 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from scene_texts import BAR, CHAIN
 
 import wavebalance as wb
 
-# The number at the end of a line is that line's.
-BAR = """[structure]
-type = "bar"                    # 2
-youngs_modulus = 70e9           # 3
-density = 2700                  # 4, an integer where a number is wanted
-area = 25e-4                    # 5
-length = 1.0                    # 6
-elements = 25                   # 7
-stiffness_damping = 1e-4        # 8
-[contact]
-law = "exponential"             # 10
-constant = 1e8                  # 11
-exponent = 50.0                 # 12
-gap = 1e-3                      # 13
-[forcing]
-amplitude = 250e3               # 15
-frequency = 150.0               # 16
-[time]
-trial = "fourier"               # 18
-weight = "fourier"              # 19
-functions = 64                  # 20
-quadrature_points = 256         # 21
-[analysis]
-type = "forced_response"        # 23
-"""
-
-CHAIN = """[structure]
-type = "matrices"               # 2
-mass = "m.mtx"                  # 3
-stiffness = "k.mtx"             # 4
-contact_dofs = [2, 3]           # 5
-modal_damping = 0.01            # 6
-[contact]
-law = "linear"                  # 8
-stiffness = 1e7                 # 9
-gap = 1e-4                      # 10
-[forcing]
-load_dofs = [3]                 # 12
-amplitude = 100.0               # 13
-frequency = 50.0                # 14
-[time]
-trial = "fourier"
-weight = "fourier"
-functions = 32
-[analysis]
-type = "forced_response"        # 20
-"""
 CHAIN_STIFFNESS = [[2e6, -1e6, 0.0], [-1e6, 2e6, -1e6], [0.0, -1e6, 1e6]]
 CHAIN_MASS = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]]
 
