@@ -41,10 +41,10 @@ endfunction()
 # wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>] [UNIT <name>]
 #                      [PROPERTIES <name> <value> ..])
 # adds GoogleTest files to `program`, which the first call declares. CTest runs each of their test suites in one process
-# under the name of the suite, with the label (`make check` builds and runs those of the label unit): to start a process takes longer than most cases do, and the cases of a
+# under the name of the suite, with the label: to start a process takes longer than most cases do, and the cases of a
 # suite can share what one of them has solved. CASES of each property are tried, 100 by default. A suite has one label
 # within a program. The files of one folder are compiled as one source, or, where that takes too much memory, those of
-# one UNIT.
+# one UNIT. `make check` builds and runs the suites with the label unit.
 function(wavebalance_add_test program)
   if(NOT WAVEBALANCE_BUILD_TESTS)
     return()

@@ -20,41 +20,29 @@ else()
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(${name} LABEL unit COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
   endforeach()
-  # What a user sees, through the command and the package, without a compiler.
-  foreach(topic scenes analyses command compare laws structures impacts friction)
+  # What a user sees, through the command and the package, without a compiler. Full campaigns of random structures take minutes.
+  foreach(topic scenes analyses command compare laws structures impacts friction mixtures extremes tolerance)
     file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
     foreach(test IN LISTS tests)
       get_filename_component(name ${test} NAME_WE)
       set(label scene)
       if(name STREQUAL every_analysis_test)
         set(label unit)  # which `make check` runs
+      elseif(name MATCHES "^(random_(bars|chains|curves|friction_chains|friction_stability|impacts|mixtures|stability)|friction_sweeps)_test$")
+        set(label campaign)
+      elseif(topic STREQUAL extremes)
+        set(label extremes)
+      elseif(topic STREQUAL tolerance)
+        set(label convergence)
       endif()
-      if(name STREQUAL random_impacts_test)
-        continue()  # a campaign, below
+      wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
+      if(label STREQUAL campaign)
+        set_tests_properties(python.${topic}_${name} PROPERTIES TIMEOUT 3600)
       endif()
-      wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
+      if(topic MATCHES "extremes|tolerance")  # dense algebra, which takes one thread beside other tests
+        set_tests_properties(python.${topic}_${name} PROPERTIES ENVIRONMENT OPENBLAS_NUM_THREADS=1)
+      endif()
     endforeach()
-  endforeach()
-  # Inputs at the edge and tolerances. Dense algebra takes one thread, beside other tests.
-  function(wavebalance_add_numeric_tests topic label timeout)
-    foreach(name IN LISTS ARGN)
-      wavebalance_add_python_test(${topic}_${name} LABEL ${label} COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/${topic}/${name}.py)
-      set_tests_properties(python.${topic}_${name} PROPERTIES TIMEOUT ${timeout} ENVIRONMENT OPENBLAS_NUM_THREADS=1)
-    endforeach()
-  endfunction()
-  wavebalance_add_numeric_tests(extremes extremes 240 edge_family_test daubechies_test random_texts_test)
-  wavebalance_add_numeric_tests(tolerance convergence 240 tolerance_test random_tolerance_test)
-  # Random campaigns: full ones take minutes.
-  wavebalance_add_numeric_tests(extremes campaign 3600 random_bars_test random_chains_test random_stability_test)
-  # Random mixtures of laws against an integration of the tests' own: a full campaign takes minutes.
-  wavebalance_add_python_test(random_mixtures LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/mixtures/random_mixtures_test.py)
-  set_tests_properties(python.random_mixtures PROPERTIES TIMEOUT 3600)
-  # Random chains with impacts against motions in time by matrix exponentials.
-  wavebalance_add_python_test(random_impacts LABEL campaign COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${PROJECT_SOURCE_DIR}/tests/impacts/random_impacts_test.py)
-  set_tests_properties(python.random_impacts PROPERTIES TIMEOUT 3600)
-  # Structures that rub; of random ones a full campaign takes minutes.
-  foreach(name random_friction_chains_test friction_sweeps_test random_friction_stability_test random_curves_test)
-    set_tests_properties(python.friction_${name} PROPERTIES LABELS campaign TIMEOUT 3600)
   endforeach()
   # The cases of others, which are data, and what they are compared with.
   if(WAVEBALANCE_BUILD_REPRODUCE)

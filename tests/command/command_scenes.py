@@ -5,33 +5,8 @@ import html
 import json
 import re
 
-from scene_texts import BAR, ROD
+from scene_texts import BAR, ROD, STOP_AT
 
-# m = k = 1, c = 0.05, a stop of 2 N/m at 1 m, 0.2 N: a bar of one element. The curve has two folds, near
-# 0.1737 Hz and 0.1892 Hz, between which there are three motions.
-STOP_AT = """[structure]
-type = "bar"
-youngs_modulus = 1.0
-density = 2.0
-area = 1.0
-length = 1.0
-elements = 1
-lumped_mass_fraction = 1.0
-stiffness_damping = 0.05
-[contact]
-law = "linear"
-stiffness = 2.0
-gap = 1.0
-[forcing]
-amplitude = 0.2
-frequency = 0.18
-[time]
-trial = "fourier"
-weight = "fourier"
-functions = 63
-quadrature_points = 1024
-[analysis]
-"""
 STOP = STOP_AT + 'type = "frequency_sweep"\nfrequency_from = 0.13\nfrequency_to = 0.25\n'
 
 # Three masses of 2 kg between springs of 1e6 N/m, free at the end; the last two touch obstacles.

@@ -117,3 +117,15 @@ def assert_holds(whole, part):
 def scenes_folder():
     """The folder of the scenes of this project, for what is solved once."""
     return Path(__file__).resolve().parents[2] / "reproduce" / "scenes"
+
+
+@pytest.fixture(scope="module")
+def solve(folder):
+    """The record of one of the scenes of a folder, the test module's fixture, which converged."""
+
+    def record(name, *overrides, unset=()):
+        found = wb.run(folder / name, overrides, unset=unset)
+        assert found.converged, found.status
+        return found
+
+    return record

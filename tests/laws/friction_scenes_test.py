@@ -20,18 +20,6 @@ def folder(scenes_folder):
 
 
 @pytest.fixture(scope="module")
-def solve(folder):
-    """The record of one of the scenes of friction, which converged."""
-
-    def record(name, *overrides, unset=()):
-        found = wb.run(folder / name, overrides, unset=unset)
-        assert found.converged, found.status
-        return found
-
-    return record
-
-
-@pytest.fixture(scope="module")
 def lift_off(solve):
     return solve("lift_off.toml")
 

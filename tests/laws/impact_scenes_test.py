@@ -19,18 +19,6 @@ def folder(scenes_folder):
 
 
 @pytest.fixture(scope="module")
-def solve(folder):
-    """The record of one of the scenes of impacts, which converged."""
-
-    def record(name, *overrides, unset=()):
-        found = wb.run(folder / name, overrides, unset=unset)
-        assert found.converged, found.status
-        return found
-
-    return record
-
-
-@pytest.fixture(scope="module")
 def oscillator(solve):
     return solve("oscillator.toml")
 

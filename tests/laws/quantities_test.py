@@ -4,33 +4,12 @@ import re
 
 import numpy as np
 import pytest
+from scene_texts import STOP_AT
 
 import wavebalance as wb
 
 UNITS = {"_m": "mm", "_N": "N", "_J": "J", "_Hz": "Hz", "_m3": "m3"}  # as a name ends, and as a picture shows it
-STOP = """[structure]
-type = "bar"
-youngs_modulus = 1.0
-density = 2.0
-area = 1.0
-length = 1.0
-elements = 1
-lumped_mass_fraction = 1.0
-stiffness_damping = 0.05
-[contact]
-law = "linear"
-stiffness = 2.0
-gap = 1.0
-[forcing]
-amplitude = 0.2
-frequency = 0.18
-[time]
-trial = "fourier"
-weight = "fourier"
-functions = 63
-quadrature_points = 1024
-[analysis]
-type = "amplitude_sweep"
+STOP = STOP_AT + """type = "amplitude_sweep"
 amplitude_from = 0.05
 amplitude_to = 0.5
 stability = false

@@ -100,7 +100,7 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
   panel.x.upper = start + 1.0;
   for (const auto& [label, colour] : {std::pair{"stick", stick_colour}, std::pair{"slip", slip_colour}})
     if (std::any_of(panel.rectangles.begin(), panel.rectangles.end(),
-                    [&, wanted = colour](const Rectangle& one) { return one.fill == wanted; }))
+                    [wanted = colour](const Rectangle& one) { return one.fill == wanted; }))
       panel.add(swatch(label, colour, start));
 }
 

@@ -26,8 +26,8 @@ std::string number_text(double value) {
 
 double rounded(double value, int digits) {
   if (!std::isfinite(value)) return value;
-  return std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr) +
-         0.0;  // stod refuses subnormals
+  const std::string text = fmt::format("{:.{}g}", value, digits);
+  return std::strtod(text.c_str(), nullptr) + 0.0;  // stod refuses subnormals
 }
 
 }  // namespace wavebalance::app

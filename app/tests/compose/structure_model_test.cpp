@@ -34,8 +34,9 @@ TEST(MatricesModel, RecoversMotionsOfItsSizeAlone) {
 TEST(MatricesModel, TermsOfOneShapeAreOneForce) {
   const TemporaryFolder folder;
   write_chain(folder);
-  const std::string terms = "[[forcing.terms]]\namplitude = 60.0\n"
-                            "[[forcing.terms]]\ndofs = [3]\namplitude = 40.0\n[time]";
+  const std::string terms =
+      "[[forcing.terms]]\namplitude = 60.0\n"
+      "[[forcing.terms]]\ndofs = [3]\namplitude = 40.0\n[time]";
   const Scene scene = load_scene(folder.write("case.toml", with(chain_scene, "[time]", terms)),
                                  std::vector<std::string>{"forcing.amplitude=0"});
   EXPECT_EQ(make_model(scene).structure.forces.size(), 1u);

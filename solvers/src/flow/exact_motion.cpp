@@ -57,8 +57,8 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                                 " Hz; it must be positive and finite");
 }
 
-// A large static deflection without contact is rounded before contacts take it back: relative to the rms of
-// the displacements, the least error of any solution.
+// The least error of any solution, relative to the rms of the displacements: a large static deflection
+// without contact is rounded before contacts take it back.
 double rounding_of(const PhasesProblem& problem, const Eigen::MatrixXd& displacement) {
   const double size = displacement.norm() / std::sqrt(double(displacement.cols()));
   return std::numeric_limits<double>::epsilon() * problem.contact_free.rowwise().norm().maxCoeff() / size;

@@ -28,7 +28,7 @@ struct Section {
   Paper paper;
   std::vector<Record> records;
   std::map<std::string, std::uintmax_t>
-      files;                                 ///< what its folder holds, "scenes/" too, and the bytes of each
+      files;  ///< what its folder holds, "scenes/" too, and the bytes of each
   std::map<std::string, std::string> sizes{};  ///< app::picture_size() of its pictures
 };
 
