@@ -92,11 +92,30 @@ Pair end_of_two(const SeriesStep& step) {
   return force;
 }
 
+constexpr const char* who = "CoulombLaw";
+
+void require_states(const CoulombLaw& law, bool has_normal) {
+  detail::require_finite(who, "surface_speed", law.surface_speed());
+  detail::require_at_least(who, "tangential_damping", law.tangential_damping(), 0.0, detail::Bound::closed);
+  detail::require_at_least(who, "normal_damping", law.normal_damping(), 0.0, detail::Bound::closed);
+  if (!(law.static_friction() >= law.friction()) || std::isinf(law.static_friction()))
+    detail::reject(who, "static_friction", law.static_friction(),
+                   "at least friction = " + detail::text(law.friction()));
+  if (law.tangential_damping() > 0.0 && law.rigid())
+    detail::reject(who, "tangential_damping", law.tangential_damping(),
+                   "0 without tangential_stiffness, the spring beside it");
+  if (law.normal_damping() > 0.0 && !has_normal)
+    detail::reject(who, "normal_damping", law.normal_damping(),
+                   "0 where there is no normal direction, whose spring it is beside");
+  if (law.tangents() > 1 && law.needs_states())
+    detail::reject(who, "tangents", law.tangents(),
+                   "1 with surface_speed, static_friction, tangential_damping or normal_damping");
+}
+
 }  // namespace
 
 CoulombLaw::CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> normal)
     : parameters_(std::move(parameters)), normal_(normal) {
-  constexpr const char* who = "CoulombLaw";
   detail::require_at_least(who, "friction", parameters_.friction, 0.0, detail::Bound::closed);
   if (!std::isinf(parameters_.tangential_stiffness) || parameters_.tangential_stiffness < 0.0)
     detail::require_positive(who, "tangential_stiffness", parameters_.tangential_stiffness);
@@ -110,6 +129,20 @@ CoulombLaw::CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> n
   if (!normal_ && !(parameters_.normal_load > 0.0))
     detail::reject(who, "normal_load", parameters_.normal_load,
                    "positive where there is no normal direction, since the limit is friction times it");
+  if (parameters_.static_friction == 0.0) parameters_.static_friction = parameters_.friction;
+  require_states(*this, normal_.has_value());
+}
+
+bool CoulombLaw::needs_states() const {
+  return static_friction() > friction() || surface_speed() != 0.0 || tangential_damping() > 0.0 ||
+         normal_damping() > 0.0;
+}
+
+void CoulombLaw::require_steps() const {
+  if (needs_states())
+    throw std::invalid_argument(
+        "CoulombLaw: surface_speed, static_friction, tangential_damping and normal_damping have no steps over "
+        "samples; expected none of them, or a solver that goes from event to event");
 }
 
 double CoulombLaw::raw_normal_force(double normal_displacement) const {
@@ -118,8 +151,8 @@ double CoulombLaw::raw_normal_force(double normal_displacement) const {
 }
 
 CoulombLaw CoulombLaw::resolvent(std::span<const double> flexibility) const {
-  constexpr const char* who = "CoulombLaw";
   constexpr double rounding = 1e-12;
+  require_steps();
   detail::require_length(who, "flexibility", flexibility.size(), static_cast<std::size_t>(rows()));
   for (const double one : flexibility) detail::require_positive(who, "flexibility", one);
   const std::span<const double> tangential = flexibility.subspan(static_cast<std::size_t>(normal_rows()));
@@ -141,6 +174,7 @@ FrictionPeriod CoulombLaw::over_period(int points, std::span<const double> displ
   if (rigid())
     throw std::invalid_argument(
         "CoulombLaw: rigid friction has no force at a displacement; take its resolvent, the force form");
+  require_steps();
   detail::require_length("CoulombLaw", "displacement", displacement.size(),
                          static_cast<std::size_t>(points * rows()));
   FrictionMarch march(*this, points, displacement, with_slopes);
@@ -166,11 +200,17 @@ void CoulombLaw::start(std::span<const double> v, std::span<const double> flexib
   const Pair slider = slider_of(parameters_);
   std::copy_n(slider.begin(), tangents(), before.begin() + normal_rows());
   std::fill(force.begin(), force.end(), 0.0);
-  advance(std::span(before).first(static_cast<std::size_t>(rows())), v, flexibility, force);
+  step(std::span(before).first(static_cast<std::size_t>(rows())), v, flexibility, force);
 }
 
 void CoulombLaw::advance(std::span<const double> before, std::span<const double> v,
                          std::span<const double> flexibility, std::span<double> force) const {
+  require_steps();
+  step(before, v, flexibility, force);
+}
+
+void CoulombLaw::step(std::span<const double> before, std::span<const double> v,
+                      std::span<const double> flexibility, std::span<double> force) const {
   double share = 1.0, first = parameters_.normal_load, last = first;
   if (normal_) {
     const double was = raw_normal_force(before[0]);
@@ -221,7 +261,19 @@ LawDescription CoulombLaw::description() {
                         0.0),
            with_default({"tangents", "", "number of tangents", {.lower = 1.0, .upper = 2.0}}, 1.0),
            with_default({"normal_gap", "m", "normal displacement at which the normal spring has no force"},
-                        0.0)},
+                        0.0),
+           may_lack({"static_friction", "",
+                     "coefficient of friction that ends sticking, at least friction; without it friction",
+                     LawRange{.lower = 0.0, .upper = 1e3}}),
+           may_lack({"surface_speed", "m/s",
+                     "speed of the surface along the tangent, that of a belt or a journal; without it 0"}),
+           may_lack({"tangential_damping", "N s/m",
+                     "dashpot beside the spring tangential_stiffness; without it none", at_least_zero}),
+           may_lack(
+               {"normal_damping", "N s/m",
+                "dashpot beside the spring normal_stiffness, of a contact that does not pull; without it "
+                "none",
+                at_least_zero})},
       .beyond_gap_alone = false};
 }
 
@@ -233,6 +285,11 @@ CoulombLaw CoulombLaw::of(const LawValues& values) {
                                 number_of(values, "normal_load"),
                                 static_cast<int>(number_of(values, "tangents"))};
   parameters.slider.assign(static_cast<std::size_t>(parameters.tangents), number_of(values, "slider"));
+  const auto given = [&](const char* name) { return values.contains(name) ? number_of(values, name) : 0.0; };
+  parameters.static_friction = given("static_friction");
+  parameters.surface_speed = given("surface_speed");
+  parameters.tangential_damping = given("tangential_damping");
+  parameters.normal_damping = given("normal_damping");
   const double stiffness = number_of(values, "normal_stiffness");
   if (stiffness > 0.0) return CoulombLaw(parameters, LinearLaw(stiffness, number_of(values, "normal_gap")));
   return CoulombLaw(parameters);

@@ -150,6 +150,9 @@ class Coulomb(Law):
     Parameters: `friction` >= 0; `tangential_stiffness` > 0, N/m, in series with the slider, or None for rigid friction, which
     needs contacts without mass; `normal_load` >= 0, N, at zero displacement; `normal_stiffness`, N/m, 0 without a normal
     direction; `slider`, m, its position at rest; `wear_coefficient`, 1/Pa; `tangents`, 1 or 2; `normal_gap`, m.
+
+    Along one tangent also, all without a balance, from event to event: `static_friction`, which ends sticking; `surface_speed`,
+    m/s, of a belt or journal; `tangential_damping` and `normal_damping`, N s/m, beside the springs.
     """
 
     _row = "coulomb"
@@ -164,18 +167,14 @@ class Coulomb(Law):
         wear_coefficient: float = 0.0,
         tangents: int = 1,
         normal_gap: float = 0.0,
+        *,
+        static_friction: float | None = None,
+        surface_speed: float | None = None,
+        tangential_damping: float | None = None,
+        normal_damping: float | None = None,
     ) -> None:
-        values = {
-            "friction": friction,
-            "tangential_stiffness": tangential_stiffness,
-            "normal_load": normal_load,
-            "normal_stiffness": normal_stiffness,
-            "slider": slider,
-            "wear_coefficient": wear_coefficient,
-            "tangents": tangents,
-            "normal_gap": normal_gap,
-        }
-        self._make(**{name: value for name, value in values.items() if value is not None})
+        given = {name: value for name, value in locals().items() if name not in ("self", "__class__")}
+        self._make(**{name: value for name, value in given.items() if value is not None})
 
 
 class Bilinear(Law):

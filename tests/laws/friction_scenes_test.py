@@ -124,7 +124,7 @@ def test_a_slider_that_begins_to_slip_is_swept_to_the_end_by_long_steps(solve):
           "time.quadrature_points=512")
 
 
-@pytest.mark.parametrize("name", ["slider.toml", "lift_off.toml", "bolted_beam.toml", "bolted_beam_mode.toml"])
+@pytest.mark.parametrize("name", ["slider.toml", "belt.toml", "lift_off.toml", "bolted_beam.toml", "bolted_beam_mode.toml"])
 def test_a_scene_with_friction_is_written_and_read_back_equal(folder, written_equal, name):
     written_equal(folder / name)
 

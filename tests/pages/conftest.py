@@ -70,13 +70,14 @@ class Look:
         self.browser.value((HERE / "look.js").read_text() + ";0")
 
     def sound(self, page):
-        """At three widths nothing is cut or unnamed, no script complains, and what moves moves."""
+        """At three widths nothing is cut or unnamed, no script complains, what moves moves, and each name of a legend hides something."""
         assert broken_links(page) == set()
         self.open(page)
         for box in range(self.browser.value("document.querySelectorAll('.motion, .body-motion').length")):
             self.plays(f"document.querySelectorAll('.motion, .body-motion')[{box}]")
         self.outline()
         self.fits(page, 1400)
+        assert self.browser.value("look.idle()") == []
         self.browser.resize(800)
         self.fits(page, 800)
         self.open(page, 400, dark=True)
@@ -92,8 +93,7 @@ class Look:
         assert (found["withoutWords"], found["withoutRoom"], found["formulasLeft"], found["scrollInside"]) == ([], [], 0, 0)
 
     def fits(self, page, width):
-        """Nothing is wider than the window, folded or not, as pictures or as curves; titles of axes are whole, legends seen, and
-        each of their names hides something."""
+        """Nothing is wider than the window, folded or not, as pictures or as curves; titles of axes are whole, legends seen."""
         place = f"{page} at {width} px"
         assert self.browser.value("look.overflow()") <= 0, place
         for curves in ("false", "true"):
@@ -101,7 +101,6 @@ class Look:
             assert self.browser.value("look.tooWide()") == [], place
             assert self.browser.value("look.overflow()") <= 0, place
         assert self.browser.value("look.unreadable()") == [], place
-        assert self.browser.value("look.idle()") == [], place
 
     def legible(self, picture, least=2):
         """In an SVG picture no two texts lie on each other, none is cut by its edge, no curve passes through a name of the legend,

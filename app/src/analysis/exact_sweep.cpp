@@ -69,8 +69,9 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
 /// The means over contacts and the work of all of them.
 FrictionShares friction_of(const PhaseMotion& motion) {
   FrictionShares shares;
-  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(motion))
-    shares.add({cycle.work, cycle.stick_share, cycle.slip_share, cycle.open_share}, motion.friction.size());
+  using enum solvers::ContactState;
+  for (const solvers::FrictionCycle& cycle : motion.cycles)
+    shares.add({cycle.work, cycle.share(stick), cycle.share(slip), cycle.share(open)}, motion.cycles.size());
   return shares;
 }
 

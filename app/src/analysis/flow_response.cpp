@@ -52,8 +52,12 @@ void copy_structure(const solvers::CondensedProblem& problem, double holding, co
         return displacement_at(found.stepping.contacts.displacement, times);
       },
       holding};
+  const int most = std::max(1, int(result.contacts.points()) / 2);
   solvers::StructurePhases whole = solvers::structure_motion_of(
-      problem, source, points, {.tolerance = 1e-3, .max_harmonics = int(result.contacts.points()) / 2});
+      problem, source, points,
+      {.tolerance = 1e-3,
+       .first_harmonics = std::min(solvers::StructurePhasesOptions().first_harmonics, most),
+       .max_harmonics = most});
   result.structure = std::move(whole.motion);
   result.structure_harmonics = whole.harmonics;
   result.structure_left_out = whole.left_out;

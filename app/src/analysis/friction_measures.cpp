@@ -40,23 +40,77 @@ contact::FrictionPeriod period_of(const contact::CoulombLaw& law, int row, const
   return law.resolvent(springs).over_period(contacts.points(), values(), false);
 }
 
+/// `normal_work`: J, the normal force times the distance of slip.
+void set_wear(FrictionMeasures& measures, const SceneContact& contact, double normal_work) {
+  const auto wears = contact.values.find("wear_coefficient");
+  if (wears == contact.values.end()) return;
+  measures.wears = true;
+  measures.wear = std::get<double>(wears->second) * normal_work;
+}
+
 FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers::Motion& contacts) {
-  contact::CoulombLaw law = law_of(contact);
-  contact::FrictionPeriod period = period_of(law, row, contacts);
-  FrictionMeasures measures{row,
-                            contact.number,
-                            std::move(law),
-                            {},
-                            share_of(period, contact::FrictionState::stick),
-                            share_of(period, contact::FrictionState::slip),
-                            share_of(period, contact::FrictionState::open)};
+  FrictionMeasures measures{.row = row, .number = contact.number, .law = law_of(contact)};
+  const contact::FrictionPeriod period = period_of(measures.law, row, contacts);
+  measures.state = period.state;
+  measures.stick_fraction = share_of(period, contact::FrictionState::stick);
+  measures.slip_fraction = share_of(period, contact::FrictionState::slip);
+  measures.open_fraction = share_of(period, contact::FrictionState::open);
+  measures.work = period.work;
   measures.slip = std::accumulate(period.slip.begin(), period.slip.end(), 0.0);
-  if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end()) {
-    measures.wears = true;
-    measures.wear = std::get<double>(wears->second) * period.normal_work;
-  }
-  measures.period = std::move(period);
+  measures.history_dependent = period.history_dependent;
+  set_wear(measures, contact, period.normal_work);
   return measures;
+}
+
+FrictionMeasures measures_of(const SceneContact& contact, const solvers::FrictionCycle& cycle) {
+  using enum solvers::ContactState;
+  FrictionMeasures measures{.row = cycle.row, .number = contact.number, .law = law_of(contact)};
+  measures.stick_fraction = cycle.share(stick);
+  measures.slip_fraction = cycle.share(slip);
+  measures.open_fraction = cycle.share(open);
+  measures.work = cycle.work;
+  measures.slip = cycle.slip;
+  measures.history_dependent = cycle.share(slip) == 0.0 && cycle.share(open) == 0.0;
+  set_wear(measures, contact, cycle.wear);
+  return measures;
+}
+
+contact::FrictionState state_of(solvers::ContactState kind) {
+  if (kind == solvers::ContactState::open) return contact::FrictionState::open;
+  return kind == solvers::ContactState::stick ? contact::FrictionState::stick : contact::FrictionState::slip;
+}
+
+contact::FrictionState state_of(solvers::FrictionPart::State state) {
+  using enum solvers::FrictionPart::State;
+  return state_of(state == open    ? solvers::ContactState::open
+                  : state == stick ? solvers::ContactState::stick
+                                   : solvers::ContactState::slip);
+}
+
+/// Of a motion between events, and of one in time from event to event.
+std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& places,
+                                             const solvers::PhaseMotion& motion, int points) {
+  std::vector<FrictionMeasures> all;
+  for (std::size_t i = 0; i < motion.cycles.size(); ++i) {
+    FrictionMeasures& one =
+        all.emplace_back(measures_of(places[std::size_t(motion.cycles[i].row)], motion.cycles[i]));
+    for (int l = 0; l < points; ++l)
+      one.state.push_back(state_of(motion.friction[i].part_at(double(l) / points).state));
+  }
+  return all;
+}
+
+std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& places,
+                                             const solvers::FlowMotion& flow) {
+  std::vector<FrictionMeasures> all;
+  for (std::size_t c = 0; c < flow.machines.size(); ++c) {
+    const SceneContact& place = places[std::size_t(flow.machines[c].row)];
+    if (!has_friction(place.law)) continue;
+    FrictionMeasures& one = all.emplace_back(measures_of(place, flow.cycles[c]));
+    for (const std::vector<int>& states : flow.sampled_states)
+      one.state.push_back(state_of(flow.machines[c].law->kind(states[c])));
+  }
+  return all;
 }
 
 }  // namespace
@@ -70,10 +124,18 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
   return all;
 }
 
+std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response) {
+  if (!response.moves || !has_friction(scene)) return {};
+  if (response.flow) return exact_measures(contacts_of(scene), *response.flow);
+  if (is_by_phases(response) && response.phases->motion.parts != nullptr)
+    return exact_measures(contacts_of(scene), response.phases->motion, response.contacts.points());
+  return friction_measures(scene, response.contacts);
+}
+
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
   FrictionShares shares;
   for (const FrictionMeasures& one : contacts)
-    shares.add({one.period.work, one.stick_fraction, one.slip_fraction, one.open_fraction}, contacts.size());
+    shares.add({one.work, one.stick_fraction, one.slip_fraction, one.open_fraction}, contacts.size());
   return shares;
 }
 

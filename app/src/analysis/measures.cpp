@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -54,8 +53,10 @@ double largest_contact_force(const Scene& scene, const solvers::Motion& contacts
 
 double contact_fraction(const Scene& scene, const solvers::Motion& contacts, int row) {
   const SceneContact place = contacts_of(scene).at(static_cast<std::size_t>(row));
-  for (const FrictionMeasures& one : friction_measures(scene, contacts))
-    if (one.number == place.number) return 1.0 - one.open_fraction;
+  if (has_friction(place.law)) {
+    const bool has_normal = contact::number_of(place.values, "tangents") < place.directions;
+    return has_normal ? (contacts.force.row(row - place.place).array() > 0.0).cast<double>().mean() : 1.0;
+  }
   if (acts_everywhere(place.law)) return std::numeric_limits<double>::quiet_NaN();
   const auto forces = contacts.force.middleRows(row - place.place, place.directions).array();
   return (forces != 0.0).colwise().any().cast<double>().mean();

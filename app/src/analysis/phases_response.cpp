@@ -236,6 +236,8 @@ std::optional<Response> phases_to_tolerance(const Scene& scene, const StructureM
   return found;
 }
 
+bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::exact); }
+
 Response phases_response(const Scene& scene, const ResponseOptions& options) {
   return phases_response(scene, make_model(scene, options.observer), options);
 }

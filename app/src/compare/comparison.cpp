@@ -210,6 +210,10 @@ void check_scene_type(const Scene& scene) {
     throw std::invalid_argument(
         "contact.restitution is given, and motions with impacts have no functions to compare; expected none, or "
         "wavebalance run");
+  if (names_friction_of_states(scene.contact))
+    throw std::invalid_argument(
+        "friction of surface_speed, static_friction, tangential_damping or normal_damping has no balance to "
+        "compare; expected none of them, or wavebalance run");
   if (scene.analysis.subharmonic != 1)
     throw std::invalid_argument("analysis.subharmonic = " + std::to_string(scene.analysis.subharmonic) +
                                 ": motions of one period of the load are compared; expected 1");

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -90,10 +91,23 @@ void check_elastic_planes(const Document& document, const Scene& scene, const st
   }
 }
 
+constexpr std::array<const char*, 4> keys_of_states{"surface_speed", "static_friction", "tangential_damping",
+                                                    "normal_damping"};
+
 /// Friction is solved by balances in the displacement form, and by phases.
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
+  if (type == AnalysisType::nonlinear_mode && names_friction_of_states(scene.contact))
+    fail_rule(document, {"analysis.type", "contact.law"},
+              "not with contact." + std::string(keys_of_states[0]) +
+                  ", static_friction above friction, tangential_damping or normal_damping; expected another "
+                  "analysis");
   if (type == AnalysisType::nonlinear_mode) return;
+  const bool sweeps = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+  if (names_friction_of_states(scene.contact) && !sweeps && !scene.time.trial.empty())
+    fail_rule(document, {"time.trial", "contact.law"},
+              "not with friction of surface_speed, static_friction, tangential_damping or normal_damping, "
+              "whose motions are solved for from event to event; expected none");
   if (integrates_in_time(type) || type == AnalysisType::shooting || type == AnalysisType::motions)
     check_elastic_planes(document, scene, "analysis.type", "\"forced_response\"");
   if (solves_by_phases(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
@@ -137,6 +151,30 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
 }
 
+/// What makes the force follow from the states of the contact goes together.
+void check_friction_of_states(const Document& document, const Scene& scene, const SceneContact& contact) {
+  const auto given = [&](const char* key) {
+    const auto found = contact.values.find(key);
+    return found == contact.values.end() ? 0.0 : std::get<double>(found->second);
+  };
+  const double friction = given("friction"), at_rest = given("static_friction");
+  const bool rigid = !contact.values.contains("tangential_stiffness");
+  if (contact.values.contains("static_friction") && at_rest < friction)
+    fail_law(document, contact, "static_friction", "expected at least friction = " + toml_text(friction));
+  if (rigid && given("tangential_damping") > 0.0)
+    fail_law(document, contact, "tangential_damping",
+             "not without contact.tangential_stiffness, the spring beside it; expected 0, or one");
+  if (rigid && at_rest > friction &&
+      (scene.structure.massless_tip || scene.contact.mass == ContactMass::redistribute))
+    fail_law(document, contact, "static_friction",
+             "not with rigid friction at a contact without mass, which would jump by an unknown distance; "
+             "expected contact.tangential_stiffness, or a contact that keeps its mass");
+  if (!contact.pair || scene.contact.pairs[*contact.pair].second_tangent.empty()) return;
+  for (const char* key : keys_of_states)
+    if (given(key) != 0.0)
+      fail_law(document, contact, key, "not with two tangents; expected none, or no second_tangent");
+}
+
 /// The directions of a contact with friction fit its law.
 void check_friction_pair(const Document& document, const Scene& scene, const SceneContact& contact) {
   const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
@@ -155,6 +193,10 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
   if (!has_normal && contact::number_of(values, "normal_gap") != 0.0)
     fail_law(document, contact, "normal_gap",
              "the contact has no normal direction, whose spring it would shift; expected 0, or "
+             "[[contact.pairs]] with tangent");
+  if (!has_normal && values.contains("normal_damping") && contact::number_of(values, "normal_damping") > 0.0)
+    fail_law(document, contact, "normal_damping",
+             "the contact has no normal direction, beside whose spring it would be; expected none, or "
              "[[contact.pairs]] with tangent");
   if (!has_normal && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
@@ -266,6 +308,7 @@ void check_laws(const Document& document, const Scene& scene) {
   if (names_plane(scene.contact)) check_plane_analysis(document, scene);
   for (const SceneContact& contact : contacts) {
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
+    if (has_friction(contact.law)) check_friction_of_states(document, scene, contact);
     if (acts_in_plane(contact.law)) check_ring(document, scene, contact);
   }
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)

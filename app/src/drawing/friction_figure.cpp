@@ -29,9 +29,8 @@ struct Loop {
 
 /// Those of the contacts that take most energy, in the order of the contacts.
 std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
-  std::stable_sort(
-      contacts.begin(), contacts.end(),
-      [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.period.work > b.period.work; });
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.work > b.work; });
   contacts.erase(contacts.begin() + std::min(std::ssize(contacts), std::ptrdiff_t{most_loops}),
                  contacts.end());
   std::sort(contacts.begin(), contacts.end(),
@@ -84,7 +83,7 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
     panel.y.tick_texts.push_back(std::to_string(contacts[i].number));
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto& states = contacts[i].period.state;
+    const auto& states = contacts[i].state;
     for (std::size_t from = 0, to = 0; from < states.size(); from = to) {
       while (to < states.size() && states[to] == states[from]) ++to;
       if (states[from] == contact::FrictionState::open) continue;
@@ -107,7 +106,7 @@ void add_states(Figure& figure, const std::vector<FrictionMeasures>& contacts, c
 }  // namespace
 
 void add_friction(Figure& figure, const Scene& scene, const Response& response, const PeriodWindow& window) {
-  const std::vector<FrictionMeasures> contacts = friction_measures(scene, response.contacts);
+  const std::vector<FrictionMeasures> contacts = friction_measures(scene, response);
   if (contacts.empty()) return;
   add_loops(figure, contacts, response.contacts);
   add_states(figure, contacts, window);

@@ -27,8 +27,8 @@ Table table_of(const std::vector<FrictionMeasures>& contacts) {
   Table table({"contact", "friction_work_J", "stick_fraction", "slip_fraction", "open_fraction", "slip_m",
                "wear_m3", "history_dependent"});
   for (const FrictionMeasures& one : contacts)
-    table.append_row({std::int64_t{one.number}, one.period.work, one.stick_fraction, one.slip_fraction,
-                      one.open_fraction, one.slip, one.wear, one.period.history_dependent});
+    table.append_row({std::int64_t{one.number}, one.work, one.stick_fraction, one.slip_fraction,
+                      one.open_fraction, one.slip, one.wear, one.history_dependent});
   return table;
 }
 
@@ -44,7 +44,7 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
             one.law.normal_rows() > 0 ? motion.force(one.row, l) : one.law.raw_normal_force(0.0);
         table.append_row({double(l) / points, std::int64_t{one.number}, std::int64_t{i + 1},
                           motion.displacement(row, l), motion.force(row, l), normal,
-                          name_of_state(one.period.state[static_cast<std::size_t>(l)])});
+                          name_of_state(one.state[static_cast<std::size_t>(l)])});
       }
   return table;
 }
@@ -54,7 +54,7 @@ void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contac
   std::vector<int> stuck;
   bool elastic = true;
   for (const FrictionMeasures& one : contacts)
-    if (one.period.history_dependent) {
+    if (one.history_dependent) {
       stuck.push_back(one.number);
       elastic = elastic && !one.law.rigid();
     }
@@ -75,7 +75,7 @@ double energy_error(const std::vector<FrictionMeasures>& contacts, const solvers
   constexpr double rounding = 1e-12;
   double work = 0.0, power = 0.0, exchanged = 0.0;
   for (const FrictionMeasures& one : contacts) {
-    work += one.period.work;
+    work += one.work;
     const Eigen::MatrixXd powers = motion.force.middleRows(one.row, one.law.rows())
                                        .cwiseProduct(motion.velocity.middleRows(one.row, one.law.rows()));
     power += powers.sum() / motion.points();
@@ -95,62 +95,16 @@ void append_energy_error(Record& record, double error) {
         error));
 }
 
-// What the phases say is exact where samples are of second order.
-void take_phases(std::vector<FrictionMeasures>& contacts, const Response& response) {
-  if (contacts.empty() || !response.phases || response.phases->motion.parts == nullptr) return;
-  for (const solvers::FrictionCycle& cycle : solvers::friction_cycles(response.phases->motion))
-    for (FrictionMeasures& one : contacts) {
-      if (one.row != cycle.row) continue;
-      if (one.period.work > 0.0) one.wear *= cycle.work / one.period.work;
-      one.period.history_dependent = cycle.stick_share == 1.0;
-      one.period.work = cycle.work;
-      one.slip = cycle.slip;
-      one.stick_fraction = cycle.stick_share;
-      one.slip_fraction = cycle.slip_share;
-      one.open_fraction = cycle.open_share;
-    }
-}
-
-// Between events contacts keep their states, so that the shares of these are exact.
-void take_events(std::vector<FrictionMeasures>& contacts, const Response& response, double frequency) {
-  if (!response.flow || !response.moves || response.attractor_periods != 1) return;
-  const solvers::FlowMotion& flow = *response.flow;
-  for (std::size_t c = 0; c < flow.machines.size(); ++c) {
-    std::array<double, 4> shares{};
-    const auto share = [&](int state) -> double& {
-      return shares[std::size_t(flow.machines[c].law->kind(state))];
-    };
-    double since = 0.0;
-    int state = flow.states[c];
-    for (const solvers::FlowEvent& event : flow.events) {
-      if (event.contact != int(c)) continue;
-      share(state) += event.time * frequency - since;
-      since = event.time * frequency;
-      state = event.to;
-    }
-    share(state) += 1.0 - since;
-    for (FrictionMeasures& one : contacts) {
-      if (one.row != flow.machines[c].row) continue;
-      one.stick_fraction = shares[std::size_t(solvers::ContactState::stick)];
-      one.slip_fraction = shares[std::size_t(solvers::ContactState::slip)];
-      one.open_fraction = shares[std::size_t(solvers::ContactState::open)];
-    }
-  }
-}
-
 }  // namespace
 
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
   if (!has_friction(scene)) return;
-  std::vector<FrictionMeasures> contacts =
-      friction_measures(scene, response.moves ? response.contacts : solvers::Motion{});
-  const bool exact = is_by_phases(response);  // beside which samples say nothing
-  if (exact) take_phases(contacts, response);
-  take_events(contacts, response, frequency);
+  const std::vector<FrictionMeasures> contacts = friction_measures(scene, response);
+  const bool exact = is_by_phases(response) || response.flow;  // beside which samples say nothing
   double work = 0.0, wear = 0.0;
   bool wears = false;
   for (const FrictionMeasures& one : contacts) {
-    work += one.period.work;
+    work += one.work;
     wear += one.wear;
     wears = wears || one.wears;
   }
@@ -160,9 +114,8 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
   record.summary.emplace_back(quantities::friction, table_of(contacts));
   if (!known) return;
   if (frequency > 0.0)
-    append_energy_error(record, exact || response.flow ? missing
-                                                       : energy_error(contacts, response.contacts,
-                                                                      response.periods / frequency));
+    append_energy_error(
+        record, exact ? missing : energy_error(contacts, response.contacts, response.periods / frequency));
   warn_of_history(record, contacts, response.flow.has_value());
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
                           "The loops of friction force and displacement, and what each contact does"});
@@ -171,10 +124,16 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
 void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
                                const Response& response) {
   if (!has_friction(scene)) return;
+  // A surface that moves drives the structure, too.
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool drives = std::any_of(contacts.begin(), contacts.end(), [](const SceneContact& one) {
+    const auto speed = one.values.find("surface_speed");
+    return speed != one.values.end() && std::get<double>(speed->second) != 0.0;
+  });
   const auto* work = value_in<double>(record.summary, quantities::friction_work.name);
   const Eigen::MatrixXd& velocity = response.structure.velocity;
   double ratio = missing;
-  if (work != nullptr && velocity.size() > 0) {
+  if (work != nullptr && velocity.size() > 0 && !drives) {
     const Eigen::MatrixXd momentum = model.structure.mass * velocity;
     const double energy = 0.5 * momentum.cwiseProduct(velocity).colwise().sum().maxCoeff();
     if (energy > 0.0) ratio = *work / response.periods / (4.0 * std::numbers::pi * energy);

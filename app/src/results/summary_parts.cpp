@@ -217,8 +217,6 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
-bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::exact); }
-
 std::string_view name_of(solvers::FrictionPart::State state) {
   using enum solvers::FrictionPart::State;
   if (state == open) return "open";

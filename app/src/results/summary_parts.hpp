@@ -61,7 +61,5 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
 /// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
 /// them.
 Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion);
-/// Whether the response is the motion of the structure itself, and not a balance beside it.
-bool is_by_phases(const Response& response);
 
 }  // namespace wavebalance::app

@@ -56,12 +56,34 @@ bool names_friction(const Contact& contact) { return names(contact, has_friction
 
 bool takes_energy(const Contact& contact) { return names_friction(contact) || names(contact, is_damped); }
 
+namespace {
+
+/// Whether a contact has friction of a kind.
+template <class Kind>
+bool rubs(const Contact& contact, Kind kind) {
+  const auto is_it = [&](const auto& one) { return has_friction(one.law) && kind(one.values); };
+  return contact.pairs.empty() ? is_it(contact)
+                               : std::any_of(contact.pairs.begin(), contact.pairs.end(), is_it);
+}
+
+double number_in(const contact::LawValues& values, std::string_view name) {
+  const auto found = values.find(name);
+  return found == values.end() ? 0.0 : std::get<double>(found->second);
+}
+
+}  // namespace
+
 bool names_rigid_friction(const Contact& contact) {
-  const auto rigid = [](const auto& one) {
-    return has_friction(one.law) && !one.values.contains("tangential_stiffness");
-  };
-  return contact.pairs.empty() ? rigid(contact)
-                               : std::any_of(contact.pairs.begin(), contact.pairs.end(), rigid);
+  return rubs(contact,
+              [](const contact::LawValues& values) { return !values.contains("tangential_stiffness"); });
+}
+
+bool names_friction_of_states(const Contact& contact) {
+  return rubs(contact, [](const contact::LawValues& values) {
+    return number_in(values, "surface_speed") != 0.0 || number_in(values, "tangential_damping") > 0.0 ||
+           number_in(values, "normal_damping") > 0.0 ||
+           number_in(values, "static_friction") > number_in(values, "friction");
+  });
 }
 
 bool has_friction(std::string_view law) { return contact::law_entry(law).acts_over_period; }
@@ -76,6 +98,7 @@ bool moves_by_events(const Scene& scene) {
     return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
                                [](const ContactPair& pair) { return !is_rigid(pair.law); });
   if (free && (names_friction(contact) || names_plane(contact))) return true;
+  if (names_friction_of_states(contact)) return true;
   const bool kept = contact.mass == ContactMass::keep ||
                     (contact.mass == ContactMass::automatic && scene.time.trial.empty() &&
                      scene.analysis.type != AnalysisType::nonlinear_mode);

@@ -1,6 +1,5 @@
 #include "exact/impact_path.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -71,8 +70,9 @@ double ImpactCurveEquations::height_slope(Index i, const Eigen::VectorXd& tangen
 }
 
 Eigen::VectorXd ImpactCurveEquations::null_direction() const {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> decomposition(equations_->matrix(), Eigen::ComputeFullV);
-  return decomposition.matrixV().rightCols(1);
+  const auto modes = symmetric_eigen(transposed_product(equations_->matrix(), equations_->matrix()));
+  if (!modes) return Eigen::VectorXd::Zero(equations_->matrix().cols());
+  return modes->vectors.col(0);
 }
 
 ImpactSolution ImpactCurveEquations::solution(const ImpactPoint& at) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "flow/flow_engine.hpp"
@@ -68,6 +69,7 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       length_(length_of(problem)),
       moving_(moving_length(problem)),
       coarsest_(coarsest_level(poles_, options.panels)),
+      cycles_(machines_.size()),
       fastest_(machines_.size(), 0.0) {
   for (const int row : problem.laws.rigid(int(poles_.rows())))
     if (!problem.laws[row].friction()) rest_position_[row] = std::min(0.0, problem.laws[row].gap());
@@ -197,7 +199,7 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
       signals[force_kind].middleRows(machines_[c].row, machines_[c].law->rows()).setZero();
   for (Index k = 0; k < points_here.size(); ++k)
     sample({time_ + panel.shape->half() * (at[std::size_t(k)] + 1.0), signals[0].col(k), signals[1].col(k),
-            signals[force_kind].col(k)});
+            signals[force_kind].col(k), now_.state});
 }
 
 void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
@@ -248,6 +250,9 @@ void ContactFlow::Engine::change(const Hit& hit, const detail::Signals& signals,
         memory.empty() ? 0.0 : memory[std::size_t(m)].value;
   now_.state[std::size_t(c)] = event.to = to;
   events_.push_back(event);
+  const Sliding sudden = law.sudden(state, hit.guard.exit, local.signals());
+  cycles_[std::size_t(c)].slip += sudden.speed;
+  cycles_[std::size_t(c)].wear += sudden.wear;
   if (exit.impulse) follow_impulse(c, signals, after, event.speed);
 }
 
@@ -271,13 +276,15 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const auto panel = steps_++ < options_.max_panels ? solve_next() : std::nullopt;
   if (!panel) return FlowStatus::step_failure;
   const double half = panel->shape->half(), until = (until_ - time_) / half - 1.0;
-  auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, until);
+  const detail::Signals dense = motion(*panel->shape).at(panel->shape->waves(), panel->values);
+  auto hit = options_.keeps_states ? std::nullopt : first_hit(*panel, dense, until);
   constexpr double rounding = 1e-9;
   if (panel->end && !options_.keeps_states && (!hit || hit->at > 1.0 - rounding)) hit = Hit{1.0, *panel->end};
   const bool ends_state = hit && hit->at < until;
   const double end = ends_state ? hit->at : std::min(1.0, until);
   if (points > 0) take_samples(*panel, end, points, sample);
   keep(*panel, end);
+  measure(dense, *panel, end);
   if (options_.margins) keep_margins(end);
   idle_ = end > -1.0 + 1e-12 ? 0 : idle_ + 1;
   if (idle_ > most_idle) return FlowStatus::endless_events;
@@ -301,12 +308,17 @@ FlowStatus ContactFlow::Engine::advance_period(int points,
   events_.clear();
   panels_.clear();
   margins_.clear();
+  for (std::size_t c = 0; c < machines_.size(); ++c) cycles_[c] = {.row = machines_[c].row};
   rests_ = sampled_ = steps_ = 0;
   unresolved_ = 0.0;
   until_ = poles_.period();
   while (time_ < until_)
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
   time_ = 0.0;
+  for (FrictionCycle& cycle : cycles_) {
+    const double whole = std::accumulate(cycle.shares.begin(), cycle.shares.end(), 0.0);
+    for (double& share : cycle.shares) share /= whole;
+  }
   return FlowStatus::converged;
 }
 
@@ -347,6 +359,7 @@ Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
 const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }
 const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines(); }
 const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events(); }
+const std::vector<FrictionCycle>& ContactFlow::cycles() const { return engine_->cycles(); }
 int ContactFlow::rests() const { return engine_->rests(); }
 double ContactFlow::period() const { return engine_->period(); }
 double ContactFlow::tolerance() const { return engine_->tolerance(); }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "linalg/dense.hpp"
+
 namespace wavebalance::solvers::detail {
 namespace {
 
@@ -37,17 +39,17 @@ double fastest_turn(const Eigen::VectorXcd& exponents, const Eigen::MatrixXcd& o
 
 ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free,
                            double frequency)
-    : period_(1.0 / frequency),
-      holding_(dynamics.holding()),
-      contact_free_(contact_free),
-      constant_(dynamics.constant()) {
+    : period_(1.0 / frequency), holding_(dynamics.holding()), constant_(dynamics.constant()) {
   if (dynamics.structurally_damped())
     throw std::invalid_argument(
         "ContactPoles: the structure has structural damping, which has no equation in time; the damping must "
         "be viscous");
   const Index count = Index(dynamics.poles().size()), rows = dynamics.contacts();
   constexpr Index few = 64;  // harmonics, which are summed at once for all contacts
-  for (Index row = 0; row < (contact_free_.cols() > few ? rows : 0); ++row)
+  for (Index n = 0; n < contact_free.cols(); ++n)
+    if (!contact_free.col(n).isZero(0.0)) harmonics_.push_back(n);
+  if (Index(harmonics_.size()) <= few) keep_harmonics(contact_free);
+  for (Index row = 0; row < (Index(harmonics_.size()) > few ? rows : 0); ++row)
     free_.emplace_back(contact_free.row(row).transpose(), 2.0 * std::numbers::pi * frequency);
   if (contact_free.size() > 0) free_scale_ = contact_free.rowwise().norm().maxCoeff();
   exponents_.resize(count);
@@ -76,19 +78,32 @@ const Eigen::MatrixXd& ContactPoles::feed(int level, int k) const {
   return k == level ? constant_ : moments_[std::size_t(level - 1 - k)];
 }
 
+// Amplitudes of all derivatives, real and imaginary parts beside each other.
+void ContactPoles::keep_harmonics(const Eigen::MatrixXcd& contact_free) {
+  const auto count = Index(harmonics_.size());
+  for (std::size_t d = 0; d < levels; ++d) {
+    amplitudes_[d].resize(contact_free.rows(), 2 * count);
+    for (Index i = 0; i < count; ++i) {
+      const double n = double(harmonics_[std::size_t(i)]);
+      const Eigen::VectorXcd own = contact_free.col(harmonics_[std::size_t(i)]) *
+                                   std::pow(Complex(0.0, 2.0 * std::numbers::pi * n / period_), int(d));
+      amplitudes_[d].col(2 * i) = own.real();
+      amplitudes_[d].col(2 * i + 1) = -own.imag();
+    }
+  }
+}
+
 std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::VectorXd& times) const {
   std::array<Eigen::MatrixXd, levels> result;
   if (free_.empty()) {
-    const double rate = 2.0 * std::numbers::pi / period_;
-    Eigen::MatrixXcd waves(contact_free_.cols(), times.size());
+    Eigen::MatrixXd waves(2 * Index(harmonics_.size()), times.size());
     for (Index k = 0; k < times.size(); ++k)
-      for (Index n = 0; n < contact_free_.cols(); ++n)
-        waves(n, k) = std::polar(1.0, rate * double(n) * times[k]);
-    Eigen::MatrixXcd amplitudes = contact_free_;
-    for (auto& values : result) {
-      values = (amplitudes * waves).real();
-      for (Index n = 0; n < amplitudes.cols(); ++n) amplitudes.col(n) *= Complex(0.0, rate * double(n));
-    }
+      for (std::size_t i = 0; i < harmonics_.size(); ++i) {
+        const double angle = 2.0 * std::numbers::pi / period_ * double(harmonics_[i]) * times[k];
+        waves(2 * Index(i), k) = std::cos(angle);
+        waves(2 * Index(i) + 1, k) = std::sin(angle);
+      }
+    for (std::size_t d = 0; d < levels; ++d) result[d] = product(amplitudes_[d], waves);
     return result;
   }
   result.fill(Eigen::MatrixXd(rows(), times.size()));

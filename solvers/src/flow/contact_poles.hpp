@@ -65,8 +65,12 @@ class ContactPoles {
   double period_, holding_, fastest_ = 0.0, free_scale_ = 0.0;
   Index states_ = 0;
   Eigen::VectorXcd exponents_;
-  std::vector<HarmonicSeries> free_;  // of each row, of many harmonics
-  Eigen::MatrixXcd inputs_, contact_free_;
+  void keep_harmonics(const Eigen::MatrixXcd& contact_free);
+
+  std::vector<HarmonicSeries> free_;                // of each row, of many harmonics
+  std::vector<Index> harmonics_;                    // of the motion without contact, else
+  std::array<Eigen::MatrixXd, levels> amplitudes_;  // of these
+  Eigen::MatrixXcd inputs_;
   std::array<Eigen::MatrixXcd, levels> outputs_;
   std::array<Eigen::MatrixXd, levels> real_outputs_;
   std::array<Eigen::MatrixXd, levels> moments_;

@@ -31,6 +31,7 @@ class ContactFlow::Engine {
   const std::vector<FlowEvent>& events() const { return events_; }
   const std::vector<FlowPanel>& panels() const { return panels_; }
   Eigen::VectorXd displacements_by_state() const;
+  const std::vector<FrictionCycle>& cycles() const { return cycles_; }
   int rests() const { return rests_; }
   Eigen::VectorXd off_center() const;
   Eigen::MatrixXd held() const;
@@ -92,18 +93,18 @@ class ContactFlow::Engine {
   std::optional<Solved> solve_to_end(const Solved& too_long);
   std::optional<Solved> solve_to_end_of(const Guard& guard, double length);
   FlowStatus step(int points, const std::function<void(const FlowSample&)>& sample);
-  std::optional<Hit> first_hit(const Solved& panel, double until);
-  /// Signals at the dense points, and those of a contact with numbers of the gradient.
-  struct Dense {
-    detail::Signals signals;
-    std::vector<detail::LocalValues> local;
-  };
-  GuardSamples sample_guard(const Solved& panel, const Dense& dense, const Guard& guard);
+  /// `dense`: signals at the nodes, the end and the dense points of a panel.
+  std::optional<Hit> first_hit(const Solved& panel, const detail::Signals& dense, double until);
+  /// `local`: of the guard's contact.
+  GuardSamples sample_guard(const Solved& panel, const detail::Signals& dense, detail::LocalValues& local,
+                            const Guard& guard);
   std::optional<double> root_of(const Solved& panel, const Guard& guard, const GuardSamples& samples,
                                 detail::Sample a, detail::Sample b) const;
   std::optional<double> touch(const Solved& panel, const Guard& guard, const GuardSamples& samples,
                               std::size_t k) const;
-  std::optional<double> hit_of(const Solved& panel, const Dense& dense, const Guard& guard, double until);
+  std::optional<double> hit_of(const Solved& panel, const detail::Signals& dense, detail::LocalValues& local,
+                               const Guard& guard, double until);
+  void measure(const detail::Signals& dense, const Solved& panel, double end);
   double scale_of(const Dual& guard, int rows) const;
   double clear_of(const Guard& guard) const;
   bool changed(Index c) const;  // its state, in the last period
@@ -140,6 +141,7 @@ class ContactFlow::Engine {
   detail::Variation variation_;
   std::vector<FlowEvent> events_;
   std::vector<FlowPanel> panels_;
+  std::vector<FrictionCycle> cycles_;             // of the contacts, in the last period
   std::vector<double> fastest_;                   // impact of each contact, m/s
   std::map<std::pair<Index, int>, double> size_;  // of guards, by contact and state with exit
 };

@@ -62,7 +62,9 @@ double ContactFlow::Engine::clear_of(const Guard& guard) const {
   return rounding * size_.at({guard.contact, 64 * state + guard.exit});
 }
 
-ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel, const Dense& dense,
+ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved& panel,
+                                                                    const detail::Signals& dense,
+                                                                    detail::LocalValues& local,
                                                                     const Guard& guard) {
   const Index c = guard.contact;
   const int state = now_.state[std::size_t(c)];
@@ -71,10 +73,11 @@ ContactFlow::Engine::GuardSamples ContactFlow::Engine::sample_guard(const Solved
   GuardSamples samples;
   double& size = size_[{c, 64 * state + guard.exit}];
   for (Index k = 0; k < dense_.at.size(); ++k) {
-    const Dual value = law.guard(state, guard.exit, dense.local[std::size_t(k)].signals());
+    local.move_to(dense, first + k);
+    const Dual value = law.guard(state, guard.exit, local.signals());
     samples.value.push_back(value.value);
     samples.rate.push_back(panel.shape->half() *
-                           detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense.signals, first + k));
+                           detail::SlopeOfSignals{contacts_, c, value, 0.0}.rate(dense, first + k));
     size = std::max({size, std::abs(value.value), k == 0 ? scale_of(value, law.rows()) : 0.0});
     if (k == 0 && law.remembers(state) && law.memories() == 1)
       samples.by_memory = value.slope[std::size_t(4 * law.rows())];
@@ -125,9 +128,10 @@ std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guar
 
 // Guards that vanish at the beginning, behind an event, count by their first clear value. Nothing where that
 // is after `until`.
-std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Dense& dense, const Guard& guard,
+std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const detail::Signals& dense,
+                                                  detail::LocalValues& local, const Guard& guard,
                                                   double until) {
-  const GuardSamples samples = sample_guard(panel, dense, guard);
+  const GuardSamples samples = sample_guard(panel, dense, local, guard);
   if (options_.margins && contacts_.law(guard.contact).remembers(now_.state[std::size_t(guard.contact)]))
     at_rest_[{guard.contact, guard.exit}] = samples;
   const std::vector<double>& g = samples.value;
@@ -167,22 +171,53 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const Den
   return std::nullopt;
 }
 
-std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel, double until) {
-  Dense dense{motion(*panel.shape).at(panel.shape->waves(), panel.values), {}};
+std::optional<ContactFlow::Engine::Hit> ContactFlow::Engine::first_hit(const Solved& panel,
+                                                                       const detail::Signals& dense,
+                                                                       double until) {
   at_rest_.clear();
   std::optional<Hit> best;
   for (Index c = 0; c < contacts_.count(); ++c) {
-    dense.local.clear();
-    for (Index k = 0; k < dense_.at.size(); ++k)
-      dense.local.emplace_back(contacts_, c, dense.signals, panel.shape->nodes() + 1 + k);
+    detail::LocalValues local(contacts_, c, dense, 0);
     const int exits = int(contacts_.law(c).exits(now_.state[std::size_t(c)]).size());
     for (int exit = 0; exit < exits; ++exit) {
       const Guard guard{c, exit};
-      const auto at = hit_of(panel, dense, guard, best ? best->at : until);
+      const auto at = hit_of(panel, dense, local, guard, best ? best->at : until);
       if (at && (!best || *at < best->at)) best = Hit{*at, guard};
     }
   }
   return best;
+}
+
+// By Gauss's rule on the part of the panel that is kept.
+void ContactFlow::Engine::measure(const detail::Signals& dense, const Solved& panel, double end) {
+  const double length = panel.shape->half() * (end + 1.0);
+  const auto integral = [&](const std::vector<double>& values) {
+    double mean = 0.0;
+    for (Index k = 0; k < nodes_.count(); ++k)
+      mean += nodes_.coefficients(0, k) *
+              dense_.interpolated(values, 0.5 * (end + 1.0) * (nodes_.points[k] + 1.0) - 1.0);
+    return length * mean;
+  };
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const int state = now_.state[std::size_t(c)];
+    const ContactState kind = contacts_.law(c).kind(state);
+    FrictionCycle& cycle = cycles_[std::size_t(c)];
+    cycle.share(kind) += length;
+    if (kind != ContactState::stick && kind != ContactState::slip) continue;
+    std::array<std::vector<double>, 3> values;
+    detail::LocalValues local(contacts_, c, dense, 0);
+    for (Index k = 0; k < dense_.at.size(); ++k) {
+      local.move_to(dense, panel.shape->nodes() + 1 + k);
+      const Sliding now = contacts_.law(c).sliding(state, local.signals());
+      values[0].push_back(now.power);
+      values[1].push_back(now.speed);
+      values[2].push_back(now.wear);
+    }
+    cycle.work += integral(values[0]);
+    if (kind == ContactState::stick) continue;
+    cycle.slip += integral(values[1]);
+    cycle.wear += integral(values[2]);
+  }
 }
 
 // The least values of the guards by which sliders at rest would leave it: between the dense points of the

@@ -158,7 +158,10 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
     const ContactMachine& machine = flow.machines()[c];
     const std::vector<Stay> stays = stays_of(flow, c, begin);
     const auto constants = problem.laws[machine.row].friction();
-    if (constants) motion.friction.push_back(friction_along(machine, *constants, stays));
+    if (constants) {
+      motion.friction.push_back(friction_along(machine, *constants, stays));
+      motion.cycles.push_back(flow.cycles()[c]);
+    }
     append_phases(machine, constants ? constants->tangents : 1, stays, motion.phases);
   }
   std::sort(motion.phases.begin(), motion.phases.end(), [](const ContactPhase& a, const ContactPhase& b) {
@@ -185,92 +188,5 @@ void set_multipliers(PhaseMotion& motion, Eigen::VectorXcd multipliers) {
 }
 
 }  // namespace detail
-
-namespace {
-
-// m, by which the slider moves in a part in which it slips along one tangent: displacements at its begin and
-// end.
-double slip_of(const FrictionAlong& along, const FrictionPart& part, const Eigen::VectorXd& begin,
-               const Eigen::VectorXd& end) {
-  const Eigen::VectorXd moved = end - begin;
-  const double of_limit = along.constants.normal_rows > 0
-                              ? part.sign * along.constants.friction * along.constants.normal_stiffness /
-                                    along.constants.tangential_stiffness * moved[along.row]
-                              : 0.0;
-  return std::abs(moved[along.row + along.constants.normal_rows] - of_limit);
-}
-
-// m, the way of a slider in a plane, whose rate in slip is n.u' - L' / k, n the direction of the force and L
-// its limit. By Gauss's rule on each cell.
-double slip_in_plane(const PhaseMotion& motion, const FrictionAlong& along) {
-  const detail::LegendreNodes nodes(32);
-  const Eigen::RowVectorXd mean = nodes.coefficients.row(0);
-  const FrictionConstants& c = along.constants;
-  const detail::CellGrid& grid = motion.parts->iterate.forces.grid();
-  double sum = 0.0;
-  for (int cell = 0; cell < grid.cells(); ++cell) {
-    const double begin = grid.boundaries[std::size_t(cell)], length = grid.length(cell);
-    if (along.part_at(begin + 0.5 * length).state != FrictionPart::State::slip) continue;
-    const Eigen::VectorXd times = begin + 0.5 * length * (nodes.points.array() + 1.0);
-    const Eigen::MatrixXd v = motion.velocity(times).middleRows(along.row, c.normal_rows + c.tangents),
-                          f = motion.force(times).middleRows(along.row + c.normal_rows, c.tangents);
-    Eigen::VectorXd rate = f.cwiseProduct(v.bottomRows(c.tangents)).colwise().sum().transpose();
-    rate.array() /= f.colwise().norm().transpose().array();
-    if (c.normal_rows > 0)
-      rate -= c.friction * c.normal_stiffness / c.tangential_stiffness * v.row(0).transpose();
-    sum += length * mean.dot(rate);
-  }
-  return sum / motion.parts->model.frequency;
-}
-
-// J of each row, the integral of force times change of displacement: of the Legendre series f and u of a
-// panel twice the sum of f_k u_j over j > k with j - k odd.
-Eigen::VectorXd works_of(const PhaseMotion& motion) {
-  const detail::LegendreNodes nodes(32);
-  const detail::PanelForces& forces = motion.parts->iterate.forces;
-  const Index q = nodes.count(), cells = forces.grid().cells();
-  Eigen::VectorXd times(q * cells), works = Eigen::VectorXd::Zero(motion.parts->model.response.contacts());
-  for (Index j = 0; j < cells; ++j)
-    times.segment(j * q, q) = forces.grid().boundaries[std::size_t(j)] +
-                              0.5 * forces.grid().length(int(j)) * (nodes.points.array() + 1.0);
-  const Eigen::MatrixXd displacement = motion.displacement(times);
-  for (std::size_t p = 0; p < forces.panels().size(); ++p) {
-    const detail::Panel& panel = forces.panels()[p];
-    const Eigen::VectorXd u =
-        nodes.coefficients * displacement.row(panel.contact).segment(panel.cell * q, q).transpose();
-    for (Index k = 0; k < forces.coefficients().rows(); ++k)
-      for (Index j = k + 1; j < u.size(); j += 2)
-        works[panel.contact] += 2.0 * forces.coefficients()(k, Index(p)) * u[j];
-  }
-  return works;
-}
-
-}  // namespace
-
-std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion) {
-  if (motion.parts == nullptr) throw std::invalid_argument("friction_cycles: there is no motion");
-  const Eigen::VectorXd works = works_of(motion);
-  std::vector<FrictionCycle> cycles;
-  for (const FrictionAlong& along : motion.friction) {
-    const FrictionConstants& c = along.constants;
-    FrictionCycle cycle{.row = along.row, .work = works.segment(along.row + c.normal_rows, c.tangents).sum()};
-    if (c.tangents > 1) cycle.slip = slip_in_plane(motion, along);
-    Eigen::VectorXd times(2 * Index(along.parts.size()));
-    for (std::size_t i = 0; i < along.parts.size(); ++i)
-      times.segment<2>(2 * Index(i)) << along.parts[i].begin, along.parts[i].end;
-    const Eigen::MatrixXd u = motion.displacement(times);
-    for (std::size_t i = 0; i < along.parts.size(); ++i) {
-      const FrictionPart& part = along.parts[i];
-      const double length = part.end - part.begin;
-      (part.state == FrictionPart::State::open    ? cycle.open_share
-       : part.state == FrictionPart::State::stick ? cycle.stick_share
-                                                  : cycle.slip_share) += length;
-      if (part.state == FrictionPart::State::slip && c.tangents == 1)
-        cycle.slip += slip_of(along, part, u.col(2 * Index(i)), u.col(2 * Index(i) + 1));
-    }
-    cycles.push_back(cycle);
-  }
-  return cycles;
-}
 
 }  // namespace wavebalance::solvers

@@ -30,14 +30,15 @@ using detail::inverse_mass_of;
 
 RowForce free_force() { return {.free = true}; }
 RowForce no_force() { return {}; }
-RowForce constant_force(double value) { return {.constant = value}; }
 
 /// A law of the displacement, or of displacement and velocity: a state for each of its pieces, and where it
 /// does not pull one more for each piece that is left before the displacement comes back.
 class PieceMachine final : public LawMachine {
  public:
   PieceMachine(AnyContactLaw law, double length)
-      : pulls_(!law.depends_on_velocity() || !law.unilateral()), law_(std::move(law), length, 0.0, {}) {}
+      : pulls_(!law.depends_on_velocity() || !law.unilateral()), law_(std::move(law), length, 0.0, {}) {
+    for (int state = 0; state < 2 * law_.count(); ++state) ways_.push_back(ways_of(state));
+  }
 
   ContactState kind(int state) const override {
     return acts(state) ? ContactState::closed : ContactState::open;
@@ -46,7 +47,7 @@ class PieceMachine final : public LawMachine {
 
   std::vector<StateExit> exits(int state) const override {
     std::vector<StateExit> result;
-    for (const Way& way : ways(state)) result.push_back({{way.to}});
+    for (const Way& way : ways_[std::size_t(state)]) result.push_back({{way.to}});
     return result;
   }
 
@@ -55,7 +56,7 @@ class PieceMachine final : public LawMachine {
   }
 
   Dual guard(int state, int exit, const LocalSignals& now) const override {
-    const Way way = ways(state)[std::size_t(exit)];
+    const Way way = ways_[std::size_t(state)][std::size_t(exit)];
     switch (way.kind) {
       case Kind::up:
         return Dual(law_.breakpoint(piece(state))) - now.displacement[0];
@@ -87,7 +88,7 @@ class PieceMachine final : public LawMachine {
   int piece(int state) const { return law_.without_release(state); }
   bool acts(int state) const { return state < law_.count() && law_.exerts(state); }
 
-  std::vector<Way> ways(int state) const {
+  std::vector<Way> ways_of(int state) const {
     const int own = piece(state);
     std::vector<Way> result;
     if (own + 1 < law_.count()) result.push_back({Kind::up, own + 1});
@@ -109,6 +110,7 @@ class PieceMachine final : public LawMachine {
 
   bool pulls_;
   detail::LawPieces law_;
+  std::vector<std::vector<Way>> ways_;  // by state
 };
 
 /// A rigid obstacle at a contact with mass: it rebounds, or stays closed, by a vanishing acceleration, until
@@ -182,170 +184,27 @@ class ObstacleMachine final : public LawMachine {
   double gap_;
 };
 
-/// Coulomb friction along one tangent, of a constant normal force or of a normal row that may open. It is
-/// elastic, or rigid at a contact with mass, where sticking has no acceleration, or without.
-class FrictionMachine final : public LawMachine {
- public:
-  /// inverse_mass, 1/kg: of the tangent; 0 without mass. rate, 1/s: at which rounding decays while it sticks.
-  FrictionMachine(AnyContactLaw law, double inverse_mass, double rate)
-      : law_(std::move(law)), c_(*law_.friction()), inverse_mass_(inverse_mass), rate_(rate) {}
-  enum : int { open, stick, forward, backward };
-
-  int rows() const override { return c_.normal_rows + 1; }
-  int memories() const override { return 1; }
-  bool remembers(int state) const override { return state == stick && !accelerates(); }
-
-  ContactState kind(int state) const override {
-    constexpr std::array<ContactState, 4> kinds{ContactState::open, ContactState::stick, ContactState::slip,
-                                                ContactState::slip};
-    return kinds[std::size_t(state)];
-  }
-
-  std::vector<RowForce> forces(int state) const override {
-    std::vector<RowForce> result(std::size_t(rows()), no_force());
-    if (state == open) return result;
-    if (has_normal()) result[0] = free_force();
-    RowForce& tangent = result.back();
-    if (state == stick)
-      tangent = free_force();
-    else if (has_normal())
-      tangent.of_rows[0] = sign(state) * c_.friction;
-    else
-      tangent = constant_force(sign(state) * c_.friction * c_.normal_load);
-    return result;
-  }
-
-  std::vector<StateExit> exits(int state) const override {
-    if (state == open) return {{{stick, forward, backward}}};
-    std::vector<StateExit> result;
-    if (state == stick)
-      result = {{{forward}}, {{backward}}};
-    else if (accelerates())
-      result = {{{stick, state == forward ? backward : forward}}};
-    else if (c_.friction > 0.0)
-      result = {{{stick}}};
-    if (has_normal()) result.push_back({{open}});
-    return result;
-  }
-
-  void equations(int state, const LocalSignals& now, std::span<Dual> out) const override {
-    std::size_t next = 0;
-    if (has_normal()) out[next++] = now.force[0] - normal(now);
-    if (state != stick) return;
-    if (accelerates())
-      out[next] = now.acceleration.back() + rate_ * now.velocity.back();
-    else
-      out[next] = rigid() ? now.displacement.back() - now.memory[0] : now.force.back() - elastic(now);
-  }
-
-  Dual guard(int state, int exit, const LocalSignals& now) const override {
-    const bool opens = state != open && has_normal() && exit + 1 == int(exits(state).size());
-    if (state == open) return -normal(now);
-    if (opens) return normal(now);
-    const Dual limit = c_.friction * normal(now);
-    if (state != stick) return slip_rate(state, now);
-    const Dual force = rigid() ? now.force.back() : elastic(now);
-    return exit == 0 ? limit - force : limit + force;
-  }
-
-  void remember(int state, int, const LocalSignals& now, std::span<Dual> out) const override {
-    out[0] = now.displacement.back();
-    if (!rigid() && state != open)
-      out[0].add(normal(now), -sign(state) * c_.friction / c_.tangential_stiffness);
-  }
-
-  int choose(int state, int, const LocalSignals& before, const LocalSignals&) const override {
-    if (state == open) return closing(before);
-    if (!accelerates()) return stick;
-    const double holds = before.force.back().value + before.acceleration.back().value / inverse_mass_;
-    constexpr double rounding = 1e-7;  // what is more than stuck leaves at once
-    if (std::abs(holds) <= (1.0 + rounding) * c_.friction * normal(before).value) return stick;
-    return holds > 0.0 ? forward : backward;
-  }
-
-  // Rigid friction follows the sense of the velocity, which an impulse may start or reverse.
-  int after_impulse(int state, const LocalSignals& after) const override {
-    if (state == open || !accelerates()) return state;
-    return after.velocity.back().value > 0.0 ? forward : backward;
-  }
-
-  int start(std::span<const double> displacement, std::span<double> memory) const override {
-    std::array<double, 2> force{};
-    const std::array<double, 2> none{};
-    memory[0] = displacement.back();
-    if (!rigid()) {
-      law_.start(displacement, {none.data(), std::size_t(rows())}, {force.data(), std::size_t(rows())});
-      memory[0] -= force[std::size_t(rows()) - 1] / c_.tangential_stiffness;
-    }
-    const double n = normal_at(displacement);
-    if (has_normal() && n <= 0.0) return open;
-    const double limit = c_.friction * n, own = force[std::size_t(rows()) - 1];
-    if (c_.friction > 0.0 && (std::abs(own) < limit || limit == 0.0)) return stick;
-    return own > 0.0 ? forward : backward;
-  }
-  int at(std::span<const double> displacement, std::span<const double> force,
-         std::span<double> memory) const override {
-    constexpr double rounding = 1e-6;  // of a force that a balance has limited
-    const double n = normal_at(displacement), own = force.back();
-    memory[0] = 0.0;
-    if (has_normal() && n <= 0.0) return open;
-    if (std::abs(own) >= (1.0 - rounding) * c_.friction * n) return own > 0.0 ? forward : backward;
-    if (!accelerates()) memory[0] = displacement.back() - (rigid() ? 0.0 : own / c_.tangential_stiffness);
-    return stick;
-  }
-
- private:
-  static double sign(int state) { return state == forward ? 1.0 : -1.0; }
-  bool has_normal() const { return c_.normal_rows > 0; }
-  bool rigid() const { return std::isinf(c_.tangential_stiffness); }
-  bool accelerates() const { return rigid() && inverse_mass_ > 0.0; }
-
-  double normal_at(std::span<const double> displacement) const {
-    return c_.normal_load + (has_normal() ? c_.normal_stiffness * displacement[0] : 0.0);
-  }
-  Dual normal(const LocalSignals& now) const {
-    return has_normal() ? Dual(c_.normal_load) + c_.normal_stiffness * now.displacement[0]
-                        : Dual(c_.normal_load);
-  }
-  /// By displacements, so that its rate is known at every instant.
-  Dual elastic(const LocalSignals& now) const {
-    return c_.tangential_stiffness * (now.displacement.back() - now.memory[0]);
-  }
-  /// Positive while the slider goes on.
-  Dual slip_rate(int state, const LocalSignals& now) const {
-    Dual rate = sign(state) * now.velocity.back();
-    if (!rigid()) {
-      rate = c_.tangential_stiffness * rate;
-      if (has_normal()) rate.add(now.velocity[0], -c_.friction * c_.normal_stiffness);
-    }
-    return rate;
-  }
-  int closing(const LocalSignals& before) const {
-    const double v = before.velocity.back().value;
-    if (c_.friction == 0.0) return forward;
-    if (rigid()) return v == 0.0 ? stick : v > 0.0 ? forward : backward;
-    const double grows = c_.friction * c_.normal_stiffness * before.velocity[0].value;
-    if (c_.tangential_stiffness * std::abs(v) < grows) return stick;
-    return v > 0.0 ? forward : backward;
-  }
-
-  AnyContactLaw law_;
-  FrictionConstants c_;
-  double inverse_mass_, rate_;
-};
+/// Friction of this contact as a machine, or why there is none.
+std::shared_ptr<const LawMachine> friction_machine_of(const AnyContactLaw& law, const FrictionConstants& c,
+                                                      const ContactDynamics& dynamics, int row, double rate) {
+  constexpr double closer = 2.5;  // a deviation of slip in a plane leaves 2e-14 in a period
+  const bool rigid = std::isinf(c.tangential_stiffness);
+  const std::string contact = "machines_of: contact " + std::to_string(row);
+  if (c.tangents > 1 && rigid)
+    throw std::invalid_argument(contact +
+                                " has rigid friction along two tangents; expected a tangential stiffness");
+  if (c.tangents > 1) return detail::plane_friction_machine(law, closer * rate);
+  const double inverse_mass = inverse_mass_of(dynamics, row + c.normal_rows);
+  if (rigid && inverse_mass == 0.0 && c.static_friction > c.friction)
+    throw std::invalid_argument(contact +
+                                " has rigid friction with a static coefficient and no mass, so that nothing "
+                                "says how far it jumps; expected a tangential stiffness");
+  return detail::friction_machine(law, inverse_mass, rate);
+}
 
 std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const ContactDynamics& dynamics,
                                              int row, double length, double rate) {
-  if (const auto constants = law.friction()) {
-    constexpr double closer = 2.5;  // a deviation of slip in a plane leaves 2e-14 in a period
-    const bool plane = constants->tangents > 1;
-    if (plane && std::isinf(constants->tangential_stiffness))
-      throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
-                                  " has rigid friction along two tangents; expected a tangential stiffness");
-    if (plane) return detail::plane_friction_machine(law, closer * rate);
-    return std::make_shared<FrictionMachine>(law, inverse_mass_of(dynamics, row + constants->normal_rows),
-                                             rate);
-  }
+  if (const auto constants = law.friction()) return friction_machine_of(law, *constants, dynamics, row, rate);
   if (law.coupled()) return detail::coupled_machine(*law.coupled());
   if (law.acts_over_period())
     throw std::invalid_argument("machines_of: contact " + std::to_string(row) +

@@ -18,7 +18,16 @@ ContactFlow::Engine::Fit ContactFlow::Engine::fit_of(const detail::PanelShape& p
   // less.
   constexpr double most_rounding = 1e-3, of_moving = 1e-3;
   const Eigen::MatrixXd& force = found.values.force;
-  const bool moves = !found.values.memory_rate.isZero(0.0);
+  bool moves = false;
+  double settling = 0.0;
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const int state = now_.state[std::size_t(c)];
+    if (!contacts_.law(c).moves(state)) continue;
+    const auto rate = contacts_.law(c).settling_rate(state);
+    moves = moves || !rate;
+    settling = std::max(settling, rate.value_or(0.0));
+  }
+  if (2.0 * settling * panel.half() > double(panel.nodes())) return Fit::too_long;
   if (!found.converged || !force.allFinite()) return Fit::too_long;
   const double size = std::max(force_size_, force.cwiseAbs().maxCoeff());
   if (found.rounding > most_rounding * size) return Fit::no_digits;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "linalg/dense.hpp"
 
@@ -24,6 +25,20 @@ Eigen::MatrixXd differentiation(Index count) {
   return result;
 }
 
+constexpr std::size_t derivatives = std::tuple_size_v<decltype(PoleWaves::forces)>;
+
+// Legendre coefficients of the derivatives by x from values at the nodes of a panel.
+const std::array<Eigen::MatrixXd, derivatives>& coefficients_of_derivatives() {
+  static const auto all = [] {
+    std::array<Eigen::MatrixXd, derivatives> result;
+    const Eigen::MatrixXd by_x = differentiation(panel_nodes);
+    result[0] = LegendreNodes(panel_nodes).coefficients;
+    for (std::size_t d = 1; d < derivatives; ++d) result[d] = product(by_x, result[d - 1]);
+    return result;
+  }();
+  return all;
+}
+
 }  // namespace
 
 PoleWaves::PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, double half,
@@ -40,12 +55,10 @@ PoleWaves::PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, doub
     by_nodes.imag() = half * product(integrals.values().imag(), nodes.coefficients);
     driven.push_back(std::move(by_nodes));
   }
-  const Eigen::MatrixXd values = legendre_values(points, count), by_x = differentiation(count) / half;
-  Eigen::MatrixXd coefficients = nodes.coefficients;
-  for (Eigen::MatrixXd& derivative : forces) {
-    derivative = product(values, coefficients);
-    coefficients = product(by_x, coefficients);
-  }
+  const Eigen::MatrixXd values = legendre_values(points, count);
+  double scale = 1.0;
+  for (std::size_t d = 0; d < derivatives; ++d, scale /= half)
+    forces[d] = scale * product(values, coefficients_of_derivatives()[d]);
 }
 
 PanelShape::PanelShape(const ContactPoles& poles, const LegendreNodes& nodes, double half,

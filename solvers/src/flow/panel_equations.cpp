@@ -30,14 +30,23 @@ Contacts::Contacts(std::vector<ContactMachine> machines) : machines_(std::move(m
 }
 
 LocalValues::LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point)
-    : rows_(std::size_t(contacts.law(c).rows())), memories_(std::size_t(contacts.law(c).memories())) {
+    : rows_(std::size_t(contacts.law(c).rows())),
+      memories_(std::size_t(contacts.law(c).memories())),
+      row_(contacts.row(c)),
+      memory_begin_(contacts.memory_begin(c)) {
   int number = 0;
   for (std::size_t k = 0; k < read_kinds.size(); ++k)
+    for (std::size_t i = 0; i < rows_; ++i) values_[k][i] = Dual::signal(0.0, number++);
+  for (std::size_t j = 0; j < memories_; ++j) memory_[j] = Dual::signal(0.0, number++);
+  move_to(signals, point);
+}
+
+void LocalValues::move_to(const Signals& signals, Index point) {
+  for (std::size_t k = 0; k < read_kinds.size(); ++k)
     for (std::size_t i = 0; i < rows_; ++i)
-      values_[k][i] =
-          Dual::signal(signals[std::size_t(read_kinds[k])](contacts.row(c) + Index(i), point), number++);
+      values_[k][i].value = signals[std::size_t(read_kinds[k])](row_ + Index(i), point);
   for (std::size_t j = 0; j < memories_; ++j)
-    memory_[j] = Dual::signal(signals.memory(contacts.memory_begin(c) + Index(j), point), number++);
+    memory_[j].value = signals.memory(memory_begin_ + Index(j), point);
 }
 
 LocalSignals LocalValues::signals() const {
@@ -109,8 +118,9 @@ std::vector<std::vector<Dual>> law_equations(const Contacts& contacts, const Con
     if (count == 0) continue;
     equations.resize(first + count, std::vector<Dual>(std::size_t(nodes)));
     std::array<Dual, 3> values;
+    LocalValues local(contacts, c, signals, 0);
     for (Index n = 0; n < nodes; ++n) {
-      const LocalValues local(contacts, c, signals, n);
+      local.move_to(signals, n);
       values.fill(Dual());
       if (own > 0) contacts.law(c).equations(state, local.signals(), {values.data(), own});
       std::size_t next = 0;
@@ -264,6 +274,10 @@ void add_slopes(const Contacts& contacts, const FreeForces& free,
 
 }  // namespace
 
+double largest(const Eigen::MatrixXd& values) {
+  return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+}
+
 SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                         double force_size) {
   constexpr int most = 25;
@@ -289,8 +303,8 @@ SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, cons
     for (Index k = 0; k < count - forces; ++k)
       result.values.memory_rate.row(free.moving[std::size_t(k)].second) = unknown.row(forces + k);
     // Memories act by forces.
-    const double size = std::max(force_size, unknown.topRows(forces).cwiseAbs().maxCoeff()),
-                 change = step.head(forces * q).cwiseAbs().maxCoeff();
+    const double size = std::max(force_size, largest(unknown.topRows(forces))),
+                 change = forces > 0 || n > 0 ? largest(step.head(forces * q)) : size;
     result.converged = change <= rounding * size || (n > 0 && change < stalled * size && change > 0.1 * last);
     last = change;
     if (result.converged) add_slopes(contacts, free, equations, motion, result);

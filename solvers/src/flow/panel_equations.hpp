@@ -33,12 +33,15 @@ class Contacts {
 class LocalValues {
  public:
   LocalValues(const Contacts& contacts, Index c, const Signals& signals, Index point);
+  /// To another point of signals of the same contact: gradients stay.
+  void move_to(const Signals& signals, Index point);
   LocalSignals signals() const;
 
  private:
   std::array<std::array<Dual, 3>, 4> values_;
   std::array<Dual, 2> memory_;
   std::size_t rows_, memories_;
+  Index row_, memory_begin_;
 };
 
 /// Which forces, and which rates of memories, are unknown in the states of all contacts: all forces are
@@ -89,6 +92,8 @@ struct SolvedPanel {
   double rate = 0.0;      ///< rad/s, at which perturbations turn or decay by the slopes of the laws
   double rounding = 0.0;  ///< N, of forces that follow from displacements
 };
+/// The largest modulus; 0 of none.
+double largest(const Eigen::MatrixXd& values);
 SolvedPanel solve_panel(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                         double force_size);
 

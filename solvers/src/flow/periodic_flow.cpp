@@ -19,13 +19,19 @@ Motion empty_motion(Index rows, int points) {
   return {none, none, none};
 }
 
-FlowStatus sampled_period(ContactFlow& flow, Motion& motion) {
+FlowStatus sampled_period(ContactFlow& flow, Motion& motion, FlowMotion& result) {
   Index k = 0;
-  return flow.advance_period(motion.points(), [&](const FlowSample& sample) {
+  result.sampled_states.clear();
+  const FlowStatus status = flow.advance_period(motion.points(), [&](const FlowSample& sample) {
     motion.displacement.col(k) = sample.displacement;
     motion.velocity.col(k) = sample.velocity;
     motion.force.col(k++) = sample.force;
+    result.sampled_states.push_back(sample.states);
   });
+  result.events = flow.events();
+  result.impacts = detail::impacts_of(flow, 0.0);
+  result.cycles = flow.cycles();
+  return status;
 }
 
 // Periods one after the other until the motion repeats.
@@ -40,7 +46,7 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
     const PeriodStart begin{0.0, flow.state(), flow.contact_states()};
-    result.ended = sampled_period(flow, period);
+    result.ended = sampled_period(flow, period, result);
     if (result.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
     past.add(period.displacement);
     stepping.contacts = std::move(period);
@@ -89,19 +95,14 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
   FlowMotion result;
   result.machines = flow.machines();
   result.stepping.status = run(flow, problem, options, result);
-  result.events = flow.events();
-  result.impacts = detail::impacts_of(flow, 0.0);
   result.rests = flow.rests();
   result.states = flow.contact_states();
   result.state = flow.state();
   if (result.stepping.status == TimeSteppingStatus::converged) close(flow, result);
   if (std::isfinite(result.closed)) {
     Motion period = empty_motion(problem.dynamics.contacts(), options.output_points);
-    if (sampled_period(flow, period) == FlowStatus::converged) {
+    if (sampled_period(flow, period, result) == FlowStatus::converged)
       result.stepping.contacts = std::move(period);
-      result.events = flow.events();
-      result.impacts = detail::impacts_of(flow, 0.0);
-    }
   }
   return result;
 }

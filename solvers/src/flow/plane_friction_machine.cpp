@@ -78,6 +78,16 @@ class PlaneFrictionMachine final : public LawMachine {
     return rubs() && c_.tangential_stiffness * speed(before).value < limit_rate(before).value ? stick : slip;
   }
 
+  Sliding sliding(int state, const LocalSignals& now) const override {
+    Sliding result;
+    if (state == open) return result;
+    for (std::size_t i = first_; i < first_ + 2; ++i)
+      result.power += now.force[i].value * now.velocity[i].value;
+    if (state == slip && rubs()) result.speed = slip_rate(now).value / c_.tangential_stiffness;
+    result.wear = normal(now).value * result.speed;
+    return result;
+  }
+
   int start(std::span<const double> displacement, std::span<double> memory) const override {
     std::array<double, 3> force{};
     const std::array<double, 3> none{};

@@ -73,7 +73,7 @@ double Variation::unresolved(const Contacts& contacts, const ContactStates& now,
   const FreeForces free(contacts, now.state, motion.poles.holding() > 0.0);
   const Eigen::MatrixXd changes = behind.of_unknowns(contacts, now, free, motion, values);
   const Index q = motion.shape.nodes(), forces = Index(free.rows.size());
-  const double size = std::max(force_size_, changes.topRows(forces * q).cwiseAbs().maxCoeff());
+  const double size = std::max(force_size_, largest(changes.topRows(forces * q)));
   double result = 0.0;
   for (Index f = 0; f < forces; ++f)
     result = std::max(result, motion.shape.unresolved(changes.middleRows(f * q, q).transpose(), size));

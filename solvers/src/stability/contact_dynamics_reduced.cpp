@@ -1,13 +1,12 @@
 #include "stability/contact_dynamics_reduced.hpp"
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "linalg/sparse.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -50,12 +49,11 @@ LinearStructure projected(const LinearStructure& structure, const Eigen::MatrixX
 // Reduces a structure without symmetry, whose `metric` is the symmetric part of its stiffness.
 LinearStructure unsymmetric_reduction(const LinearStructure& structure,
                                       const Eigen::SparseMatrix<double>& metric, int vectors) {
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor;
-  factor.compute(structure.stiffness);  // not singular, since its symmetric part is definite
+  detail::SparseLu factor(structure.stiffness);  // not singular, since its symmetric part is definite
   Eigen::MatrixXd basis(structure.size(), std::min<Index>(vectors, structure.size()));
   const Eigen::MatrixXd forces = structure.contact_directions.transpose();
   Eigen::MatrixXd block(structure.size(), 2 * forces.cols());
-  block << factor.solve(forces), factor.transpose().solve(forces);
+  block << factor.solve(forces), factor.solve_transposed(forces);
   Index count = append_orthonormal(metric, block, basis, 0), start = 0;
   while (count < basis.cols() && count > start) {
     const auto last = basis.middleCols(start, count - start);
@@ -74,8 +72,8 @@ LinearStructure krylov_reduction(const LinearStructure& structure, int vectors) 
   const bool symmetric = structure.symmetric();
   Eigen::SparseMatrix<double> metric = structure.stiffness;
   if (!symmetric) metric = 0.5 * (metric + Eigen::SparseMatrix<double>(metric.transpose()));
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(metric);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0))
+  const detail::PositiveFactor factor(metric);
+  if (!factor.exists())
     throw std::invalid_argument("ContactDynamics: stiffness (" + std::to_string(structure.size()) +
                                 " degrees of freedom) is not positive definite; a structure that is reduced "
                                 "must be held, or max_size must be at least its size");

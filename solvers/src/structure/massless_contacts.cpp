@@ -1,6 +1,5 @@
 #include "wavebalance/solvers/structure/massless_contacts.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -48,9 +47,10 @@ Eigen::MatrixXd transformation(const Eigen::VectorXd& omega, const Eigen::Matrix
   const Eigen::MatrixXd deflections = high * scaled.transpose();  // n x C, per unit force
   const Eigen::MatrixXd flexibility = directions * deflections;
   const std::vector<Eigen::Index> chosen = independent_contacts(flexibility);
-  const Eigen::MatrixXd residual = Eigen::LLT<Eigen::MatrixXd>(flexibility(chosen, chosen))
-                                       .solve(deflections(Eigen::all, chosen).transpose())
-                                       .transpose();
+  const auto lower = detail::cholesky(flexibility(chosen, chosen));
+  if (!lower) refuse(kept);
+  const Eigen::MatrixXd unit = detail::solve_lower(*lower, deflections(Eigen::all, chosen).transpose()),
+                        residual = detail::solve_lower_transposed(*lower, unit).transpose();
   Eigen::MatrixXd result(low.rows(), kept + residual.cols());
   result.leftCols(kept) = low - residual * at_contacts(chosen, Eigen::all);
   result.rightCols(residual.cols()) = residual;

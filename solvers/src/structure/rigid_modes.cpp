@@ -1,11 +1,11 @@
 #include "wavebalance/solvers/structure/rigid_modes.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <random>
 #include <stdexcept>
 #include <string>
 
 #include "linalg/dense.hpp"
+#include "linalg/sparse.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
@@ -24,9 +24,8 @@ detail::SymmetricEigen modes_of(const Eigen::MatrixXd& stiffness, const Eigen::M
 // The lowest modes by inverse iteration on a subspace of K + shift M.
 detail::SymmetricEigen lowest_modes(const Sparse& mass, const Sparse& stiffness, double shift) {
   constexpr int vectors = 12, iterations = 20;
-  const Eigen::SimplicialLDLT<Sparse> factor(stiffness + shift * mass);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0))
-    fail("the stiffness has a negative eigenvalue");
+  const detail::PositiveFactor factor(stiffness + shift * mass);
+  if (!factor.exists()) fail("the stiffness has a negative eigenvalue");
   std::minstd_rand generator(1);
   std::normal_distribution<double> normal;
   Eigen::MatrixXd basis =

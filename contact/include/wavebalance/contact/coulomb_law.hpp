@@ -19,6 +19,11 @@ struct FrictionParameters {
   double normal_load = 0.0;           ///< N0 >= 0, N, the normal force at zero displacement
   int tangents = 1;                   ///< 1 or 2 orthogonal directions
   std::vector<double> slider = {};    ///< m, position of the slider at rest, one per tangent; empty: 0
+  /// The coefficient that ends sticking, at least `friction`; 0: that.
+  double static_friction = 0.0;
+  double surface_speed = 0.0;       ///< m/s, of the surface along the tangent: a belt, a journal
+  double tangential_damping = 0.0;  ///< N s/m, >= 0, beside the spring k_t, which is then finite
+  double normal_damping = 0.0;      ///< N s/m, >= 0, beside the normal spring; the contact does not pull
 };
 
 /// The friction of a contact over a period, N samples.
@@ -50,6 +55,10 @@ struct FrictionPeriod {
 /// of the step; a radial return is of first order. With one tangent the force after one period is periodic
 /// exactly; with two, Newton's method closes the period.
 ///
+/// Against a surface that moves, with a larger coefficient at rest, or with dashpots beside its springs the
+/// force depends on velocities and on what the contact does: such a law of one tangent, needs_states(), has
+/// no steps over samples, and the solvers take it as a machine of states.
+///
 /// With an infinite k_t friction is rigid: what its force is at a displacement is not determined, and the law
 /// in series with springs, resolvent(), takes its place. That of a spring h is elastic friction with k_t = 1
 /// / h.
@@ -59,7 +68,8 @@ struct FrictionPeriod {
 class CoulombLaw {
  public:
   /// Throws std::invalid_argument for parameters out of range, a slider with another number of entries than
-  /// tangents, and without a normal direction for N0 = 0.
+  /// tangents, without a normal direction for N0 = 0 and a normal damping, for a tangential damping beside no
+  /// spring, and for two tangents of a law that needs states.
   explicit CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> normal = {});
 
   /// Its row of the catalogue, and the law of complete values: without a normal direction where
@@ -73,6 +83,12 @@ class CoulombLaw {
   double friction() const { return parameters_.friction; }
   double tangential_stiffness() const { return parameters_.tangential_stiffness; }
   bool rigid() const { return std::isinf(parameters_.tangential_stiffness); }  ///< along its tangents
+  double static_friction() const { return parameters_.static_friction; }
+  double surface_speed() const { return parameters_.surface_speed; }
+  double tangential_damping() const { return parameters_.tangential_damping; }
+  double normal_damping() const { return parameters_.normal_damping; }
+  /// Whether its force follows from a machine of states alone, and not from steps.
+  bool needs_states() const;
   double gap() const { return normal_ ? normal_->gap() : 0.0; }  ///< g0, m; 0 without a normal direction
   /// k_n, N/m; 0 without a normal direction.
   double normal_stiffness() const { return normal_ ? normal_->stiffness() : 0.0; }
@@ -81,18 +97,19 @@ class CoulombLaw {
 
   /// The law in series with a spring along each row (flexibility > 0, m/N), of the displacements u +
   /// flexibility f. Throws std::invalid_argument for another number of flexibilities than rows(), one that is
-  /// not positive and finite, and two tangents of which they differ.
+  /// not positive and finite, two tangents of which they differ, and a law that needs states.
   CoulombLaw resolvent(std::span<const double> flexibility) const;
 
   /// The periodic forces of `points` samples of the displacements of all rows, row after row, m. Throws
-  /// std::invalid_argument for rigid friction.
+  /// std::invalid_argument for rigid friction and a law that needs states.
   FrictionPeriod over_period(int points, std::span<const double> displacement, bool with_slopes) const;
 
   /// The forces at the end of a step, over which displacements go straight from `before` and which they
   /// change: the displacements at its end are v - flexibility f, f the force along the same row (flexibility
   /// >= 0, m/N). `force` holds those before the step and receives those after it. All spans have rows()
   /// entries. With flexibilities of 0 it is the step of over_period(). Rigid friction takes positive ones
-  /// along tangents, and the straight step is then that of v.
+  /// along tangents, and the straight step is then that of v. Throws std::invalid_argument for a law that
+  /// needs states.
   void advance(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
                std::span<double> force) const;
   /// The same of displacements at rest, reached from the slider's position at rest.
@@ -118,6 +135,10 @@ class CoulombLaw {
     if (state == FrictionState::slip) return force < 0.0 ? 3 : 2;
     return state == FrictionState::stick ? 1 : 0;
   }
+
+  void require_steps() const;
+  void step(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
+            std::span<double> force) const;
 
   FrictionParameters parameters_;
   std::optional<LinearLaw> normal_;

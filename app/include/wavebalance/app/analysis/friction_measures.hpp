@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/contact/coulomb_law.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -14,16 +15,20 @@ struct FrictionMeasures {
   int row = 0;     ///< the first of its directions of contact, from 0
   int number = 1;  ///< SceneContact::number
   contact::CoulombLaw law;
-  contact::FrictionPeriod period;                                         ///< at the instants of the motion
+  std::vector<contact::FrictionState> state = {};                         ///< at the instants of the motion
   double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
-  double slip = 0.0;   ///< m, the distance that the slider moves in the period
-  double wear = 0.0;   ///< m^3 per period [Archard]; 0 without a coefficient and where it sticks
-  bool wears = false;  ///< whether its law has a coefficient of wear
+  double work = 0.0;                                                      ///< J, dissipated in the period
+  double slip = 0.0;               ///< m, the distance that the slider moves over its surface in the period
+  double wear = 0.0;               ///< m^3 per period [Archard]; 0 without a coefficient and where it sticks
+  bool wears = false;              ///< whether its law has a coefficient of wear
+  bool history_dependent = false;  ///< whether it neither slips nor opens, so that the past decides its force
 };
 
 /// The measures of all contacts with friction along a motion of one period, whose rows are the directions of
-/// contact. Empty without such contacts. O(directions instants).
+/// contact, from its samples. Empty without such contacts. O(directions instants).
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts);
+/// Those of a response: of a motion that is known between events they are exact.
+std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
 /// What all contacts with friction do in a period: their work, and the means of their shares of it.
 struct FrictionShares {

@@ -149,6 +149,9 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
 /// times as long as the balance at 1e-7, whose sizes end near 1e-9.
 double largest_phases_tolerance(int contacts);
 
+/// Whether the response is the motion of the structure itself, and not a balance beside it.
+bool is_by_phases(const Response& response);
+
 /// The motion of the structure itself by phases of contact, to time.tolerance: of scenes with time.method =
 /// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a
 /// motion, and where there is none from the motion that the structure settles to. The status is that of the

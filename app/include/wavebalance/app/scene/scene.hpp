@@ -185,6 +185,9 @@ bool names_friction(const Contact& contact);
 bool takes_energy(const Contact& contact);
 /// Whether one of these has friction without tangential_stiffness, which is rigid.
 bool names_rigid_friction(const Contact& contact);
+/// Whether one of these has friction against a surface that moves, with static_friction above friction, or
+/// with dashpots beside its springs, so that its force follows from its states alone.
+bool names_friction_of_states(const Contact& contact);
 /// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
 /// have no functions.
 bool has_impacts(const Contact& contact);
@@ -345,7 +348,8 @@ std::string name_of(LoadKind value);
 std::vector<std::string> input_files(const Scene& scene);
 
 /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other laws
-/// or of a structure that is free to move, of friction of such a structure, and of rigid friction at a
+/// or of a structure that is free to move, of friction of such a structure, of friction that follows from its
+/// states alone, and of rigid friction at a
 /// contact that keeps its mass, as it does where the scene names no bases.
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.

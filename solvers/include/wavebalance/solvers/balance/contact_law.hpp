@@ -295,9 +295,11 @@ class AnyContactLaw {
     }
     std::optional<FrictionConstants> friction() const override {
       if constexpr (IsElasticFriction<Law>)
-        return FrictionConstants{law_.friction(),         law_.tangential_stiffness(),
-                                 law_.normal_stiffness(), law_.raw_normal_force(0.0),
-                                 law_.normal_rows(),      law_.tangents()};
+        return FrictionConstants{law_.friction(),           law_.tangential_stiffness(),
+                                 law_.normal_stiffness(),   law_.raw_normal_force(0.0),
+                                 law_.normal_rows(),        law_.tangents(),
+                                 law_.static_friction(),    law_.surface_speed(),
+                                 law_.tangential_damping(), law_.normal_damping()};
       else
         return std::nullopt;
     }

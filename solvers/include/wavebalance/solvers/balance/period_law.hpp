@@ -62,8 +62,8 @@ concept OffersPeriodResolvent = PeriodLaw<Law> && requires(const Law& law, std::
   { law.resolvent(rows) } -> PeriodLaw;
 };
 
-/// The numbers of an elastic Coulomb contact, of which the stability of its motions follows. Its rows are the
-/// normal direction, where there is one, then the tangents.
+/// The numbers of a Coulomb contact, of which its motions follow. Its rows are the normal direction, where
+/// there is one, then the tangents.
 struct FrictionConstants {
   double friction = 0.0;              ///< mu
   double tangential_stiffness = 0.0;  ///< N/m
@@ -71,6 +71,15 @@ struct FrictionConstants {
   double normal_load = 0.0;           ///< N, at zero displacement, negative beyond a gap
   int normal_rows = 0;                ///< 1 with a normal direction
   int tangents = 1;
+  double static_friction = 0.0;                           ///< >= mu, that ends sticking
+  double surface_speed = 0.0;                             ///< m/s, of the surface along the tangent
+  double tangential_damping = 0.0, normal_damping = 0.0;  ///< N s/m, beside the springs
+
+  /// Whether the force follows from a machine of states alone, and not from steps over samples.
+  bool needs_states() const {
+    return static_friction > friction || surface_speed != 0.0 || tangential_damping > 0.0 ||
+           normal_damping > 0.0;
+  }
 };
 
 /// A law of elastic Coulomb friction, which says its constants. `piece` of its tangents is 0 where the
@@ -84,6 +93,10 @@ concept IsElasticFriction = AdvancesInSteps<Law> && requires(const Law& law) {
   { law.raw_normal_force(0.0) } -> std::convertible_to<double>;  // N, at zero displacement
   { law.normal_rows() } -> std::convertible_to<int>;
   { law.tangents() } -> std::convertible_to<int>;
+  { law.static_friction() } -> std::convertible_to<double>;
+  { law.surface_speed() } -> std::convertible_to<double>;
+  { law.tangential_damping() } -> std::convertible_to<double>;
+  { law.normal_damping() } -> std::convertible_to<double>;
 };
 
 /// The derivative of the contact forces over a period by the motion of the contacts, samples contact-major.

@@ -50,6 +50,7 @@ struct FlowEvent {
 struct FlowSample {
   double time = 0.0;                              ///< s
   Eigen::VectorXd displacement, velocity, force;  ///< m, m/s, N
+  std::vector<int> states;                        ///< of the machines
 };
 
 /// A part of a period in which no contact changes its state.
@@ -107,6 +108,8 @@ class ContactFlow {
   const std::vector<FlowPanel>& panels() const;
   /// The largest displacement of a contact that a number of state() makes, m.
   Eigen::VectorXd displacements_by_state() const;
+  /// What each machine's contact did in the last period.
+  const std::vector<FrictionCycle>& cycles() const;
   /// Impacts without rebound since they were below rest_velocity, in the last period.
   int rests() const;
   /// m, by memories: how far a slider that stuck in all of the last period lies in front of the middle of the

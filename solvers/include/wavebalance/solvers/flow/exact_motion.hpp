@@ -34,16 +34,4 @@ PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& st
 PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                          const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 
-/// What a contact with friction does in a period.
-struct FrictionCycle {
-  int row = 0;        ///< the first of its contact directions
-  double work = 0.0;  ///< J, that friction takes in a period
-  double slip = 0.0;  ///< m, the distance that the slider moves while it slips
-  double stick_share = 0.0, slip_share = 0.0, open_share = 0.0;  ///< of the period
-};
-
-/// Of each contact of a motion with friction, to the accuracy of its forces and velocities. Throws
-/// std::invalid_argument without a motion.
-std::vector<FrictionCycle> friction_cycles(const PhaseMotion& motion);
-
 }  // namespace wavebalance::solvers

@@ -8,6 +8,7 @@
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/flow/dual.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
 namespace wavebalance::solvers {
 
@@ -40,8 +41,12 @@ struct StateExit {
   std::optional<Impulse> impulse{};
 };
 
-/// How a contact in a state is told in results.
-enum class ContactState { open, closed, stick, slip };
+/// What a contact with friction does at an instant.
+struct Sliding {
+  double speed = 0.0;  ///< m/s, of the slider over its surface
+  double wear = 0.0;   ///< W, the normal force times that speed [Archard]
+  double power = 0.0;  ///< W, that the tangential force takes over the surface
+};
 
 /// A contact law as a machine of states. A state says which forces are free and the equations that determine
 /// them, and the exits by which it ends: each has a guard, positive within the state and zero at the instant,
@@ -57,6 +62,9 @@ class LawMachine {
   virtual bool remembers(int /*state*/) const { return false; }
   /// Whether its memories move in a state, by rates().
   virtual bool moves(int /*state*/) const { return false; }
+  /// 1/s, at which memories that move come to rest by themselves, which a panel has to resolve; nothing where
+  /// they turn as fast as the forces tell.
+  virtual std::optional<double> settling_rate(int /*state*/) const { return std::nullopt; }
   virtual ContactState kind(int state) const = 0;
   /// One per row.
   virtual std::vector<RowForce> forces(int state) const = 0;
@@ -79,6 +87,9 @@ class LawMachine {
   }
   /// The state behind an impulse at another contact that has changed the velocity of this one.
   virtual int after_impulse(int state, const LocalSignals& /*after*/) const { return state; }
+  virtual Sliding sliding(int /*state*/, const LocalSignals& /*now*/) const { return {}; }
+  /// The same times a time, of what happens at an exit at once.
+  virtual Sliding sudden(int /*state*/, int /*exit*/, const LocalSignals& /*now*/) const { return {}; }
   /// The state in which displacements at rest begin, and its memories.
   virtual int start(std::span<const double> displacement, std::span<double> memory) const = 0;
   /// The state in which a motion has these displacements and forces at an instant, and its memories.

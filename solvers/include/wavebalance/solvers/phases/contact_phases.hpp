@@ -107,7 +107,8 @@ class PhaseMotion {
   std::vector<ContactPhase> phases;  ///< by contact, then by begin
   /// Contacts with friction by the parts of the period in which they are open, stick and slip.
   std::vector<FrictionAlong> friction;
-  std::vector<Impact> impacts;  ///< by time
+  std::vector<FrictionCycle> cycles;  ///< of these
+  std::vector<Impact> impacts;        ///< by time
   int unknowns = 0, iterations = 0, changes = 0;
   double residual = 0.0;  ///< of the equations, relative to the largest force and displacement
   /// Relative rms error of the displacements, by the last Legendre coefficients and the residual.

@@ -62,6 +62,21 @@ struct FrictionPart {
       0.0;  ///< of stick after closing: the tangential velocity over the normal one at that instant
 };
 
+/// What a contact does at an instant.
+enum class ContactState { open, closed, stick, slip };
+
+/// What a contact does in a period, to the accuracy of its forces and velocities.
+struct FrictionCycle {
+  int row = 0;                        ///< the first of its contact directions
+  double work = 0.0;                  ///< J, that friction takes over its surface, with dashpots beside it
+  double slip = 0.0;                  ///< m, the distance that the slider moves over its surface
+  double wear = 0.0;                  ///< J, the normal force times that distance [Archard]
+  std::array<double, 4> shares = {};  ///< of the period, by ContactState
+
+  double& share(ContactState state) { return shares[static_cast<std::size_t>(state)]; }
+  double share(ContactState state) const { return shares[static_cast<std::size_t>(state)]; }
+};
+
 /// A contact with friction along a motion.
 struct FrictionAlong {
   int row = 0;  ///< the first of its contact directions

@@ -1,0 +1,32 @@
+# Each factorization of Eigen takes the compiler seconds: it is included by the files of this list alone, behind plain functions.
+#   cmake -D root=<project> -P check_factorizations.cmake
+cmake_minimum_required(VERSION 3.25)
+set(allowed
+  solvers/src/linalg/ solvers/src/structure/condensation_sparse.cpp  # that of sparse complex matrices
+  app/src/compose/ fem/src/simplicial_factor.cpp fem/src/hexahedron.cpp wavelets/src/refinable.cpp
+  tests/support/dense_algebra.cpp tests/support/dense_system.cpp tests/support/period_oracle/shooting_propagator.cpp
+  # Oracles of one suite each, and what bench compares with.
+  bench/ contact/tests/quadratic_program.hpp fem/tests/bar_test.cpp reproduce/laxalde_legrand_2010/modes/tests/rayleigh_quotient_test.cpp
+  solvers/tests/modes/elastic_mode_test.cpp solvers/tests/support/friction_oracle.hpp tests/extremes/random_structures.cpp
+  tests/pairs/dense_oracle_test.cpp tests/pairs/slopes_test.cpp)
+set(faults "")
+foreach(module app bench contact fem python reproduce solvers spectral tests wavelets)
+  file(GLOB_RECURSE files RELATIVE ${root} ${root}/${module}/*.cpp ${root}/${module}/*.hpp)
+  foreach(file IN LISTS files)
+    file(STRINGS ${root}/${file} found REGEX "^#include <(Eigen/(Cholesky|Dense|Eigenvalues|LU|QR|SVD|Sparse|SparseCholesky|SparseLU|SparseQR))>")
+    set(known FALSE)
+    foreach(one IN LISTS allowed)
+      string(FIND ${file} ${one} at)
+      if(at EQUAL 0)
+        set(known TRUE)
+      endif()
+    endforeach()
+    if(found AND NOT known)
+      list(APPEND faults "${file}: ${found}")
+    endif()
+  endforeach()
+endforeach()
+if(faults)
+  list(JOIN faults "\n  " text)
+  message(FATAL_ERROR "factorizations beside linalg/dense.hpp and linalg/sparse.hpp, which have them compiled once:\n  ${text}")
+endif()
