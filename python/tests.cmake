@@ -56,7 +56,7 @@ else()
   foreach(test IN LISTS tests)
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(pages_${name} LABEL paper COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/pages ${test})
-    set_tests_properties(python.pages_${name} PROPERTIES TIMEOUT 600)  # two minutes alone
+    set_tests_properties(python.pages_${name} PROPERTIES TIMEOUT 600 RESOURCE_LOCK chromium)  # a minute alone, which takes both cores
   endforeach()
 endif()
 file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/examples/*.py)

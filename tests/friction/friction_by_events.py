@@ -158,6 +158,8 @@ class FrictionFlow:
         while t < end:
             times, path, number = self.until_event(t, end, y, state)
             parts.append((times, path, state))
+            if len(parts) > 1000:
+                raise RuntimeError("events without end")
             t, y = times[-1], path[:, -1]
             if state in (1, -1):
                 self.slip += abs(path[-1, -1] - path[-1, 0] - self.c["surface_speed"] * (times[-1] - times[0]))
