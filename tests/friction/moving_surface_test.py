@@ -33,12 +33,12 @@ CASES = {
 }
 
 
-def solve(folder, structure, contact, load, frequency, analysis="forced_response", normal=None, **more):
+def solve(folder, structure, contact, load, frequency, analysis="forced_response", normal=None, output_points=4096):
     pair = {"law": "coulomb", "dofs": [1]} if normal is None else {"law": "coulomb", "dofs": [normal + 1], "tangent": [1]}
     terms = [{"dofs": [i + 1], "amplitude": one} for i, one in enumerate(load)]
     scene = {"structure": {"type": "matrices"} | structure, "contact": {"pairs": [pair | contact]},
              "forcing": {"frequency": frequency, "terms": terms},
-             "analysis": {"type": analysis, "output_points": 4096} | more}
+             "analysis": {"type": analysis, "output_points": output_points}}
     record = wb.run(scene, output=folder / "out")
     with open(folder / "out" / "friction.csv") as file:
         u = np.array([float(row["displacement_m"]) for row in csv.DictReader(file)])
@@ -175,3 +175,9 @@ def test_two_tangents_and_modes_are_refused(tmp_path):
     scene["analysis"] = {"type": "nonlinear_mode"}
     with pytest.raises(ValueError, match="not with contact.surface_speed"):
         wb.run(scene)
+
+
+def test_in_time_few_output_points_are_enough(tmp_path):
+    summary, u = solve(tmp_path, **case("elastic with static friction"), analysis="time_stepping", output_points=16)
+    assert summary["status"] == "converged"
+    assert len(u) == 16
