@@ -266,7 +266,7 @@ LawDescription CoulombLaw::description() {
                      "coefficient of friction that ends sticking, at least friction; without it friction",
                      LawRange{.lower = 0.0, .upper = 1e3}}),
            may_lack({"surface_speed", "m/s",
-                     "speed of the surface along the tangent, that of a belt or a journal; without it 0"}),
+                     "speed of the surface along the tangent, as of a belt or a journal; without it 0"}),
            may_lack({"tangential_damping", "N s/m",
                      "dashpot beside the spring tangential_stiffness; without it none", at_least_zero}),
            may_lack(
@@ -278,18 +278,15 @@ LawDescription CoulombLaw::description() {
 }
 
 CoulombLaw CoulombLaw::of(const LawValues& values) {
-  const double stiffness_of_slider = values.contains("tangential_stiffness")
-                                         ? number_of(values, "tangential_stiffness")
-                                         : std::numeric_limits<double>::infinity();
-  FrictionParameters parameters{number_of(values, "friction"), stiffness_of_slider,
-                                number_of(values, "normal_load"),
-                                static_cast<int>(number_of(values, "tangents"))};
+  constexpr double rigid = std::numeric_limits<double>::infinity();
+  FrictionParameters parameters{
+      number_of(values, "friction"), number_or(values, "tangential_stiffness", rigid),
+      number_of(values, "normal_load"), static_cast<int>(number_of(values, "tangents"))};
   parameters.slider.assign(static_cast<std::size_t>(parameters.tangents), number_of(values, "slider"));
-  const auto given = [&](const char* name) { return values.contains(name) ? number_of(values, name) : 0.0; };
-  parameters.static_friction = given("static_friction");
-  parameters.surface_speed = given("surface_speed");
-  parameters.tangential_damping = given("tangential_damping");
-  parameters.normal_damping = given("normal_damping");
+  parameters.static_friction = number_or(values, "static_friction", 0.0);
+  parameters.surface_speed = number_or(values, "surface_speed", 0.0);
+  parameters.tangential_damping = number_or(values, "tangential_damping", 0.0);
+  parameters.normal_damping = number_or(values, "normal_damping", 0.0);
   const double stiffness = number_of(values, "normal_stiffness");
   if (stiffness > 0.0) return CoulombLaw(parameters, LinearLaw(stiffness, number_of(values, "normal_gap")));
   return CoulombLaw(parameters);

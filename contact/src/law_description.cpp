@@ -99,6 +99,10 @@ double number_of(const LawValues& values, std::string_view name) {
   return std::get<double>(value_of(values, name));
 }
 
+double number_or(const LawValues& values, std::string_view name, double without) {
+  return values.contains(name) ? number_of(values, name) : without;
+}
+
 const std::vector<double>& list_of(const LawValues& values, std::string_view name) {
   return std::get<std::vector<double>>(value_of(values, name));
 }

@@ -57,8 +57,7 @@ LawDescription RingLaw::description() {
 }
 
 RingLaw RingLaw::of(const LawValues& values) {
-  return {number_of(values, "stiffness"), number_of(values, "gap"),
-          values.contains("friction") ? number_of(values, "friction") : 0.0};
+  return {number_of(values, "stiffness"), number_of(values, "gap"), number_or(values, "friction", 0.0)};
 }
 
 }  // namespace wavebalance::contact

@@ -87,7 +87,7 @@ contact::FrictionState state_of(solvers::FrictionPart::State state) {
                                    : solvers::ContactState::slip);
 }
 
-/// Of a motion between events, and of one in time from event to event.
+/// The measures of an exact motion, and of one that was integrated in time.
 std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& places,
                                              const solvers::PhaseMotion& motion, int points) {
   std::vector<FrictionMeasures> all;

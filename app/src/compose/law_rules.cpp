@@ -151,12 +151,9 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
 }
 
-/// What makes the force follow from the states of the contact goes together.
+/// Keys of friction without steps over samples: their ranges beside each other.
 void check_friction_of_states(const Document& document, const Scene& scene, const SceneContact& contact) {
-  const auto given = [&](const char* key) {
-    const auto found = contact.values.find(key);
-    return found == contact.values.end() ? 0.0 : std::get<double>(found->second);
-  };
+  const auto given = [&](const char* key) { return contact::number_or(contact.values, key, 0.0); };
   const double friction = given("friction"), at_rest = given("static_friction");
   const bool rigid = !contact.values.contains("tangential_stiffness");
   if (contact.values.contains("static_friction") && at_rest < friction)

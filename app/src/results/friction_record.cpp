@@ -127,8 +127,7 @@ void append_equivalent_damping(Record& record, const Scene& scene, const Structu
   // A surface that moves drives the structure, too.
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool drives = std::any_of(contacts.begin(), contacts.end(), [](const SceneContact& one) {
-    const auto speed = one.values.find("surface_speed");
-    return speed != one.values.end() && std::get<double>(speed->second) != 0.0;
+    return contact::number_or(one.values, "surface_speed", 0.0) != 0.0;
   });
   const auto* work = value_in<double>(record.summary, quantities::friction_work.name);
   const Eigen::MatrixXd& velocity = response.structure.velocity;

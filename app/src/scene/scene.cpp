@@ -66,11 +66,6 @@ bool rubs(const Contact& contact, Kind kind) {
                                : std::any_of(contact.pairs.begin(), contact.pairs.end(), is_it);
 }
 
-double number_in(const contact::LawValues& values, std::string_view name) {
-  const auto found = values.find(name);
-  return found == values.end() ? 0.0 : std::get<double>(found->second);
-}
-
 }  // namespace
 
 bool names_rigid_friction(const Contact& contact) {
@@ -80,9 +75,9 @@ bool names_rigid_friction(const Contact& contact) {
 
 bool names_friction_of_states(const Contact& contact) {
   return rubs(contact, [](const contact::LawValues& values) {
-    return number_in(values, "surface_speed") != 0.0 || number_in(values, "tangential_damping") > 0.0 ||
-           number_in(values, "normal_damping") > 0.0 ||
-           number_in(values, "static_friction") > number_in(values, "friction");
+    const auto given = [&](std::string_view name) { return contact::number_or(values, name, 0.0); };
+    return given("surface_speed") != 0.0 || given("tangential_damping") > 0.0 ||
+           given("normal_damping") > 0.0 || given("static_friction") > given("friction");
   });
 }
 

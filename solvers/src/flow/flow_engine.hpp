@@ -84,6 +84,12 @@ class ContactFlow::Engine {
     return {poles_, shape, time_, states_, now_.memory};
   }
   const detail::PanelShape& shape(int level);
+  /// Whether memories turn as fast as forces tell, and at what rate others settle, 1/s.
+  struct Moving {
+    bool turn = false;
+    double settling_rate = 0.0;
+  };
+  Moving moving() const;
   Fit fit_of(const detail::PanelShape& panel, const detail::SolvedPanel& found) const;
   std::optional<Solved> solve_next();
   detail::NodeValues no_values() const {

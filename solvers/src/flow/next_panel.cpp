@@ -9,6 +9,19 @@
 
 namespace wavebalance::solvers {
 
+// How the memories of the contacts move that do.
+ContactFlow::Engine::Moving ContactFlow::Engine::moving() const {
+  Moving result;
+  for (Index c = 0; c < contacts_.count(); ++c) {
+    const int state = now_.state[std::size_t(c)];
+    if (!contacts_.law(c).moves(state)) continue;
+    const auto rate = contacts_.law(c).settling_rate(state);
+    result.turn = result.turn || !rate;
+    result.settling_rate = std::max(result.settling_rate, rate.value_or(0.0));
+  }
+  return result;
+}
+
 // Whether the nodes of a panel resolve forces and perturbations. These may move faster than the motion does:
 // at most one radian a node. Sliders that move do so on any panel beside the instants at which the force that
 // turns them vanishes: there counts the impulse on perturbations that is not resolved.
@@ -18,25 +31,17 @@ ContactFlow::Engine::Fit ContactFlow::Engine::fit_of(const detail::PanelShape& p
   // less.
   constexpr double most_rounding = 1e-3, of_moving = 1e-3;
   const Eigen::MatrixXd& force = found.values.force;
-  bool moves = false;
-  double settling = 0.0;
-  for (Index c = 0; c < contacts_.count(); ++c) {
-    const int state = now_.state[std::size_t(c)];
-    if (!contacts_.law(c).moves(state)) continue;
-    const auto rate = contacts_.law(c).settling_rate(state);
-    moves = moves || !rate;
-    settling = std::max(settling, rate.value_or(0.0));
-  }
-  if (2.0 * settling * panel.half() > double(panel.nodes())) return Fit::too_long;
+  const Moving memories = moving();
+  if (2.0 * memories.settling_rate * panel.half() > double(panel.nodes())) return Fit::too_long;
   if (!found.converged || !force.allFinite()) return Fit::too_long;
   const double size = std::max(force_size_, force.cwiseAbs().maxCoeff());
   if (found.rounding > most_rounding * size) return Fit::no_digits;
-  const double tolerance = (moves ? of_moving : 1.0) * options_.tolerance,
+  const double tolerance = (memories.turn ? of_moving : 1.0) * options_.tolerance,
                allowed = std::max(tolerance * size, found.rounding);
   if (panel.unresolved(force, force_size_) * size > allowed) return Fit::too_long;
   const double turns = variation_.empty() ? 0.0 : 2.0 * found.rate * panel.half() / double(panel.nodes());
   if (turns <= 1.0) return Fit::fits;
-  if (!moves) return Fit::too_long;
+  if (!memories.turn) return Fit::too_long;
   const double missed = variation_.unresolved(contacts_, now_, motion(panel), found.values) * 2.0 *
                         panel.half() / poles_.period();
   return missed <= options_.tolerance ? Fit::fits : Fit::too_long;

@@ -63,7 +63,7 @@ bool ContactProblem::moves_by_events() const {
   if (laws_.have_impacts()) return true;
   if (!laws_.act_over_period()) return false;
   for (int row = 0; row < contacts(); row += laws_[row].rows())
-    if (const auto friction = laws_[row].friction(); friction && friction->needs_states()) return true;
+    if (const auto friction = laws_[row].friction(); friction && friction->needs_states) return true;
   const bool with_mass =
       !laws_.have_finite_force() && !contacts_are_massless(structure(), laws_.rigid(contacts()));
   return with_mass || (dynamics() != nullptr && dynamics()->holding() > 0.0);

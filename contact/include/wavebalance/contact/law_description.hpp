@@ -80,6 +80,8 @@ class LawFault : public std::invalid_argument {
 /// parameter that is missing or of another kind, and a value out of range.
 LawValues complete_values(const LawDescription& law, LawValues values);
 
+/// The number of a parameter that may lack, or `without` it.
+double number_or(const LawValues& values, std::string_view name, double without);
 /// Complete values by name. Throw std::out_of_range for others.
 double number_of(const LawValues& values, std::string_view name);
 const std::vector<double>& list_of(const LawValues& values, std::string_view name);

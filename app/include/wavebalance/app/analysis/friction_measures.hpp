@@ -27,7 +27,7 @@ struct FrictionMeasures {
 /// The measures of all contacts with friction along a motion of one period, whose rows are the directions of
 /// contact, from its samples. Empty without such contacts. O(directions instants).
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts);
-/// Those of a response: of a motion that is known between events they are exact.
+/// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
 /// What all contacts with friction do in a period: their work, and the means of their shares of it.

@@ -348,12 +348,13 @@ std::string name_of(LoadKind value);
 std::vector<std::string> input_files(const Scene& scene);
 
 /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other laws
-/// or of a structure that is free to move, of friction of such a structure, of friction that follows from its
-/// states alone, and of rigid friction at a
-/// contact that keeps its mass, as it does where the scene names no bases.
+/// or of a structure that is free to move, of friction of such a structure, of friction without steps over
+/// samples, and of rigid friction at a contact that keeps its mass, as it does where the scene names no
+/// bases.
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);
+
 /// Whether its coexisting motions are sought from event to event.
 bool seeks_by_events(const Scene& scene);
 /// Whether analysis and method, which are read before contacts, ask for exact motions, with laws other than

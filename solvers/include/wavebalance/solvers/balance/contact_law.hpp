@@ -299,7 +299,8 @@ class AnyContactLaw {
                                  law_.normal_stiffness(),   law_.raw_normal_force(0.0),
                                  law_.normal_rows(),        law_.tangents(),
                                  law_.static_friction(),    law_.surface_speed(),
-                                 law_.tangential_damping(), law_.normal_damping()};
+                                 law_.tangential_damping(), law_.normal_damping(),
+                                 law_.needs_states()};
       else
         return std::nullopt;
     }

@@ -74,12 +74,7 @@ struct FrictionConstants {
   double static_friction = 0.0;                           ///< >= mu, that ends sticking
   double surface_speed = 0.0;                             ///< m/s, of the surface along the tangent
   double tangential_damping = 0.0, normal_damping = 0.0;  ///< N s/m, beside the springs
-
-  /// Whether the force follows from a machine of states alone, and not from steps over samples.
-  bool needs_states() const {
-    return static_friction > friction || surface_speed != 0.0 || tangential_damping > 0.0 ||
-           normal_damping > 0.0;
-  }
+  bool needs_states = false;  ///< whether its force follows from a machine of states, and not from steps
 };
 
 /// A law of elastic Coulomb friction, which says its constants. `piece` of its tangents is 0 where the
@@ -97,6 +92,7 @@ concept IsElasticFriction = AdvancesInSteps<Law> && requires(const Law& law) {
   { law.surface_speed() } -> std::convertible_to<double>;
   { law.tangential_damping() } -> std::convertible_to<double>;
   { law.normal_damping() } -> std::convertible_to<double>;
+  { law.needs_states() } -> std::convertible_to<bool>;
 };
 
 /// The derivative of the contact forces over a period by the motion of the contacts, samples contact-major.
