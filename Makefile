@@ -1,10 +1,20 @@
 # Thin names for the CMake workflow presets of CMakePresets.json.
-.PHONY: all command reproduce docs check test campaign bench dev sanitize native package install uninstall clean
+.PHONY: all command reproduce docs test campaign bench dev sanitize native package install uninstall clean
 
 all: command
 
-command reproduce docs check test campaign bench dev sanitize native package:
+command reproduce docs test campaign bench dev sanitize native package:
 	cmake --workflow --preset $@
+
+# After each change: all tests with the label unit, or with ROOM=solvers/flow, ROOM=app/study, ROOM=python those of one room.
+check:
+ifdef ROOM
+	test -e build/default/build.ninja || cmake --preset default
+	cmake --build build/default --target check_$(firstword $(subst /, ,$(ROOM)))
+	ctest --test-dir build/default -j 2 --no-tests=error --output-on-failure -L '^$(ROOM)(/|$$)'
+else
+	cmake --workflow --preset check
+endif
 
 PREFIX ?= /usr/local
 

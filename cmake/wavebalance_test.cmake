@@ -66,6 +66,9 @@ function(wavebalance_add_test program)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP tests_${group}${T_UNIT})
   endforeach()
   target_link_libraries(${program} PRIVATE ${T_LINK})
+  wavebalance_current_module(module)
+  set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_MODULES_WITH_TESTS ${module})
+  set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_PROGRAMS_OF_${module} ${program})
   if(T_LABEL STREQUAL unit)
     set_property(GLOBAL APPEND PROPERTY WAVEBALANCE_UNIT_PROGRAMS ${program})
   endif()
@@ -82,21 +85,37 @@ function(wavebalance_add_test program)
     add_test(NAME ${suite} COMMAND ${program} "--gtest_filter=${suite}.*:*/${suite}.*:${suite}/*")
     # GoogleTest passes where a filter matches no case. A suite is skipped where all of its cases are. OpenBLAS, which
     # computes with one thread in tests, starts no others then, beside which malloc would lock.
-    set_tests_properties(${suite} PROPERTIES LABELS "${T_LABEL}" TIMEOUT ${timeout}
+    set_tests_properties(${suite} PROPERTIES LABELS "${T_LABEL};${room_of_${suite}}" TIMEOUT ${timeout}
       ENVIRONMENT "RC_PARAMS=${parameters};OPENBLAS_NUM_THREADS=1"
       FAIL_REGULAR_EXPRESSION "Running 0 tests from 0 test suites"
       SKIP_REGULAR_EXPRESSION ".  PASSED  . 0 tests\\.\n(.  SKIPPED . [^\n]*\n)+$" ${T_PROPERTIES})
   endforeach()
 endfunction()
 
-# wavebalance_test_suites(program result <files>): the names of the test suites that the files declare.
+# wavebalance_current_module(result): the folder that declares its tests, `solvers` or `extremes`.
+function(wavebalance_current_module result)
+  get_filename_component(module ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(${result} ${module} PARENT_SCOPE)
+endfunction()
+
+# wavebalance_test_suites(program result <files>): the names of the test suites that the files declare, and the room of
+# each as room_of_<suite>: solvers/flow for solvers/tests/flow/*.cpp.
 function(wavebalance_test_suites program result)
   set(suites "")
+  wavebalance_current_module(module)
   foreach(file IN LISTS ARGN)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     file(STRINGS ${file} lines REGEX "^(TEST|TEST_F|TEST_P|TYPED_TEST|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)[(]")
     list(TRANSFORM lines REPLACE "^[A-Z_]+[(]([A-Za-z0-9_]*).*$" "\\1")
     list(APPEND suites ${lines})
+    get_filename_component(folder ${file} DIRECTORY)
+    string(REGEX REPLACE "^tests" "${module}" room "${folder}")
+    if(NOT folder)
+      set(room ${module})
+    endif()
+    foreach(suite IN LISTS lines)
+      set(room_of_${suite} "${room}" PARENT_SCOPE)
+    endforeach()
   endforeach()
   list(REMOVE_DUPLICATES suites)
   get_property(known TARGET ${program} PROPERTY WAVEBALANCE_SUITES)
