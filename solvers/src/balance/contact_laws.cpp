@@ -45,9 +45,7 @@ double ContactLaws::largest_gap() const {
   return largest;
 }
 
-bool ContactLaws::have_finite_force() const {
-  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return !law.is_rigid(); });
-}
+bool ContactLaws::have_finite_force() const { return std::ranges::none_of(laws_, &AnyContactLaw::is_rigid); }
 
 std::vector<int> ContactLaws::rigid(int contacts) const {
   std::vector<int> found;
@@ -61,8 +59,7 @@ std::vector<int> ContactLaws::rigid(int contacts) const {
 }
 
 bool ContactLaws::have_impacts() const {
-  return std::any_of(laws_.begin(), laws_.end(),
-                     [](const AnyContactLaw& law) { return law.restitution().has_value(); });
+  return std::ranges::any_of(laws_, [](const AnyContactLaw& law) { return law.restitution().has_value(); });
 }
 
 bool ContactLaws::have_impacts_alone(int contacts) const {
@@ -83,9 +80,7 @@ Eigen::VectorXd ContactLaws::restitution(int contacts) const {
   return all;
 }
 
-bool ContactLaws::unilateral() const {
-  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) { return law.unilateral(); });
-}
+bool ContactLaws::unilateral() const { return std::ranges::all_of(laws_, &AnyContactLaw::unilateral); }
 
 double ContactLaws::largest_force(const Eigen::MatrixXd& force) const {
   if (unilateral()) return force.maxCoeff();
@@ -99,24 +94,20 @@ double ContactLaws::largest_force(const Eigen::MatrixXd& force) const {
 }
 
 bool ContactLaws::have_force_form() const {
-  return std::all_of(laws_.begin(), laws_.end(),
-                     [](const AnyContactLaw& law) { return law.has_force_form(); });
+  return std::ranges::all_of(laws_, &AnyContactLaw::has_force_form);
 }
 
 bool ContactLaws::depend_on_velocity() const {
-  return std::any_of(laws_.begin(), laws_.end(),
-                     [](const AnyContactLaw& law) { return law.depends_on_velocity(); });
+  return std::ranges::any_of(laws_, &AnyContactLaw::depends_on_velocity);
 }
 
 bool ContactLaws::act_over_period() const {
-  return std::any_of(laws_.begin(), laws_.end(),
-                     [](const AnyContactLaw& law) { return law.acts_over_period(); });
+  return std::ranges::any_of(laws_, &AnyContactLaw::acts_over_period);
 }
 
 bool ContactLaws::advance_in_steps() const {
-  return std::all_of(laws_.begin(), laws_.end(), [](const AnyContactLaw& law) {
-    return !law.acts_over_period() || law.advances_in_steps();
-  });
+  return std::ranges::all_of(
+      laws_, [](const AnyContactLaw& law) { return !law.acts_over_period() || law.advances_in_steps(); });
 }
 
 ContactLaws ContactLaws::resolvents(const Eigen::VectorXd& flexibility) const {
@@ -191,25 +182,19 @@ void ContactLaws::require_numbers(int contacts, const Eigen::VectorXd& displacem
 }
 
 Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement) const {
-  if (act_over_period()) return force_over_period(displacement, {});
-  return Eigen::MatrixXd::NullaryExpr(
-      displacement.rows(), displacement.cols(), [&](Eigen::Index contact, Eigen::Index point) {
-        return (*this)[static_cast<int>(contact)].force(displacement(contact, point));
-      });
+  return force(displacement, {});
 }
 
+// At rest without velocities.
 Eigen::MatrixXd ContactLaws::force(const Eigen::MatrixXd& displacement,
                                    const Eigen::MatrixXd& velocity) const {
-  if (act_over_period()) return force_over_period(displacement, velocity);
-  return Eigen::MatrixXd::NullaryExpr(displacement.rows(), displacement.cols(),
-                                      [&](Eigen::Index contact, Eigen::Index point) {
-                                        return (*this)[static_cast<int>(contact)].force(
-                                            displacement(contact, point), velocity(contact, point));
-                                      });
-}
-
-Eigen::MatrixXd ContactLaws::force_over_period(const Eigen::MatrixXd& displacement,
-                                               const Eigen::MatrixXd& velocity) const {
+  if (!act_over_period())
+    return Eigen::MatrixXd::NullaryExpr(
+        displacement.rows(), displacement.cols(), [&](Eigen::Index contact, Eigen::Index point) {
+          const AnyContactLaw& law = (*this)[static_cast<int>(contact)];
+          const double u = displacement(contact, point);
+          return velocity.size() > 0 ? law.force(u, velocity(contact, point)) : law.force(u);
+        });
   const auto contacts = static_cast<int>(displacement.rows());
   const auto samples = [](const Eigen::MatrixXd& by_contact) -> Eigen::VectorXd {
     return by_contact.transpose().reshaped();

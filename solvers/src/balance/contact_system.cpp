@@ -153,25 +153,20 @@ Eigen::VectorXd ContactSystem::force_on_held_structure() const {
   return position_ ? operator_.force_on_held_structure(forces_.force, state_) : forces_.force;
 }
 
-bool ContactSystem::factorize_position(bool bordered) {
+bool ContactSystem::factorize(const Border& border) {
   constexpr double reduction = 1e-12;
-  return position_->factorize(
-      operator_, tangent(), [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
-        y = 0.0;
-        return bordered ? jacobian_->solve_bordered(operator_, r, 0.0, reduction, x, y)
-                        : jacobian_->solve(operator_, r, reduction, x);
-      });
+  if (!jacobian_->factorize(operator_, slopes(), border)) return false;
+  const auto solve = [&](const Eigen::VectorXd& r, Eigen::VectorXd& x, double& y) {
+    return jacobian_->solve(operator_, r, 0.0, reduction, x, y);
+  };
+  return !position_ || position_->factorize(operator_, tangent(), solve);
 }
 
-bool ContactSystem::factorize() {
-  return jacobian_->factorize(operator_, slopes()) && (!position_ || factorize_position(false));
-}
+bool ContactSystem::factorize() { return factorize(Border{}); }
 
 bool ContactSystem::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x, double reduction) {
-  const bool solved = jacobian_->solve(operator_, r, reduction, x);
   double none = 0.0;
-  if (position_) position_->correct(operator_, tangent(), x, none);
-  return solved;
+  return solve_bordered(r, 0.0, x, none, reduction);
 }
 
 double ContactSystem::operations() const { return products_ + jacobian_->operations(); }
@@ -181,15 +176,12 @@ double ContactSystem::condition() { return jacobian_->condition(operator_); }
 bool ContactSystem::factorize_bordered(const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
   column_scale_ = border_scale(b);
   row_scale_ = border_scale(c);
-  const Eigen::VectorXd column = column_scale_ * b, row = row_scale_ * c;
-  const double corner = column_scale_ * d * row_scale_;
-  return jacobian_->factorize_bordered(operator_, slopes(), column, row, corner) &&
-         (!position_ || factorize_position(true));
+  return factorize({column_scale_ * b, row_scale_ * c, column_scale_ * d * row_scale_});
 }
 
 bool ContactSystem::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                                    double reduction) {
-  const bool solved = jacobian_->solve_bordered(operator_, r, row_scale_ * s, reduction, x, y);
+  const bool solved = jacobian_->solve(operator_, r, row_scale_ * s, reduction, x, y);
   if (position_) position_->correct(operator_, tangent(), x, y);
   y *= column_scale_;
   return solved;

@@ -1,51 +1,37 @@
 #include "balance/dense_block.hpp"
 
+#include <utility>
+
 namespace wavebalance::solvers {
 
-// x = r - E z.
-void DenseBlock::complete(const Eigen::VectorXd& r, const Eigen::VectorXd& values, Eigen::VectorXd& x) {
-  x = r;
-  if (count() > 0) x -= reduction_->motion(values);
-}
-
-bool DenseBlock::factorize(Reduction& reduction) {
-  reduction_ = &reduction;
-  matrix_.resize(count(), count());
-  if (count() > 0) reduction_->fill(matrix_);
-  lu_.compute(matrix_);
-  return !lu_.is_singular();
-}
-
-void DenseBlock::solve(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
-  Eigen::VectorXd values;
-  if (count() > 0) values = lu_.solve(reduction_->read(r));
-  complete(r, values, x);
-}
-
 // Eliminating x = r - E z - b y leaves (I + R E) z + R b y = R r and -(E^T c).z + (d - c.b) y = s - c.r.
-bool DenseBlock::factorize_bordered(Reduction& reduction, const Eigen::VectorXd& b, const Eigen::VectorXd& c,
-                                    double d) {
+bool DenseBlock::factorize(Reduction& reduction, Border border) {
   reduction_ = &reduction;
-  border_column_ = b;
-  border_row_ = c;
-  matrix_.resize(count() + 1, count() + 1);
-  if (count() > 0) {
-    reduction_->fill(matrix_);
-    matrix_.col(count()).head(count()) = reduction_->read(b);
-    matrix_.row(count()).head(count()) = -reduction_->motion_transposed(c).transpose();
+  border_ = std::move(border);
+  const Eigen::Index count = reduction.count(), size = count + (border_.exists() ? 1 : 0);
+  matrix_.resize(size, size);
+  if (count > 0) reduction.fill(matrix_);
+  if (border_.exists()) {
+    if (count > 0) {
+      matrix_.col(count).head(count) = reduction.read(border_.column);
+      matrix_.row(count).head(count) = -reduction.motion_transposed(border_.row).transpose();
+    }
+    matrix_(count, count) = border_.corner - border_.row.dot(border_.column);
   }
-  matrix_(count(), count()) = d - c.dot(b);
   lu_.compute(matrix_);
   return !lu_.is_singular();
 }
 
-void DenseBlock::solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y) {
-  Eigen::VectorXd values(count() + 1);
-  values.head(count()) = reduction_->read(r);
-  values[count()] = s - border_row_.dot(r);
-  values = lu_.solve(values);
-  y = values[count()];
-  complete(r - border_column_ * y, values.head(count()), x);
+void DenseBlock::solve(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y) {
+  const Eigen::Index count = reduction_->count();
+  Eigen::VectorXd values(matrix_.rows());
+  if (count > 0) values.head(count) = reduction_->read(r);
+  if (border_.exists()) values[count] = s - border_.row.dot(r);
+  if (values.size() > 0) values = lu_.solve(values);
+  y = border_.exists() ? values[count] : 0.0;
+  x = r;
+  if (border_.exists()) x -= border_.column * y;
+  if (count > 0) x -= reduction_->motion(values.head(count));
 }
 
 }  // namespace wavebalance::solvers

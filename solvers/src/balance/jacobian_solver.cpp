@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wavebalance::solvers {
 namespace {
@@ -83,51 +84,24 @@ void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations
   operations_ += (10.0 * points * std::log2(points + 1.0) * contacts) * iterations;
 }
 
-bool JacobianSolver::factorize(ContactOperator& contact, const PeriodSlopes& slopes) {
+bool JacobianSolver::factorize(ContactOperator& contact, const PeriodSlopes& slopes, Border border) {
   choose(contact, slopes);
-  if (used_ == Used::dense) return dense_.factorize(reduce(contact));
-  return krylov_.factorize(compliance_of(contact), active_, slopes, contact.problem().frequency());
+  if (used_ == Used::dense) return dense_.factorize(reduce(contact), std::move(border));
+  return krylov_.factorize(compliance_of(contact), active_, slopes, contact.problem().frequency(),
+                           std::move(border));
 }
 
-bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
-                           Eigen::VectorXd& x) {
+bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
+                           Eigen::VectorXd& x, double& y) {
   if (used_ == Used::krylov) {
-    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(contact), r, reduction, x);
+    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(contact), r, s, reduction, x, y);
     count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
-    if (!may_fall_back(contact) || !dense_.factorize(reduce(contact))) return false;
+    if (!may_fall_back(contact) || !dense_.factorize(reduce(contact), krylov_.border())) return false;
     used_ = Used::dense;
   }
-  dense_.solve(r, x);
-  return true;
-}
-
-bool JacobianSolver::factorize_bordered(ContactOperator& contact, const PeriodSlopes& slopes,
-                                        const Eigen::VectorXd& b, const Eigen::VectorXd& c, double d) {
-  choose(contact, slopes);
-  if (used_ == Used::dense) return dense_.factorize_bordered(reduce(contact), b, c, d);
-  border_column_ = b;
-  border_row_ = c;
-  border_corner_ = d;
-  return krylov_.factorize_bordered(compliance_of(contact), active_, slopes, contact.problem().frequency(), b,
-                                    c, d);
-}
-
-bool JacobianSolver::solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s,
-                                    double reduction, Eigen::VectorXd& x, double& y) {
-  if (used_ == Used::krylov) {
-    const KrylovBlock::Outcome outcome =
-        krylov_.solve_bordered(compliance_of(contact), r, s, reduction, x, y);
-    count_krylov(contact, outcome.iterations);
-    krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
-    if (outcome.solved) return true;
-    if (!may_fall_back(contact) ||
-        !dense_.factorize_bordered(reduce(contact), border_column_, border_row_, border_corner_))
-      return false;
-    used_ = Used::dense;
-  }
-  dense_.solve_bordered(r, s, x, y);
+  dense_.solve(r, s, x, y);
   return true;
 }
 

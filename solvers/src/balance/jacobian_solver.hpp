@@ -22,15 +22,11 @@ class JacobianSolver {
   void set_method(LinearSolver method) { method_ = method; }
 
   /// False when singular to working precision.
-  bool factorize(ContactOperator& contact, const PeriodSlopes& slopes);
-  /// Solves J x = r to `reduction` of r on the active samples, by LU exactly. False when that was not
-  /// reached.
-  bool solve(ContactOperator& contact, const Eigen::VectorXd& r, double reduction, Eigen::VectorXd& x);
-
-  bool factorize_bordered(ContactOperator& contact, const PeriodSlopes& slopes, const Eigen::VectorXd& b,
-                          const Eigen::VectorXd& c, double d);
-  bool solve_bordered(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
-                      Eigen::VectorXd& x, double& y);
+  bool factorize(ContactOperator& contact, const PeriodSlopes& slopes, Border border = {});
+  /// Solves J x + b y = r, c.x + d y = s, or J x = r with y = 0, to `reduction` of r on the active samples,
+  /// by LU exactly. False when that was not reached.
+  bool solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
+             Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
   int determinant_sign() const {
@@ -64,8 +60,6 @@ class JacobianSolver {
   FunctionReduction functions_;
   DenseBlock dense_;
   KrylovBlock krylov_;
-  Eigen::VectorXd border_column_, border_row_;  // those of the last factorisation, for a later LU
-  double border_corner_ = 0.0;
 };
 
 }  // namespace wavebalance::solvers

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace wavebalance::solvers {
 namespace {
@@ -32,8 +33,6 @@ CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequenc
 
 }  // namespace
 
-void KrylovBlock::scatter_weighted(const Eigen::VectorXd& active) { active_->write(active, weighted_); }
-
 bool KrylovBlock::prepare(const ComplianceOperator& compliance, ActiveSlopes& active,
                           const PeriodSlopes& slopes, double frequency) {
   active_ = &active;
@@ -41,7 +40,7 @@ bool KrylovBlock::prepare(const ComplianceOperator& compliance, ActiveSlopes& ac
   largest_gain_ = smallest_gain_ = 0.0;
   if (!std::isfinite(active.scale().squaredNorm())) return false;
   set_coarse(compliance, slopes, frequency);
-  const Eigen::Index size = coarse_.size() + (bordered_ ? 1 : 0);
+  const Eigen::Index size = coarse_.size() + (border_.exists() ? 1 : 0);
   matrix_.resize(size, size);
   coarse_.fill(slopes, frequency, matrix_);
   return true;
@@ -59,59 +58,49 @@ void KrylovBlock::set_coarse(const ComplianceOperator& compliance, const PeriodS
   coarse_wanted_ = wanted;
 }
 
-bool KrylovBlock::factorize_coarse() {
+bool KrylovBlock::factorize(const ComplianceOperator& compliance, ActiveSlopes& active,
+                            const PeriodSlopes& slopes, double frequency, Border border) {
+  border_ = std::move(border);
+  if (!prepare(compliance, active, slopes, frequency)) return false;
+  if (border_.exists()) add_border(compliance);
   lu_.compute(matrix_);
   return !lu_.is_singular();
 }
 
-bool KrylovBlock::factorize(const ComplianceOperator& compliance, ActiveSlopes& active,
-                            const PeriodSlopes& slopes, double frequency) {
-  bordered_ = false;
-  return prepare(compliance, active, slopes, frequency) && factorize_coarse();
-}
-
 // With x = r - K S z - b y the last row is -(S K^T c).z + (d - c.b) y = s - c.r. With the preconditioner's
 // z = v - B (U g + b y) it becomes an equation for y and g = V S z.
-bool KrylovBlock::factorize_bordered(const ComplianceOperator& compliance, ActiveSlopes& active,
-                                     const PeriodSlopes& slopes, double frequency, const Eigen::VectorXd& b,
-                                     const Eigen::VectorXd& c, double d) {
-  bordered_ = true;
-  if (!prepare(compliance, active, slopes, frequency)) return false;
-  column_ = b;
-  row_ = c;
-  corner_ = d - c.dot(b);
-  compliance.apply_transposed(c, samples_);
+void KrylovBlock::add_border(const ComplianceOperator& compliance) {
+  compliance.apply_transposed(border_.row, samples_);
   active_row_ = -samples_(active_->samples()).cwiseProduct(active_->scale());
-  active_column_ = active_->read(b);
+  active_column_ = active_->read(border_.column);
   const Eigen::Index size = coarse_.size();
-  scatter_weighted(active_column_);
+  active_->write(active_column_, weighted_);
   coarse_.respond(weighted_, coefficients_);
   matrix_.col(size).head(size) = coefficients_;
   coarse_.analyse(active_->read_transposed(active_row_, weighted_.size()), coefficients_);
   matrix_.row(size).head(size) = -coefficients_.transpose();
-  matrix_(size, size) = corner_ - active_row_.dot(active_column_);
-  return factorize_coarse();
+  matrix_(size, size) = border_.corner - border_.row.dot(border_.column) - active_row_.dot(active_column_);
 }
 
 // (z, y) = P^-1 (v, s).
 void KrylovBlock::precondition(const Eigen::VectorXd& v, double s, Unknown& unknown) {
-  scatter_weighted(v);
+  active_->write(v, weighted_);
   coarse_.respond(weighted_, coefficients_);
-  if (bordered_) {
+  if (border_.exists()) {
     coefficients_.conservativeResize(coarse_.size() + 1);
     coefficients_[coarse_.size()] = s - active_row_.dot(v);
   }
   const Eigen::VectorXd solution = lu_.solve(coefficients_);
   coarse_.synthesise(solution, samples_);
   unknown.z = v - active_->read(samples_);
-  unknown.y = bordered_ ? solution[coarse_.size()] : 0.0;
-  if (bordered_) unknown.z -= unknown.y * active_column_;
+  unknown.y = border_.exists() ? solution[coarse_.size()] : 0.0;
+  if (border_.exists()) unknown.z -= unknown.y * active_column_;
 }
 
 // z + B (K S z + b y).
 void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& unknown,
                            Eigen::VectorXd& product) {
-  scatter_weighted(unknown.z);
+  active_->write(unknown.z, weighted_);
   compliance.apply(weighted_, samples_);
   product = unknown.z + active_->read(samples_);
   const double gain = product.norm() / unknown.z.norm();
@@ -119,13 +108,13 @@ void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& 
     largest_gain_ = std::max(largest_gain_, gain);
     smallest_gain_ = smallest_gain_ > 0.0 ? std::min(smallest_gain_, gain) : gain;
   }
-  if (bordered_) product += unknown.y * active_column_;
+  if (border_.exists()) product += unknown.y * active_column_;
 }
 
 // P contains the last row of the bordered system exactly, so that after P^-1 (r, s) only the others have a
 // residual. At a fold of a curve r - b y vanishes for the tangent, whose size is then that of the terms.
 double KrylovBlock::size_of_terms(double right, const Eigen::VectorXd& z) const {
-  return bordered_ ? std::max(right, z.norm()) : right;
+  return border_.exists() ? std::max(right, z.norm()) : right;
 }
 
 KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
@@ -141,7 +130,7 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
   for (int round = 0; round <= max_refinements; ++round) {
     multiply(compliance, unknown, product);
     const Eigen::VectorXd remainder = r - product;
-    const double right = bordered_ ? (r - unknown.y * active_column_).norm() : r.norm();
+    const double right = border_.exists() ? (r - unknown.y * active_column_).norm() : r.norm();
     const double size = size_of_terms(right, unknown.z);
     outcome.reduction = size > 0.0 ? remainder.norm() / size : 0.0;
     outcome.solved = outcome.reduction <= reduction;
@@ -161,7 +150,7 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
 // would magnify the residual.
 void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                            const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome) {
-  scatter_weighted(z);
+  active_->write(z, weighted_);
   compliance.apply(weighted_, x);
   const double product = x.norm();
   x = r - x;
@@ -174,24 +163,18 @@ void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::Ve
 }
 
 KrylovBlock::Outcome KrylovBlock::solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
-                                        double reduction, Eigen::VectorXd& x) {
-  if (active_->count() == 0) {
-    x = r;
+                                        double s, double reduction, Eigen::VectorXd& x, double& y) {
+  y = 0.0;
+  Eigen::VectorXd reduced = r;
+  if (active_->count() == 0 && !border_.exists()) {
+    x = std::move(reduced);
     return {true, 0, 0.0};
   }
   Unknown unknown;
-  Outcome outcome = solve_active(compliance, active_->read(r), 0.0, reduction, unknown);
-  complete(compliance, r, reduction, unknown.z, x, outcome);
-  return outcome;
-}
-
-KrylovBlock::Outcome KrylovBlock::solve_bordered(const ComplianceOperator& compliance,
-                                                 const Eigen::VectorXd& r, double s, double reduction,
-                                                 Eigen::VectorXd& x, double& y) {
-  Unknown unknown;
-  Outcome outcome = solve_active(compliance, active_->read(r), s - row_.dot(r), reduction, unknown);
+  const double last = border_.exists() ? s - border_.row.dot(r) : 0.0;
+  Outcome outcome = solve_active(compliance, active_->read(r), last, reduction, unknown);
   y = unknown.y;
-  const Eigen::VectorXd reduced = r - y * column_;
+  if (border_.exists()) reduced -= y * border_.column;
   complete(compliance, reduced, reduction, unknown.z, x, outcome);
   return outcome;
 }
@@ -208,7 +191,7 @@ double KrylovBlock::condition(const ComplianceOperator& compliance) {
   const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
   unknown.z = (1.0 + all_frequencies.array()).matrix();
   multiply(compliance, unknown, product);
-  if (!bordered_) {
+  if (!border_.exists()) {
     unknown.z = product.normalized();
     multiply(compliance, unknown, product);
     precondition(all_frequencies, 0.0, unknown);

@@ -4,6 +4,7 @@
 
 #include "balance/active_slopes.hpp"
 #include "balance/harmonic_coarse_space.hpp"
+#include "balance/reduction.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/gmres.hpp"
 
@@ -32,19 +33,13 @@ class KrylovBlock {
   /// Makes the preconditioner for D = `slopes`, of which `active` was set and must outlive the solves, at a
   /// frequency in Hz. False when it is singular to working precision or D is not finite.
   bool factorize(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
-                 double frequency);
-  /// x = J^-1 r until the residual on the active samples is at most `reduction` of r; it vanishes on the
-  /// others.
-  Outcome solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
-                Eigen::VectorXd& x);
-
-  bool factorize_bordered(const ComplianceOperator& compliance, ActiveSlopes& active,
-                          const PeriodSlopes& slopes, double frequency, const Eigen::VectorXd& b,
-                          const Eigen::VectorXd& c, double d);
-  /// J x + b y = r, c.x + d y = s to `reduction` of r - b y or of x, whichever is larger on the active
-  /// samples; the last equation holds for x = r - K S z - b y to rounding.
-  Outcome solve_bordered(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
-                         double reduction, Eigen::VectorXd& x, double& y);
+                 double frequency, Border border);
+  const Border& border() const { return border_; }
+  /// x = J^-1 r and y = 0 until the residual on the active samples is at most `reduction` of r; it vanishes
+  /// on the others. With a border J x + b y = r, c.x + d y = s to `reduction` of r - b y or of x, whichever
+  /// is larger on the active samples; the last equation holds for x = r - K S z - b y to rounding.
+  Outcome solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s, double reduction,
+                Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of det P. That of det J is the same where K - U V is small.
   int determinant_sign() const { return lu_.determinant_sign(); }
@@ -66,7 +61,7 @@ class KrylovBlock {
   bool prepare(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
                double frequency);
   void set_coarse(const ComplianceOperator& compliance, const PeriodSlopes& slopes, double frequency);
-  bool factorize_coarse();
+  void add_border(const ComplianceOperator& compliance);
   void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
   void multiply(const ComplianceOperator& compliance, const Unknown& unknown, Eigen::VectorXd& product);
   Outcome solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
@@ -74,7 +69,6 @@ class KrylovBlock {
   double size_of_terms(double right, const Eigen::VectorXd& z) const;
   void complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
                 const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome);
-  void scatter_weighted(const Eigen::VectorXd& active);
 
   ActiveSlopes* active_ = nullptr;
   HarmonicCoarseSpace coarse_;
@@ -84,11 +78,9 @@ class KrylovBlock {
   detail::Lu<double> lu_;
   Eigen::VectorXd weighted_, samples_, coefficients_;  // work
   double largest_gain_ = 0.0, smallest_gain_ = 0.0;    // extremes of ||J z|| / ||z||
-  bool bordered_ = false;
-  Eigen::VectorXd column_, row_;   // b and c over all samples
-  Eigen::VectorXd active_column_;  // B b
-  Eigen::VectorXd active_row_;     // c^T (x - r) of the active values: -S K^T c
-  double corner_ = 0.0;            // d - c.b
+  Border border_;                                      // over all samples
+  Eigen::VectorXd active_column_;                      // B b
+  Eigen::VectorXd active_row_;                         // c^T (x - r) of the active values: -S K^T c
 };
 
 }  // namespace wavebalance::solvers

@@ -3,6 +3,14 @@
 
 namespace wavebalance::solvers {
 
+/// What stands beside J in [J b; c^T d]; J alone where there is no column.
+struct Border {
+  Eigen::VectorXd column, row;  ///< b and c
+  double corner = 0.0;          ///< d
+
+  bool exists() const { return column.size() > 0; }
+};
+
 /// J = I + K D as the identity plus a product of few numbers, K D = E R: R takes a motion of samples() to
 /// count() numbers, and E these to a motion. Then x = J^-1 r is r - E z with (I + R E) z = R r, and the
 /// determinants of J and I + R E are the same.

@@ -19,7 +19,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-using detail::MotionSamples, detail::points_of_period, detail::samples_of;
+using detail::MotionSamples, detail::points_of_period;
 
 // What is told of a motion by its integration.
 UnsolvedMotion unsolved_of(const SettledMotion& settled, int periods, PhasesStatus status) {
@@ -91,23 +91,23 @@ class MotionsSearch {
     return longer_.emplace(periods, problem_.over_periods(periods)).first->second;
   }
 
-  // The motion of `periods` periods that contact phases find near, and its number in the list if it was found
-  // before or has converged now.
-  std::optional<std::size_t> add(ContactProblem& problem, int periods, const std::optional<PhaseMotion>& near,
-                                 MotionSource source) {
+  // The motion of `periods` periods that contact phases find near a start, and its number in the list if it
+  // was found before or has converged now.
+  template <class Start>
+  std::optional<std::size_t> solve(int periods, const Start& start, MotionSource source) {
+    return add(periods, over(periods).phases(frequency_, start, phases_options()), source);
+  }
+
+  std::optional<std::size_t> add(int periods, const std::optional<PhaseMotion>& near, MotionSource source) {
     if (!near || !near->converged()) return std::nullopt;
-    const MotionSamples samples = samples_of(*near, periods);
+    const MotionSamples samples = detail::samples_of(*near, periods);
     const int least = least_periods(samples);
-    if (least < periods) return solve(first_periods(samples, least), source);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_[i].periods != periods) continue;
-      for (int later = 0; later < periods; ++later)
-        if (agree_after(samples, samples_[i], later)) return i;
-    }
+    if (least < periods) return solve(least, first_periods(samples, least).contacts, source);
+    if (const auto known = find_among(samples_, samples)) return known;
     CoexistingMotion found;
     found.motion = *near;
     found.periods = periods;
-    found.stability = problem.stability(frequency_, *near);
+    found.stability = over(periods).stability(frequency_, *near);
     found.max_displacement = samples.contacts.displacement.maxCoeff();
     found.max_force = samples.contacts.force.maxCoeff();
     // A structure that settles to an unstable motion began beside it.
@@ -118,17 +118,8 @@ class MotionsSearch {
     return samples_.size() - 1;
   }
 
-  ContactPhasesOptions phases_options(int start) {
-    ContactPhasesOptions options;
-    options.tolerance = options_.tolerance;
-    options.observer = observer(start);
-    return options;
-  }
-
-  std::optional<std::size_t> solve(const MotionSamples& start, MotionSource source) {
-    ContactProblem& problem = over(start.periods);
-    return add(problem, start.periods,
-               problem.phases(frequency_, start.contacts, phases_options(result_.starts + 1)), source);
+  ContactPhasesOptions phases_options() {
+    return {.tolerance = options_.tolerance, .observer = observer(result_.starts)};
   }
 
   SettlingOptions from(const detail::StructureState& state) {
@@ -160,8 +151,8 @@ class MotionsSearch {
         unsolved_ = &known;
         return std::nullopt;
       }
-    const auto near = problem.phases(frequency_, whole, phases_options(result_.starts));
-    const auto found = add(problem, periods, near, source);
+    const auto near = problem.phases(frequency_, whole, phases_options());
+    const auto found = add(periods, near, source);
     if (found || cancelled_ || !near) return found;
     told.status = near->status;
     unsolved_ = &result_.unsolved.emplace_back(told);
@@ -175,8 +166,7 @@ class MotionsSearch {
     const UnsolvedMotion told = unsolved_of(settled, 1, PhasesStatus::not_found);
     if (std::any_of(given_up_.begin(), given_up_.end(), [&](const auto& one) { return same_as(one, told); }))
       return std::nullopt;
-    const auto found =
-        add(problem_, 1, problem_.phases(frequency_, settled, phases_options(result_.starts)), source);
+    const auto found = solve(1, settled, source);
     if (!found) given_up_.push_back(told);
     if (!found || result_.motions[*found].stability.status != "stable") return std::nullopt;
     const Eigen::MatrixXd& motion = samples_[*found].contacts.displacement;
@@ -199,8 +189,7 @@ class MotionsSearch {
       SettledMotion start;
       start.last = piece;
       start.start = settled.start;
-      add(problem_, 1, problem_.phases(frequency_, start, phases_options(result_.starts)),
-          MotionSource::newton);
+      solve(1, start, MotionSource::newton);
     }
   }
 
@@ -251,7 +240,8 @@ class MotionsSearch {
     const std::vector<MotionSamples> found = samples_;
     for (const MotionSamples& one : found)
       for (int later = 1; later < one.periods && !cancelled_; ++later)
-        if (one.periods % later == 0) solve(mean_with_later(one, later), MotionSource::newton);
+        if (one.periods % later == 0)
+          solve(one.periods, mean_with_later(one, later).contacts, MotionSource::newton);
   }
 
   // From starts on both sides of the boundary between the basins of two motions.
@@ -301,19 +291,11 @@ class MotionsSearch {
   void solve_after(SettlingOptions& how, int after, int periods) {
     if (cancelled_) return;
     how.observer = [&](const Progress& progress) { return progress.step < after; };
-    ContactProblem& problem = over(periods);
-    const SettledMotion piece = problem.settle(frequency_, how);
-    add(problem, periods, problem.phases(frequency_, piece, phases_options(result_.starts)),
-        MotionSource::newton);
+    solve(periods, over(periods).settle(frequency_, how), MotionSource::newton);
   }
 
   void describe() {
-    const double n = result_.starts;
-    for (CoexistingMotion& one : result_.motions) {
-      if (result_.starts == 0) break;
-      one.share = one.arrivals / n;
-      one.share_error = std::sqrt(one.share * (1.0 - one.share) / n);
-    }
+    detail::set_shares(result_);
     if (cancelled_)
       result_.status = MotionsStatus::cancelled;
     else if (!result_.motions.empty())

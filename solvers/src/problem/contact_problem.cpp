@@ -34,11 +34,13 @@ ForcedResponseOptions watched(ForcedResponseOptions options, bool& cancelled) {
   return options;
 }
 
-ExactCurve without_points(bool cancelled, PhasesStatus start) {
-  ExactCurve curve;
-  curve.status = cancelled ? SweepStatus::cancelled : SweepStatus::no_start;
-  curve.start = start;
-  return curve;
+// The last period of an integration, at so many points as a start needs.
+Motion start_of(const SettledMotion& settled, int contacts) {
+  constexpr int points = 1024;
+  const auto samples = [&](const Eigen::MatrixXd& values) {
+    return by_contact(resample(values, points, settled.start), contacts);
+  };
+  return {samples(settled.last.displacement), {}, samples(settled.last.force)};
 }
 
 }  // namespace
@@ -71,8 +73,7 @@ bool ContactProblem::moves_by_events() const {
 
 SettledExact ContactProblem::settled_exact(double frequency, const TimeSteppingOptions& stepping,
                                            const ContactPhasesOptions& options) {
-  load_fully(frequency);
-  return settled_motion(phases_problem_here(), stepping, options);
+  return settled_motion(phases_problem(frequency), stepping, options);
 }
 
 void ContactProblem::set_laws(ContactLaws laws) {
@@ -91,6 +92,10 @@ ContactProblem ContactProblem::over_periods(int times) const {
 void ContactProblem::hold(const PeriodicResponse& response) {
   condensed_.set_load_scale(response.load_scale);
   condensed_.set_frequency(response.frequency);
+}
+
+void ContactProblem::hold(const FrequencySweep& curve) {
+  if (!curve.points.empty()) condensed_.set_load_scale(curve.points.front().load_scale);
 }
 
 void ContactProblem::load_fully(double frequency) {
@@ -145,25 +150,14 @@ std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& res
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
                                                   const ContactPhasesOptions& options) {
-  if (!dynamics() || !settled.integrated()) return std::nullopt;
-  load_fully(frequency);
-  return phases_here(settled, options);
-}
-
-PhaseMotion ContactProblem::phases_here(const SettledMotion& settled, const ContactPhasesOptions& options) {
-  constexpr int points = 1024;  // a start needs no more
-  const auto samples = [&](const Eigen::MatrixXd& values) {
-    return by_contact(resample(values, points, settled.start), contacts());
-  };
-  return exact_motion(phases_problem_here(), samples(settled.last.displacement), options,
-                      samples(settled.last.force));
+  if (!settled.integrated()) return std::nullopt;
+  return phases(frequency, start_of(settled, contacts()), options);
 }
 
 std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,
                                                   const ContactPhasesOptions& options) {
   if (!dynamics()) return std::nullopt;
-  load_fully(frequency);
-  return exact_motion(phases_problem_here(), start.displacement, options, start.force);
+  return exact_motion(phases_problem(frequency), start.displacement, options, start.force);
 }
 
 StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,
@@ -224,17 +218,16 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
 
 PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                                         const ResponseStart& start) {
+  // The curve is of motions of one period.
   if (laws_.have_impacts_alone(contacts()) && dynamics()->holding() == 0.0) {
     ImpactResponse found = impact_response(phases_problem_here(), {.observer = how.observer});
-    if (!found.lasts() || found.load_periods == 1) return std::move(found.motion);
-    return {};  // the curve is of motions of one period
+    return !found.lasts() || found.load_periods == 1 ? std::move(found.motion) : PhaseMotion();
   }
   if (moves_by_events()) {
     TimeSteppingOptions stepping;
     stepping.observer = how.observer;
     SettledExact found = settled_motion(phases_problem_here(), stepping, options.phases);
-    if (found.load_periods == 1) return std::move(found.motion);
-    return {};  // the curve is of motions of one period
+    return found.load_periods == 1 ? std::move(found.motion) : PhaseMotion();
   }
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
@@ -248,7 +241,20 @@ PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const 
   SettlingOptions settling;
   settling.observer = how.observer;
   const SettledMotion settled = solvers::settle(condensed_, laws_, settling);
-  return settled.integrated() ? phases_here(settled, options.phases) : PhaseMotion();
+  if (!settled.integrated()) return {};
+  const Motion last = start_of(settled, contacts());
+  return exact_motion(phases_problem_here(), last.displacement, options.phases, last.force);
+}
+
+ExactCurve ContactProblem::exact_curve_here(SweepParameter parameter, const ExactCurveOptions& options,
+                                            const ForcedResponseOptions& how, const ResponseStart& start) {
+  bool cancelled = false;
+  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
+  if (first.parts != nullptr) return exact_curve({condensed_, laws_, *dynamics(), parameter}, first, options);
+  ExactCurve none;
+  none.status = cancelled ? SweepStatus::cancelled : SweepStatus::no_start;
+  none.start = first.status;
+  return none;
 }
 
 ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how,
@@ -256,10 +262,7 @@ ExactCurve ContactProblem::exact_sweep(const ExactCurveOptions& options, const F
   options.validate();
   if (!dynamics()) return {};
   load_fully(options.from);
-  bool cancelled = false;
-  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
-  if (first.parts == nullptr) return without_points(cancelled, first.status);
-  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::frequency}, first, options);
+  return exact_curve_here(SweepParameter::frequency, options, how, start);
 }
 
 ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
@@ -269,10 +272,7 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
   if (!dynamics()) return {};
   condensed_.set_load_frequency(frequency);
   condensed_.set_load_scale(options.from);
-  bool cancelled = false;
-  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
-  if (first.parts == nullptr) return without_points(cancelled, first.status);
-  return exact_curve({condensed_, laws_, *dynamics(), SweepParameter::load_scale}, first, options);
+  return exact_curve_here(SweepParameter::load_scale, options, how, start);
 }
 
 std::vector<ExactCurve> ContactProblem::doubled_curves(const ExactCurve& curve, SweepParameter parameter,
@@ -304,7 +304,7 @@ CurveStability ContactProblem::stability(const FrequencySweep& curve, int output
   options.special_points = special_points;
   options.output_points = output_points;
   options.observer = observer;
-  condensed_.set_load_scale(curve.points.front().load_scale);
+  hold(curve);
   CurveStability stability = curve_stability(condensed_, laws_, curve, *dynamics(), options);
   if (!stability.cancelled && special_points) add_slip_points(curve, output_points, stability);
   return stability;
@@ -313,7 +313,7 @@ CurveStability ContactProblem::stability(const FrequencySweep& curve, int output
 // In the order of the curve; what else happens between the same neighbours comes after the first slip.
 void ContactProblem::add_slip_points(const FrequencySweep& curve, int output_points,
                                      CurveStability& stability) {
-  condensed_.set_load_scale(curve.points.front().load_scale);
+  hold(curve);
   for (SpecialPoint& point : slip_points(condensed_, laws_, curve, output_points)) {
     const auto after =
         std::find_if(stability.special_points.begin(), stability.special_points.end(),
@@ -338,12 +338,12 @@ std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const 
 
 PeriodicResponse ContactProblem::response(const FrequencySweep& curve, double value,
                                           const Eigen::VectorXd& unknown) {
-  if (!curve.points.empty()) condensed_.set_load_scale(curve.points.front().load_scale);
+  hold(curve);
   return curve_response(condensed_, laws_, curve, value, unknown);
 }
 
 std::vector<PeriodicResponse> ContactProblem::responses_at(const FrequencySweep& curve, double value) {
-  if (!curve.points.empty()) condensed_.set_load_scale(curve.points.front().load_scale);
+  hold(curve);
   return solvers::responses_at(condensed_, laws_, curve, value);
 }
 
@@ -354,8 +354,7 @@ void ContactProblem::require_no_impacts() const {
 }
 
 ImpactResponse ContactProblem::impacts(double frequency, const ImpactResponseOptions& options) {
-  load_fully(frequency);
-  return impact_response(phases_problem_here(), options);
+  return impact_response(phases_problem(frequency), options);
 }
 
 PhasesProblem ContactProblem::phases_problem(double frequency) {

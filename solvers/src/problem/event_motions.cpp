@@ -179,9 +179,7 @@ class EventMotions {
     MotionSamples samples = samples_of(found.motion, found.load_periods);
     if (problem_.dynamics.holding() > 0.0)  // where a body that is free is says nothing
       samples.contacts.displacement.colwise() -= samples.contacts.displacement.rowwise().mean().eval();
-    for (std::size_t i = 0; i < samples_.size(); ++i)
-      for (int later = 0; samples_[i].periods == samples.periods && later < samples.periods; ++later)
-        if (agree_after(samples, samples_[i], later)) return i;
+    if (const auto known = find_among(samples_, samples)) return known;
     CoexistingMotion& one = result_.motions.emplace_back();
     one.motion = found.motion;
     one.periods = found.load_periods;
@@ -192,13 +190,9 @@ class EventMotions {
   }
 
   void describe() {
-    const double n = result_.starts;
-    for (CoexistingMotion& one : result_.motions) {
+    for (CoexistingMotion& one : result_.motions)
       one.max_displacement = samples_of(one.motion, one.periods).contacts.displacement.maxCoeff();
-      if (n == 0.0) continue;
-      one.share = one.arrivals / n;
-      one.share_error = std::sqrt(one.share * (1.0 - one.share) / n);
-    }
+    set_shares(result_);
     for (const auto& [status, count] : result_.none_by) result_.none += count;
     if (!cancelled() && !result_.motions.empty()) result_.status = MotionsStatus::converged;
   }

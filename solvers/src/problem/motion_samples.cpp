@@ -1,6 +1,7 @@
 #include "problem/motion_samples.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -14,8 +15,12 @@ Eigen::MatrixXd columns_from(const Eigen::MatrixXd& values, Index first, Index c
   return columns;
 }
 
-bool agree(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
-  return (one - other).norm() <= same_motion * std::max(one.norm(), other.norm());
+// Whether `other` is `one`, `periods` periods of the load later.
+bool agree_after(const MotionSamples& one, const MotionSamples& other, int periods) {
+  const Eigen::MatrixXd& now = one.contacts.displacement;
+  const Eigen::MatrixXd later =
+      columns_from(other.contacts.displacement, periods * other.shift(), other.contacts.displacement.cols());
+  return (now - later).norm() <= same_motion * std::max(now.norm(), later.norm());
 }
 
 }  // namespace
@@ -26,9 +31,21 @@ MotionSamples samples_of(const PhaseMotion& motion, int periods) {
   return {{motion.displacement(times), motion.velocity(times), motion.force(times)}, periods};
 }
 
-bool agree_after(const MotionSamples& one, const MotionSamples& other, int periods) {
-  const Eigen::MatrixXd& values = other.contacts.displacement;
-  return agree(one.contacts.displacement, columns_from(values, periods * other.shift(), values.cols()));
+std::optional<std::size_t> find_among(const std::vector<MotionSamples>& motions,
+                                      const MotionSamples& motion) {
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    for (int later = 0; motions[i].periods == motion.periods && later < motion.periods; ++later)
+      if (agree_after(motion, motions[i], later)) return i;
+  return std::nullopt;
+}
+
+void set_shares(CoexistingMotions& result) {
+  const double n = result.starts;
+  for (CoexistingMotion& one : result.motions) {
+    if (result.starts == 0) break;
+    one.share = one.arrivals / n;
+    one.share_error = std::sqrt(one.share * (1.0 - one.share) / n);
+  }
 }
 
 int least_periods(const MotionSamples& motion) {

@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+#include <vector>
+
 #include "linalg/index.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/problem/coexisting_motions.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -17,8 +20,10 @@ struct MotionSamples {
 };
 
 MotionSamples samples_of(const PhaseMotion& motion, int periods);
-/// Whether `other` is `one`, `periods` periods of the load later.
-bool agree_after(const MotionSamples& one, const MotionSamples& other, int periods);
+/// The first of some motions that is this one, also later by whole periods of the load.
+std::optional<std::size_t> find_among(const std::vector<MotionSamples>& motions, const MotionSamples& motion);
+/// Sets CoexistingMotion::share and its error.
+void set_shares(CoexistingMotions& result);
 /// The least number of periods of the load after which a motion repeats.
 int least_periods(const MotionSamples& motion);
 /// The mean of a motion and itself some periods of the load later.

@@ -1,7 +1,5 @@
 #include "wavebalance/solvers/problem/phases_along.hpp"
 
-#include <atomic>
-
 #include "linalg/option_checks.hpp"
 #include "problem/thread_problems.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
@@ -55,26 +53,14 @@ CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
   std::vector<ContactProblem> problems = detail::thread_problems(make, places.size(), options.threads);
   if (places.empty() || problems.front().dynamics() == nullptr) return result;
   result.points.resize(places.size());
-  const std::string_view unit = unit_of(problems.front().condensed(), curve.parameter);
-  std::atomic<int> found{0};
-  std::atomic<bool> cancelled{false};
-  const auto tell = [&](double value) {
-    const int count = found;
-    if (!goes_on(options.observer,
-                 {"contact phases", count, value, unit, double(count) / double(places.size())}))
-      cancelled = true;
-  };
-  const auto work = [&](int worker, Eigen::Index index) {
-    if (cancelled) return;
-    const auto i = static_cast<std::size_t>(index);
-    result.points[i] =
-        phases_near(problems[static_cast<std::size_t>(worker)], curve, places[i], options, options.kept == i);
-    ++found;
-    if (worker == 0) tell(places[i].front().value);
-  };
-  parallel_for(static_cast<int>(problems.size()), static_cast<Eigen::Index>(places.size()), work,
-               [&] { tell(missing); });
-  result.cancelled = cancelled;
+  detail::PlacesProgress progress(options.observer, "contact phases",
+                                  unit_of(problems.front().condensed(), curve.parameter));
+  detail::at_places(problems, places.size(), progress,
+                    [&](ContactProblem& problem, std::size_t i, const Observer&) {
+                      result.points[i] = phases_near(problem, curve, places[i], options, options.kept == i);
+                      return places[i].front().value;
+                    });
+  result.cancelled = progress.cancelled();
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "wavebalance/solvers/problem/structure_points.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -91,49 +90,22 @@ class Assembly {
 
 constexpr double share_of_whole = 0.25;  // of the operations; stretches have the rest
 
-// Tells of the work done, from any thread; remembers that the observer returned false.
-class Teller {
- public:
-  Teller(const Observer& observer, std::string_view unit) : observer_(observer), unit_(unit) {}
-
-  bool tell(double value, int done, double share) {
-    if (!cancelled_ && !goes_on(observer_, {"special points", done, value, unit_, share})) cancelled_ = true;
-    return !cancelled_;
-  }
-  bool cancelled() const { return cancelled_; }
-
- private:
-  const Observer& observer_;
-  std::string_view unit_;
-  std::atomic<bool> cancelled_{false};
-};
-
 // One for each stretch; not all of them where the observer returns false.
 std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vector<ContactProblem>& problems,
                                  const FrequencySweep& curve, const StructurePointsOptions& options,
-                                 Teller& teller) {
-  std::vector<OnStretch> found(stretches.size());
-  std::atomic<int> done{0};
+                                 detail::PlacesProgress& progress) {
+  OnStretch stopped;  // before it was followed
+  stopped.cancelled = true;
+  std::vector<OnStretch> found(stretches.size(), stopped);
   const double curves = 2.0 * double(stretches.size());
   const detail::CurveEffort effort{options.max_points / curves,
                                    (1.0 - share_of_whole) * options.max_operations / curves};
-  const auto tell = [&](double value) {
-    const int count = done;
-    return teller.tell(value, count, double(count) / double(stretches.size()));
-  };
-  const auto work = [&](int worker, Eigen::Index index) {
-    const auto i = static_cast<std::size_t>(index);
-    const Observer observer = [&tell, &teller, worker](const Progress& progress) {
-      return worker == 0 ? tell(progress.value) : !teller.cancelled();
-    };
-    ContactProblem& problem = problems[static_cast<std::size_t>(worker)];
-    found[i].cancelled = teller.cancelled();
-    if (found[i].cancelled) return;
-    found[i] = StructureCurve(problem, curve, options, effort, observer).along(stretches[i]);
-    ++done;
-  };
-  parallel_for(static_cast<int>(problems.size()), static_cast<Eigen::Index>(stretches.size()), work,
-               [&] { tell(missing); });
+  detail::at_places(problems, stretches.size(), progress,
+                    [&](ContactProblem& problem, std::size_t i, const Observer& observer) {
+                      found[i] =
+                          StructureCurve(problem, curve, options, effort, observer).along(stretches[i]);
+                      return std::nullopt;
+                    });
   return found;
 }
 
@@ -146,10 +118,10 @@ Stretch all_of(const FrequencySweep& curve, const std::vector<SpecialPoint>& poi
 
 // Along the whole curve at once.
 OnStretch along_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
-                      const StructurePointsOptions& options, Teller& teller) {
+                      const StructurePointsOptions& options, detail::PlacesProgress& progress) {
   const double low = std::min(options.from, options.to), length = std::abs(options.to - options.from);
-  const Observer observer = [&](const Progress& progress) {
-    return teller.tell(progress.value, 0, std::clamp((progress.value - low) / length, 0.0, 1.0));
+  const Observer observer = [&](const Progress& within) {
+    return progress.tell(within.value, 0, std::clamp((within.value - low) / length, 0.0, 1.0));
   };
   // From the first point and from the last one.
   const detail::CurveEffort effort{double(options.max_points), 0.5 * share_of_whole * options.max_operations};
@@ -174,9 +146,9 @@ std::vector<std::size_t> passed_by(ContactProblem& problem, const FrequencySweep
 // Not whole where the curve of the structure was not followed through the interval.
 StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve,
                          const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance,
-                         const StructurePointsOptions& options, Teller& teller) {
+                         const StructurePointsOptions& options, detail::PlacesProgress& progress) {
   const Stretch all = all_of(curve, points);
-  OnStretch found = along_whole(problem, curve, all, options, teller);
+  OnStretch found = along_whole(problem, curve, all, options, progress);
   if (!found.complete) return {};
   const bool apart = found.apart;
   Assembly assembly(points, distance, options.reach);
@@ -219,19 +191,20 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
   Assembly assembly(points, distance, std::numeric_limits<double>::infinity());
   ContactProblem problem = make();
   if (curve.points.empty() || problem.dynamics() == nullptr) return assembly.finished();
-  Teller teller(options.observer, unit_of(problem.condensed(), curve.parameter));
-  StructurePoints result = of_whole(problem, curve, points, distance, options, teller);
+  detail::PlacesProgress progress(options.observer, "special points",
+                                  unit_of(problem.condensed(), curve.parameter));
+  StructurePoints result = of_whole(problem, curve, points, distance, options, progress);
   if (!result.whole && !points.empty()) {
     const std::vector<Stretch> stretches =
         detail::stretches_about(curve, points, distance, options.reach, options.max_stretches);
     constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
     std::vector<ContactProblem> problems =
         detail::thread_problems(make, places_worth * stretches.size(), options.threads);
-    std::vector<OnStretch> found = along_all(stretches, problems, curve, options, teller);
+    std::vector<OnStretch> found = along_all(stretches, problems, curve, options, progress);
     for (std::size_t i = 0; i < stretches.size(); ++i) assembly.add(stretches[i], std::move(found[i]));
     result = assembly.finished();
   }
-  result.cancelled = teller.cancelled();
+  result.cancelled = progress.cancelled();
   return result;
 }
 

@@ -18,4 +18,25 @@ std::vector<ContactProblem> thread_problems(const ProblemMaker& make, std::size_
   return problems;
 }
 
+void at_places(std::vector<ContactProblem>& problems, std::size_t places, PlacesProgress& progress,
+               const WorkAtPlace& work) {
+  std::atomic<int> done{0};
+  const auto tell = [&](double value) {
+    const int count = done;
+    return progress.tell(value, count, double(count) / double(places));
+  };
+  const auto at = [&](int worker, Eigen::Index index) {
+    if (progress.cancelled()) return;
+    const Observer observer = [&](const Progress& within) {
+      return worker == 0 ? tell(within.value) : !progress.cancelled();
+    };
+    const auto value =
+        work(problems[static_cast<std::size_t>(worker)], static_cast<std::size_t>(index), observer);
+    ++done;
+    if (value && worker == 0) tell(*value);
+  };
+  parallel_for(static_cast<int>(problems.size()), static_cast<Eigen::Index>(places), at,
+               [&] { tell(missing); });
+}
+
 }  // namespace wavebalance::solvers::detail

@@ -126,10 +126,11 @@ class AnyContactLaw {
   [[noreturn]] static void refuse_instant();
   [[noreturn]] static void refuse_steps();
 
+  /// Unless it is said otherwise, that of a law over a period, which has no force at one instant.
   struct Interface {
     virtual ~Interface() = default;
     virtual int rows() const = 0;
-    virtual bool acts_over_period() const = 0;
+    virtual bool acts_over_period() const { return true; }
     virtual void evaluate(const PeriodKinematics&, PeriodForces&) const = 0;
     virtual bool advances_in_steps() const { return false; }
     virtual void advance(std::span<const double>, std::span<const double>, std::span<const double>,
@@ -142,24 +143,27 @@ class AnyContactLaw {
     virtual const AnyCoupledLaw* coupled() const { return nullptr; }
     virtual std::optional<FrictionConstants> friction() const { return std::nullopt; }
     virtual std::optional<double> restitution() const { return std::nullopt; }
-    virtual double force(double displacement) const = 0;
-    virtual double tangent(double displacement) const = 0;
-    virtual double potential(double displacement) const = 0;
+    virtual double force(double /*displacement*/) const { refuse_instant(); }
+    virtual double tangent(double /*displacement*/) const { refuse_instant(); }
+    virtual double potential(double /*displacement*/) const { refuse_instant(); }
     virtual double gap() const = 0;
-    virtual ForceSlope resolvent(double v, double flexibility) const = 0;
-    virtual bool unilateral() const = 0;
-    virtual bool monotone() const = 0;
-    virtual bool depends_on_velocity() const = 0;
-    virtual ForceSlopes at(double displacement, double velocity) const = 0;
-    virtual std::vector<double> kinks() const = 0;
-    virtual std::vector<double> breakpoints() const = 0;
-    virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const = 0;
-    virtual void evaluate(std::span<const double>, std::span<double>) const = 0;
+    virtual ForceSlope resolvent(double /*v*/, double /*flexibility*/) const { refuse_instant(); }
+    virtual bool unilateral() const { return false; }
+    virtual bool monotone() const { return false; }
+    virtual bool depends_on_velocity() const { return false; }
+    virtual ForceSlopes at(double /*displacement*/, double /*velocity*/) const { refuse_instant(); }
+    virtual std::vector<double> kinks() const { return {}; }
+    virtual std::vector<double> breakpoints() const { return kinks(); }
+    virtual void evaluate(std::span<const double>, std::span<double>, std::span<double>) const {
+      refuse_instant();
+    }
+    virtual void evaluate(std::span<const double>, std::span<double>) const { refuse_instant(); }
     virtual bool offers_period_resolvent() const { return false; }
     virtual bool is_rigid_over_period() const { return false; }
     virtual AnyContactLaw over_period_resolvent(std::span<const double>) const { refuse_steps(); }
   };
 
+  /// A law of one instant.
   template <class Law>
   struct Model final : Interface {
     explicit Model(Law law) : law_(std::move(law)) {}
@@ -196,57 +200,43 @@ class AnyContactLaw {
         return {law_.force(displacement), law_.tangent(displacement), 0.0};
     }
     std::vector<double> kinks() const override {
-      if constexpr (SaysItsKinks<Law>)
-        return law_.kinks();
-      else
-        return kinks_of(*this);
+      if constexpr (SaysItsKinks<Law>) return law_.kinks();
+      return kinks_of(*this);
     }
     std::vector<double> breakpoints() const override {
-      if constexpr (SaysItsBreakpoints<Law>)
-        return law_.breakpoints();
-      else
-        return kinks();
+      if constexpr (SaysItsBreakpoints<Law>) return law_.breakpoints();
+      return kinks();
     }
     double potential(double displacement) const override { return law_.potential(displacement); }
     double gap() const override { return law_.gap(); }
     std::optional<double> restitution() const override {
-      if constexpr (SaysItsRestitution<Law>)
-        return law_.restitution();
-      else
-        return std::nullopt;
+      if constexpr (SaysItsRestitution<Law>) return law_.restitution();
+      return std::nullopt;
     }
     ForceSlope resolvent(double v, double flexibility) const override {
       if constexpr (OffersResolvent<Law>) {
         const auto both = law_.resolvent(v, flexibility);
         return {both.force, both.tangent};
-      } else {
-        return solve_resolvent(*this, v, flexibility);
       }
+      return solve_resolvent(*this, v, flexibility);
     }
     bool monotone() const override {
-      if constexpr (SaysWhetherItRises<Law>)
-        return law_.monotone();
-      else
-        return false;
+      if constexpr (SaysWhetherItRises<Law>) return law_.monotone();
+      return false;
     }
     bool unilateral() const override {
-      if constexpr (SaysWhereItActs<Law>)
-        return law_.unilateral();
-      else
-        return vanishes_below_gap(*this);
+      if constexpr (SaysWhereItActs<Law>) return law_.unilateral();
+      return vanishes_below_gap(*this);
     }
     void evaluate(std::span<const double> u, std::span<double> f, std::span<double> slope) const override {
       for (std::size_t i = 0; i < u.size(); ++i) {
-        if constexpr (DependsOnVelocity<Law>) {
-          f[i] = force(u[i]);
-          slope[i] = tangent(u[i]);
-        } else if constexpr (EvaluatesTogether<Law>) {
+        if constexpr (EvaluatesTogether<Law> && !DependsOnVelocity<Law>) {
           const auto both = law_.evaluate(u[i]);
           f[i] = both.force;
           slope[i] = both.tangent;
         } else {
-          f[i] = law_.force(u[i]);
-          slope[i] = law_.tangent(u[i]);
+          f[i] = force(u[i]);
+          slope[i] = tangent(u[i]);
         }
       }
     }
@@ -256,12 +246,10 @@ class AnyContactLaw {
     Law law_;
   };
 
-  /// A law over a period, which has no force at one displacement.
   template <class Law>
   struct PeriodModel final : Interface {
     explicit PeriodModel(Law law) : law_(std::move(law)) {}
     int rows() const override { return law_.rows(); }
-    bool acts_over_period() const override { return true; }
     void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
       law_.evaluate(motion, forces);
     }
@@ -282,16 +270,12 @@ class AnyContactLaw {
     }
     bool offers_period_resolvent() const override { return OffersPeriodResolvent<Law>; }
     bool is_rigid_over_period() const override {
-      if constexpr (OffersPeriodResolvent<Law>)
-        return law_.rigid();
-      else
-        return false;
+      if constexpr (OffersPeriodResolvent<Law>) return law_.rigid();
+      return false;
     }
     AnyContactLaw over_period_resolvent(std::span<const double> flexibility) const override {
-      if constexpr (OffersPeriodResolvent<Law>)
-        return AnyContactLaw(law_.resolvent(flexibility));
-      else
-        refuse_instant();
+      if constexpr (OffersPeriodResolvent<Law>) return AnyContactLaw(law_.resolvent(flexibility));
+      refuse_instant();
     }
     std::optional<FrictionConstants> friction() const override {
       if constexpr (IsElasticFriction<Law>)
@@ -301,30 +285,13 @@ class AnyContactLaw {
                                  law_.static_friction(),    law_.surface_speed(),
                                  law_.tangential_damping(), law_.normal_damping(),
                                  law_.needs_states()};
-      else
-        return std::nullopt;
+      return std::nullopt;
     }
-    double force(double) const override { refuse_instant(); }
-    double tangent(double) const override { refuse_instant(); }
-    double potential(double) const override { refuse_instant(); }
     const AnyCoupledLaw* coupled() const override {
-      if constexpr (std::same_as<Law, AnyCoupledLaw>)
-        return &law_;
-      else
-        return nullptr;
+      if constexpr (std::same_as<Law, AnyCoupledLaw>) return &law_;
+      return nullptr;
     }
     double gap() const override { return coupled() ? coupled()->gap() : 0.0; }
-    ForceSlope resolvent(double, double) const override { refuse_instant(); }
-    bool unilateral() const override { return false; }
-    bool monotone() const override { return false; }
-    bool depends_on_velocity() const override { return false; }
-    ForceSlopes at(double, double) const override { refuse_instant(); }
-    std::vector<double> kinks() const override { return {}; }
-    std::vector<double> breakpoints() const override { return {}; }
-    void evaluate(std::span<const double>, std::span<double>, std::span<double>) const override {
-      refuse_instant();
-    }
-    void evaluate(std::span<const double>, std::span<double>) const override { refuse_instant(); }
     Law law_;
   };
 

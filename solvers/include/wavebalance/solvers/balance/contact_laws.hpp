@@ -93,8 +93,6 @@ class ContactLaws {
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& velocity) const;
 
  private:
-  Eigen::MatrixXd force_over_period(const Eigen::MatrixXd& displacement,
-                                    const Eigen::MatrixXd& velocity) const;
   void evaluate_law(int row, int points, const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity,
                     ContactForces& forces) const;
 

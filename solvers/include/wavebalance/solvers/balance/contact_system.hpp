@@ -12,6 +12,7 @@ namespace wavebalance::solvers {
 class JacobianSolver;
 class RateMap;
 class RigidPosition;
+struct Border;
 
 /// The piece of its law that each sample lies on: the number of kinks below its displacement. With one kink,
 /// at the gap, 1 in contact and 0 outside.
@@ -138,7 +139,7 @@ class ContactSystem {
   void take_side(int sample, const ForceSlopes& side);
   ForceSlopes side_of(int sample, const LawKink& kink, bool beyond) const;
   void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
-  bool factorize_position(bool bordered);
+  bool factorize(const Border& border);
 
   ContactOperator operator_;
   ContactLaws laws_;

@@ -152,12 +152,14 @@ class ContactProblem {
   void require_well_posed() const;
   void require_no_impacts() const;
   void hold(const PeriodicResponse& response);
+  void hold(const FrequencySweep& curve);
   void load_fully(double frequency);
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
   PhaseMotion motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
                           const ResponseStart& start);
   PhasesProblem phases_problem_here();
-  PhaseMotion phases_here(const SettledMotion& settled, const ContactPhasesOptions& options);
+  ExactCurve exact_curve_here(SweepParameter parameter, const ExactCurveOptions& options,
+                              const ForcedResponseOptions& how, const ResponseStart& start);
 
   CondensedProblem condensed_;
   ContactLaws laws_;
