@@ -10,17 +10,10 @@ CurveDistance::CurveDistance(const FrequencySweep& curve, double scale)
   for (const SweepPoint& point : curve.points) largest_ = std::max(largest_, point.max_abs_displacement);
 }
 
-double CurveDistance::length(double change, double moved) const {
-  return std::hypot(change / scale_, largest_ > 0.0 ? moved / largest_ : 0.0);
-}
-
-double CurveDistance::between(const SweepPoint& a, const SpecialPoint& b) const {
-  return length(parameter_of(a, parameter_) - parameter_of(b, parameter_),
-                a.max_abs_displacement - b.max_abs_displacement);
-}
-
 double CurveDistance::between(const SpecialPoint& a, double value, double max_abs_displacement) const {
-  return length(parameter_of(a, parameter_) - value, a.max_abs_displacement - max_abs_displacement);
+  const double change = parameter_of(a, parameter_) - value;
+  const double moved = a.max_abs_displacement - max_abs_displacement;
+  return std::hypot(change / scale_, largest_ > 0.0 ? moved / largest_ : 0.0);
 }
 
 namespace {
@@ -32,7 +25,9 @@ Stretch stretch_about(const FrequencySweep& curve, const SpecialPoint& point, co
   const std::size_t count = curve.points.size(), next = std::min(point.next_point, count - 1);
   Stretch stretch{next > 0 ? next - 1 : 0, next, {}};
   const auto ends = [&](std::size_t at, std::size_t steps) {
-    return steps >= least_points_beside && distance.between(curve.points[at], point) > reach;
+    const SweepPoint& there = curve.points[at];
+    return steps >= least_points_beside &&
+           distance.between(point, parameter_of(there, curve.parameter), there.max_abs_displacement) > reach;
   };
   for (std::size_t steps = 1; stretch.first > 0 && !ends(stretch.first, steps); ++steps) --stretch.first;
   for (std::size_t steps = 1; stretch.last + 1 < count && !ends(stretch.last, steps); ++steps) ++stretch.last;

@@ -18,13 +18,10 @@ class CurveDistance {
   /// `scale`: change of the parameter that has length 1.
   CurveDistance(const FrequencySweep& curve, double scale);
 
-  double between(const SweepPoint& a, const SpecialPoint& b) const;
-  /// Of a motion of the structure with a value of the parameter and a largest displacement (m).
+  /// Of a motion with a value of the parameter and a largest displacement (m).
   double between(const SpecialPoint& a, double value, double max_abs_displacement) const;
 
  private:
-  double length(double change, double moved) const;
-
   SweepParameter parameter_;
   double scale_, largest_;
 };

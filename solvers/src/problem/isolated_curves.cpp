@@ -88,8 +88,6 @@ class IsolatedCurvesSearch {
     return curves;
   }
 
-  ContactForm form() const { return known_.front()->form; }
-
   Observer observer() {
     return [this](const Progress& progress) {
       result_.cancelled = result_.cancelled || !goes_on(options_.sweep.observer, progress);
@@ -102,7 +100,7 @@ class IsolatedCurvesSearch {
     motions_there_.clear();
     const std::optional<detail::StateBox> box = detail::box_of_motions(problem_, frequency);
     if (box)
-      for (const Motion& resonance : box->resonances()) consider(frequency, -1, resonance, 0.0, false);
+      for (const Motion& resonance : box->resonances) consider(frequency, -1, resonance, 0.0, false);
     const int random = box ? options_.random_starts : 0;
     for (int start = 0; start <= random && !result_.cancelled; ++start) {
       SettlingOptions how = options_.settling;
@@ -133,7 +131,7 @@ class IsolatedCurvesSearch {
   void consider(double frequency, int start, const Motion& piece, double begin, bool settled) {
     if (result_.cancelled) return;
     ForcedResponseOptions how = options_.sweep.start;
-    how.form = form();
+    how.form = known_.front()->form;
     how.fallbacks = false;
     how.observer = observer();
     const int points = problem_.pair().points();
@@ -144,7 +142,7 @@ class IsolatedCurvesSearch {
     if (!response.converged()) {
       const auto& last = result_.unmatched;
       if (settled && (last.empty() || last.back() != frequency)) result_.unmatched.push_back(frequency);
-    } else if (!is_known(frequency, response)) {
+    } else if (!is_among(frequency, response, known_.size() + result_.curves.size())) {
       result_.curves.push_back({frequency, start, follow(response), false});
       motions_there_.clear();
       IsolatedCurve& found = result_.curves.back();
@@ -175,10 +173,6 @@ class IsolatedCurvesSearch {
     const Eigen::MatrixXd wanted = compared(response);
     return std::any_of(motions.begin(), motions.end(),
                        [&](const Eigen::MatrixXd& one) { return agree_at_some_period(wanted, one); });
-  }
-
-  bool is_known(double frequency, const PeriodicResponse& response) {
-    return is_among(frequency, response, known_.size() + result_.curves.size());
   }
 
   FrequencySweep follow(const PeriodicResponse& response) {

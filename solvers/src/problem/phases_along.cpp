@@ -20,12 +20,12 @@ PointPhases phases_at(ContactProblem& problem, const FrequencySweep& curve, cons
 
 PointPhases phases_near(ContactProblem& problem, const FrequencySweep& curve,
                         const std::vector<CurvePlace>& places, const CurvePhasesOptions& options, bool kept) {
-  const PointPhases first = phases_at(problem, curve, places.front(), options, kept);
-  if (first.status != PhasesStatus::not_found) return first;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    PointPhases other = phases_at(problem, curve, places[i], options, kept);
-    other.place = i;
-    if (other.status != PhasesStatus::not_found) return other;
+  PointPhases first;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    PointPhases found = phases_at(problem, curve, places[i], options, kept);
+    found.place = i;
+    if (found.status != PhasesStatus::not_found) return found;
+    if (i == 0) first = std::move(found);
   }
   return first;
 }

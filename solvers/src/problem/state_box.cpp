@@ -117,7 +117,7 @@ void add_resonances(const ContactProblem& problem, const Eigen::VectorXd& contac
       wave[l] = amplitude * std::cos(2.0 * std::numbers::pi * harmonic * l / points + phase);
     Motion motion{(vibration.contacts * shape * wave).colwise() + contacts_stand, {}, {}};
     motion.force = problem.laws().force(motion.displacement);
-    box.add_resonance(std::move(motion));
+    box.resonances.push_back(std::move(motion));
   }
 }
 
@@ -148,7 +148,7 @@ void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& st
   constexpr double most_times = 1e6;
   if (!problem.laws().have_finite_force()) return;
   const LinearStructure& structure = problem.structure();
-  const Eigen::MatrixXd &shapes = box.shapes(), modes = product(box.projection(), free.displacement);
+  const Eigen::MatrixXd &shapes = box.shapes, modes = product(box.projection, free.displacement);
   const Eigen::VectorXd contacts_stand = structure.contact_directions * stands;
   ModalVibration vibration{structure.contact_directions * shapes,
                            shapes.transpose() * (structure.damping * shapes),
@@ -170,44 +170,27 @@ void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& st
                    found = factor * resonant;
       if (!(resonant > 0.0)) continue;
       add_resonances(problem, contacts_stand, vibration, shape, resonant, h, box);
-      for (Eigen::Index j = 0; j < shape.size(); ++j)
-        box.include_mode(j, found * std::abs(shape[j]), found * vibration.omega * std::abs(shape[j]));
+      box.displacement = box.displacement.cwiseMax(found * shape.cwiseAbs());
+      box.velocity = box.velocity.cwiseMax(found * vibration.omega * shape.cwiseAbs());
     }
   }
 }
 
 }  // namespace
 
-std::optional<StateBox> StateBox::make(const LinearStructure& structure, double frequency, int max_modes) {
-  const auto flow = ModalFlow::make(structure, frequency, 1.0 / frequency, max_modes);
-  if (!flow) return std::nullopt;
-  StateBox box;
-  box.shapes_ = flow->shapes();
-  box.projection_ = flow->projection();
-  box.middle_ = box.displacement_ = box.velocity_ = Eigen::VectorXd::Zero(flow->modes());
-  return box;
-}
-
-void StateBox::set_middle(const Eigen::VectorXd& displacement) { middle_ = projection_ * displacement; }
-
 void StateBox::include(const Motion& motion, double factor) {
   const auto largest = [&](const Eigen::MatrixXd& values, const Eigen::VectorXd& from) -> Eigen::VectorXd {
-    return factor * (product(projection_, values).colwise() - from).cwiseAbs().rowwise().maxCoeff();
+    return factor * (product(projection, values).colwise() - from).cwiseAbs().rowwise().maxCoeff();
   };
-  displacement_ = displacement_.cwiseMax(largest(motion.displacement, middle_));
-  velocity_ = velocity_.cwiseMax(largest(motion.velocity, Eigen::VectorXd::Zero(middle_.size())));
-}
-
-void StateBox::include_mode(Eigen::Index mode, double displacement, double velocity) {
-  displacement_[mode] = std::max(displacement_[mode], displacement);
-  velocity_[mode] = std::max(velocity_[mode], velocity);
+  displacement = displacement.cwiseMax(largest(motion.displacement, middle));
+  velocity = velocity.cwiseMax(largest(motion.velocity, Eigen::VectorXd::Zero(middle.size())));
 }
 
 std::vector<BoxSide> StateBox::sides() const {
   std::vector<BoxSide> sides;
-  for (Eigen::Index i = 0; i < displacement_.size(); ++i) {
-    const double largest = shapes_.col(i).cwiseAbs().maxCoeff();
-    sides.push_back({largest * displacement_[i], largest * velocity_[i]});
+  for (Eigen::Index i = 0; i < displacement.size(); ++i) {
+    const double largest = shapes.col(i).cwiseAbs().maxCoeff();
+    sides.push_back({largest * displacement[i], largest * velocity[i]});
   }
   return sides;
 }
@@ -216,29 +199,31 @@ StructureState StateBox::random(std::mt19937& generator) const {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto within = [&](Eigen::VectorXd modes, const Eigen::VectorXd& sides) -> Eigen::VectorXd {
     for (Eigen::Index i = 0; i < sides.size(); ++i) modes[i] += sides[i] * uniform(generator);
-    return shapes_ * modes;
+    return shapes * modes;
   };
   StructureState state;
-  state.displacement = within(middle_, displacement_);
-  state.velocity = within(Eigen::VectorXd::Zero(velocity_.size()), velocity_);
+  state.displacement = within(middle, displacement);
+  state.velocity = within(Eigen::VectorXd::Zero(velocity.size()), velocity);
   return state;
 }
 
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency) {
   constexpr double larger = 2.0;
   problem.condensed().set_load_frequency(frequency);
-  auto box = StateBox::make(problem.structure(), frequency, SettlingOptions{}.max_modes);
-  if (!box) return box;
+  const auto flow =
+      ModalFlow::make(problem.structure(), frequency, 1.0 / frequency, SettlingOptions{}.max_modes);
+  if (!flow) return std::nullopt;
   const Eigen::VectorXd stands = standing(problem);
   PeriodicResponse open;
   open.frequency = problem.condensed().frequency();
   open.force_on_held_structure = Eigen::VectorXd::Zero(problem.samples());
   Motion free = vibration_of(structure_motion(problem.condensed(), open, points_of_period));
   const double factor = larger * factor_to_gap(problem, stands, free);
-  box->set_middle(stands);
-  include_resonances(problem, stands, free, larger, *box);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(flow->modes());
+  StateBox box{flow->shapes(), flow->projection(), flow->projection() * stands, zero, zero, {}};
+  include_resonances(problem, stands, free, larger, box);
   free.displacement.colwise() += stands;
-  box->include(free, factor);
+  box.include(free, factor);
   return box;
 }
 

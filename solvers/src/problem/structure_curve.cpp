@@ -17,6 +17,14 @@ double vibration_of(const Eigen::MatrixXd& displacement) {
   return (displacement.colwise() - displacement.rowwise().mean()).norm();
 }
 
+// A motion of the structure from which a stretch is followed.
+struct StretchStart {
+  double value = 0.0, direction = 1.0;
+  PhaseMotion motion;  // not converged where none was found
+
+  bool exists() const { return motion.converged(); }
+};
+
 // How a curve has a motion between two of its points, to first order.
 enum class Passing { never, along, against };
 
@@ -69,7 +77,10 @@ bool is_same(const ExactEvent& a, const ExactEvent& b) {
                              b.motion.displacement(comparison_times())) <= of_motion;
 }
 
-void OnStretch::add(std::vector<ExactEvent> more, bool from_behind) {
+namespace {
+
+// Events that are not there yet; `from_behind`: in the opposite order.
+void add_events(std::vector<ExactEvent> more, bool from_behind, std::vector<ExactEvent>& events) {
   std::erase_if(more, [&](const ExactEvent& one) {
     return std::any_of(events.begin(), events.end(), [&](const auto& other) { return is_same(one, other); });
   });
@@ -77,89 +88,96 @@ void OnStretch::add(std::vector<ExactEvent> more, bool from_behind) {
   std::move(more.begin(), more.end(), std::back_inserter(events));
 }
 
-OnStretch StructureCurve::along(const Stretch& stretch) const {
-  return from_both_ends(stretch, wider(stretch), false);
-}
+// What following the curve of the structure along one stretch takes.
+struct StructureCurve {
+  ContactProblem& problem;
+  const FrequencySweep& curve;
+  const StructurePointsOptions& options;
+  CurveEffort effort;
+  const Observer& observer;
 
-OnStretch StructureCurve::along_whole(const Stretch& all) const {
-  return from_both_ends(all, {std::min(options_.from, options_.to), std::max(options_.from, options_.to)},
-                        true);
-}
+  // The motion near the first point of the curve from an end of the stretch outwards that has one: near a
+  // fold several points lie beyond that of the structure.
+  StretchStart start_of(const Stretch& stretch, bool forwards) const {
+    constexpr double clear = 0.02;  // of a step beside zigzags of the samples
+    CurvePhasesOptions near;
+    near.phases = options.phases;
+    near.max_distance = options.max_distance;
+    StretchStart start;
+    for (const std::size_t steps : {0, 1, 3, 6}) {
+      if (forwards ? stretch.first < steps : stretch.last + steps >= curve.points.size()) break;
+      const std::size_t at = forwards ? stretch.first - steps : stretch.last + steps;
+      start.value = parameter_of(curve.points[at], curve.parameter);
+      start.direction = direction_from(curve, at, forwards, clear * unit_of_parameter(options));
+      const PeriodicResponse response = problem.response(curve, start.value, curve.points[at].unknown);
+      start.motion = near_phases(problem, response, near).value().motion;
+      if (start.motion.status != PhasesStatus::not_found) break;  // elsewhere it takes as much
+    }
+    return start;
+  }
 
-// `first_decides`: what is followed from the first point alone is complete where it leaves the interval.
+  ExactCurve followed(ValueRange range, const StretchStart& start) const {
+    constexpr double fewest = 8.0;
+    if (!start.exists() || effort.points < fewest) return {};
+    const ContactDynamics& dynamics = *problem.dynamics();
+    if (fewest * exact_point_operations(start.motion, dynamics) > effort.operations) return {};
+    const double lowest = std::min(range.low, start.value), highest = std::max(range.high, start.value);
+    ExactCurveOptions how;
+    how.from = start.value;
+    how.to = start.direction > 0.0 ? highest : lowest;
+    how.behind = start.direction > 0.0 ? lowest : highest;
+    if (how.to == start.value) return {};
+    how.parameter_scale = unit_of_parameter(options);
+    how.first_step = options.first_step;
+    how.largest_step = options.largest_step;
+    how.max_points = static_cast<int>(effort.points);
+    how.max_operations = effort.operations;
+    how.phases = options.phases;
+    how.observer = observer;
+    return exact_curve({problem.condensed(), problem.laws(), dynamics, curve.parameter}, start.motion, how);
+  }
+
+  // A little wider than the stretch, since the structure's folds lie beside those of the balance.
+  ValueRange wider(const Stretch& stretch) const {
+    const auto [low, high] = values_on(curve, stretch.first, stretch.last);
+    const double margin = std::max(high - low, unit_of_parameter(options));
+    return {std::max(std::min(options.from, options.to), low - margin),
+            std::min(std::max(options.from, options.to), high + margin)};
+  }
+};
+
+}  // namespace
+
+// Of the whole, what is followed from the first point alone is complete where it leaves the interval.
 // Otherwise it has to come past the other end.
-OnStretch StructureCurve::from_both_ends(const Stretch& stretch, ValueRange range, bool first_decides) const {
+OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, const Stretch& stretch,
+                          bool whole, const StructurePointsOptions& options, CurveEffort effort,
+                          const Observer& observer) {
+  const StructureCurve structure{problem, curve, options, effort, observer};
+  const ValueRange range =
+      whole ? ValueRange{std::min(options.from, options.to), std::max(options.from, options.to)}
+            : structure.wider(stretch);
   OnStretch result;
-  const StretchStart start = start_of(stretch, true);
-  const ExactCurve forwards = followed(range, start);
-  result.add(forwards.events, false);
+  const StretchStart start = structure.start_of(stretch, true);
+  const ExactCurve forwards = structure.followed(range, start);
+  add_events(forwards.events, false, result.events);
   result.cancelled = forwards.status == SweepStatus::cancelled;
   result.with_multipliers = !forwards.points.empty() && has_multipliers(forwards);
   if (result.cancelled) return result;
-  const StretchStart end = start_of(stretch, false);
+  const StretchStart end = structure.start_of(stretch, false);
   const Passing of_end = passing(forwards, end);
-  const bool first_left = first_decides && left_its_interval(forwards);
+  const bool first_left = whole && left_its_interval(forwards);
   result.complete = (of_end == Passing::against && forwards.unexplained.empty()) || first_left;
   if (of_end == Passing::against || (first_left && (!end.exists() || of_end == Passing::along)))
     return result;
-  const ExactCurve backwards = followed(range, end);
-  result.add(backwards.events, true);
+  const ExactCurve backwards = structure.followed(range, end);
+  add_events(backwards.events, true, result.events);
   result.cancelled = backwards.status == SweepStatus::cancelled;
   result.with_multipliers = result.with_multipliers && has_multipliers(backwards);
   const Passing of_start = passing(backwards, start);
   result.complete = result.complete || (of_start == Passing::against && left_its_interval(backwards));
   result.apart = first_left && left_its_interval(backwards) && of_start == Passing::never;
   return result;
-}
-
-// The motion near the first point of the curve from an end of the stretch outwards that has one: near a fold
-// several points lie beyond that of the structure.
-StretchStart StructureCurve::start_of(const Stretch& stretch, bool forwards) const {
-  constexpr double clear = 0.02;  // of a step beside zigzags of the samples
-  CurvePhasesOptions near;
-  near.phases = options_.phases;
-  near.max_distance = options_.max_distance;
-  StretchStart start;
-  for (const std::size_t steps : {0, 1, 3, 6}) {
-    if (forwards ? stretch.first < steps : stretch.last + steps >= curve_.points.size()) break;
-    const std::size_t at = forwards ? stretch.first - steps : stretch.last + steps;
-    start.value = parameter_of(curve_.points[at], curve_.parameter);
-    start.direction = direction_from(curve_, at, forwards, clear * unit_of_parameter(options_));
-    const PeriodicResponse response = problem_.response(curve_, start.value, curve_.points[at].unknown);
-    start.motion = near_phases(problem_, response, near).value().motion;
-    if (start.motion.status != PhasesStatus::not_found) break;  // elsewhere it takes as much
-  }
-  return start;
-}
-
-ExactCurve StructureCurve::followed(ValueRange range, const StretchStart& start) const {
-  constexpr double fewest = 8.0;
-  if (!start.exists() || effort_.points < fewest) return {};
-  const ContactDynamics& dynamics = *problem_.dynamics();
-  if (fewest * exact_point_operations(start.motion, dynamics) > effort_.operations) return {};
-  const double lowest = std::min(range.low, start.value), highest = std::max(range.high, start.value);
-  ExactCurveOptions options;
-  options.from = start.value;
-  options.to = start.direction > 0.0 ? highest : lowest;
-  options.behind = start.direction > 0.0 ? lowest : highest;
-  if (options.to == start.value) return {};
-  options.parameter_scale = unit_of_parameter(options_);
-  options.first_step = options_.first_step;
-  options.largest_step = options_.largest_step;
-  options.max_points = static_cast<int>(effort_.points);
-  options.max_operations = effort_.operations;
-  options.phases = options_.phases;
-  options.observer = observer_;
-  return exact_curve({problem_.condensed(), problem_.laws(), dynamics, curve_.parameter}, start.motion,
-                     options);
-}
-
-// A little wider than the stretch, since the structure's folds lie beside those of the balance.
-ValueRange StructureCurve::wider(const Stretch& stretch) const {
-  const auto [low, high] = values_on(curve_, stretch.first, stretch.last);
-  const double margin = std::max(high - low, unit_of_parameter(options_));
-  return {std::max(std::min(options_.from, options_.to), low - margin),
-          std::min(std::max(options_.from, options_.to), high + margin)};
 }
 
 bool lies_on(ContactProblem& problem, const FrequencySweep& curve, const ExactEvent& event, double scale,

@@ -29,48 +29,14 @@ struct OnStretch {
   bool complete = false;  ///< followed from one end of the stretch to the other, or out of the interval
   bool apart = false;     ///< its ends lie on different curves of the structure
   bool with_multipliers = false, cancelled = false;
-
-  /// Those that are not there yet; `from_behind`: in the opposite order.
-  void add(std::vector<ExactEvent> more, bool from_behind);
 };
 
-/// A motion of the structure from which a stretch is followed.
-struct StretchStart {
-  double value = 0.0, direction = 1.0;
-  PhaseMotion motion;  ///< not converged where none was found
-
-  bool exists() const { return motion.converged(); }
-};
-
-/// Follows the curve of the structure along stretches of that of a balance.
-class StructureCurve {
- public:
-  StructureCurve(ContactProblem& problem, const FrequencySweep& curve, const StructurePointsOptions& options,
-                 CurveEffort effort, Observer observer)
-      : problem_(problem),
-        curve_(curve),
-        options_(options),
-        effort_(effort),
-        observer_(std::move(observer)) {}
-
-  /// From the first point of a stretch, and where that does not come past its last one, back from that.
-  OnStretch along(const Stretch& stretch) const;
-  /// From the first point of the balance's curve through the whole interval, whatever becomes of the
-  /// balance's, and back from its last point where the structure's does not pass that.
-  OnStretch along_whole(const Stretch& all) const;
-
- private:
-  OnStretch from_both_ends(const Stretch& stretch, ValueRange range, bool first_decides) const;
-  StretchStart start_of(const Stretch& stretch, bool forwards) const;
-  ExactCurve followed(ValueRange range, const StretchStart& start) const;
-  ValueRange wider(const Stretch& stretch) const;
-
-  ContactProblem& problem_;
-  const FrequencySweep& curve_;
-  const StructurePointsOptions& options_;
-  CurveEffort effort_;
-  Observer observer_;
-};
+/// Follows the curve of the structure from the first point of a stretch of a balance's curve, and where that
+/// does not come past its last one, back from that. `whole`: through the interval of the options, whatever
+/// becomes of the balance's curve, otherwise little farther than the stretch.
+OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, const Stretch& stretch,
+                          bool whole, const StructurePointsOptions& options, CurveEffort effort,
+                          const Observer& observer);
 
 /// Whether a motion lies within `reach` of a point of a balance's curve, as arc length: of the parameter by
 /// `scale`, of the displacements by what the motion vibrates.

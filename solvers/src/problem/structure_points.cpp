@@ -15,7 +15,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-using detail::OnStretch, detail::Stretch, detail::StructureCurve;
+using detail::OnStretch, detail::Stretch;
 
 // The events of all stretches, each once, and beside them the special points of the balance.
 class Assembly {
@@ -102,8 +102,8 @@ std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vec
                                    (1.0 - share_of_whole) * options.max_operations / curves};
   detail::at_places(problems, stretches.size(), progress,
                     [&](ContactProblem& problem, std::size_t i, const Observer& observer) {
-                      found[i] =
-                          StructureCurve(problem, curve, options, effort, observer).along(stretches[i]);
+                      found[i] = detail::structure_along(problem, curve, stretches[i], false, options, effort,
+                                                         observer);
                       return std::nullopt;
                     });
   return found;
@@ -125,7 +125,7 @@ OnStretch along_whole(ContactProblem& problem, const FrequencySweep& curve, cons
   };
   // From the first point and from the last one.
   const detail::CurveEffort effort{double(options.max_points), 0.5 * share_of_whole * options.max_operations};
-  return StructureCurve(problem, curve, options, effort, observer).along_whole(all);
+  return detail::structure_along(problem, curve, all, true, options, effort, observer);
 }
 
 // The folds that the balance's curve passes by.

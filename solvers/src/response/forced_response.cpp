@@ -107,31 +107,26 @@ Candidate try_newton(const Task& task, const Eigen::VectorXd& series_flexibility
   return improve(task, system, std::move(candidate), strategy);
 }
 
-Candidate no_solution() {
+Candidate no_solution(SolveStatus status, const Eigen::VectorXd& series_flexibility,
+                      Eigen::VectorXd unknown) {
   Candidate candidate;
-  candidate.newton.status = SolveStatus::stalled;
+  candidate.newton.status = status;
   candidate.newton.residual = std::numeric_limits<double>::infinity();
+  candidate.series_flexibility = series_flexibility;
+  candidate.unknown = std::move(unknown);
   return candidate;
 }
 
 /// Follows a residual homotopy from `unknown`.
-Candidate try_homotopy(const Task& task, ContactSystem& system, const Eigen::VectorXd& series_flexibility,
-                       Eigen::VectorXd unknown, Strategy strategy) {
-  Candidate candidate = no_solution();
-  candidate.series_flexibility = series_flexibility;
-  candidate.unknown = std::move(unknown);
+Candidate try_homotopy(const Task& task, const Eigen::VectorXd& series_flexibility, Eigen::VectorXd unknown,
+                       Strategy strategy) {
+  ContactSystem system = task.system(series_flexibility);
+  Candidate candidate = no_solution(SolveStatus::stalled, series_flexibility, std::move(unknown));
   ResidualHomotopyOptions homotopy = task.options.continuation;
   homotopy.observer = task.options.observer;
-  switch (residual_homotopy(system, candidate.unknown, homotopy)) {
-    case HomotopyStatus::arrived:
-      return improve(task, system, std::move(candidate), strategy);
-    case HomotopyStatus::cancelled:
-      candidate.newton.status = SolveStatus::cancelled;
-      break;
-    case HomotopyStatus::effort_limit:
-    case HomotopyStatus::lost:
-      break;
-  }
+  const HomotopyStatus status = residual_homotopy(system, candidate.unknown, homotopy);
+  if (status == HomotopyStatus::arrived) return improve(task, system, std::move(candidate), strategy);
+  if (status == HomotopyStatus::cancelled) candidate.newton.status = SolveStatus::cancelled;
   return candidate;
 }
 
@@ -145,15 +140,12 @@ Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
   for (int c = 0; c < task.problem.contacts(); ++c)
     height =
         std::max(height, free.segment(c * task.problem.points(), task.problem.points()).maxCoeff() - gaps[c]);
-  ContactSystem system = task.system(series_flexibility);
-  return try_homotopy(task, system, series_flexibility, free.array() - above * height,
-                      Strategy::gap_continuation);
+  return try_homotopy(task, series_flexibility, free.array() - above * height, Strategy::gap_continuation);
 }
 
 /// Continuation in the load, from rest without load. The residual there is that of the whole load.
 Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) {
-  ContactSystem system = task.system(series_flexibility);
-  return try_homotopy(task, system, series_flexibility, Eigen::VectorXd::Zero(task.problem.samples()),
+  return try_homotopy(task, series_flexibility, Eigen::VectorXd::Zero(task.problem.samples()),
                       Strategy::load_continuation);
 }
 
@@ -168,8 +160,7 @@ std::vector<Eigen::VectorXd> forms_of(const Task& task) {
 }
 
 Candidate try_residual(const Task& task, const Eigen::VectorXd& series_flexibility, const Start& start) {
-  ContactSystem system = task.system(series_flexibility);
-  return try_homotopy(task, system, series_flexibility, unknown_of(start, series_flexibility),
+  return try_homotopy(task, series_flexibility, unknown_of(start, series_flexibility),
                       Strategy::residual_homotopy);
 }
 
@@ -276,10 +267,8 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   int attractor_periods = SettledMotion::unknown;
   Candidate candidate;
   if (problem.is_free() && !static_load_is_balanced(problem, laws)) {
-    candidate = no_solution();
-    candidate.newton.status = SolveStatus::unbalanced;
-    candidate.unknown = problem.contact_free_response();
-    candidate.series_flexibility = contact_series_flexibility(problem, laws, options.form);
+    candidate = no_solution(SolveStatus::unbalanced, contact_series_flexibility(problem, laws, options.form),
+                            problem.contact_free_response());
   } else {
     const bool places = problem.is_free() && guess.size() == 0;
     // A static load may keep contacts closed. The structure then moves much less than without contact.

@@ -163,6 +163,15 @@ class Refinement {
            (size_.points > 2 * solved_->points || size_.functions > 2 * solved_->functions + 1);
   }
 
+  PeriodicResponse newton_from(CondensedProblem& problem, RefinementLevel& level,
+                               const Eigen::VectorXd& displacement, const Eigen::VectorXd& force = {}) const {
+    ForcedResponseOptions solver = options_.solver;
+    solver.fallbacks = false;
+    PeriodicResponse response = forced_response(problem, laws_, solver, displacement, force);
+    level.iterations += response.iterations;
+    return response;
+  }
+
   /// Newton in the force form from the last response, whose force follows its unknown.
   PeriodicResponse from_previous_force(CondensedProblem& problem, const Eigen::VectorXd& smooth,
                                        RefinementLevel& level) const {
@@ -171,11 +180,7 @@ class Refinement {
         laws_.resolvents(before.series_flexibility)
             .force(by_contact(prolonged(before.unknown_coefficients, problem.points()), problem.contacts()))
             .reshaped<Eigen::RowMajor>();
-    ForcedResponseOptions solver = options_.solver;
-    solver.fallbacks = false;
-    PeriodicResponse response = forced_response(problem, laws_, solver, smooth, force);
-    level.iterations = response.iterations;
-    return response;
+    return newton_from(problem, level, smooth, force);
   }
 
   /// Newton from the last response with the better of its two prolongations, then with the other one.
@@ -185,14 +190,8 @@ class Refinement {
     const Eigen::VectorXd straight = straight_in_contact(smooth, problem.points());
     ContactSystem system(problem, laws_);
     const bool trust = system.evaluate(smooth) <= much_better * system.evaluate(straight);
-    ForcedResponseOptions solver = options_.solver;
-    solver.fallbacks = false;
-    PeriodicResponse response = forced_response(problem, laws_, solver, trust ? smooth : straight);
-    level.iterations = response.iterations;
-    if (response.converged()) return response;
-    PeriodicResponse other = forced_response(problem, laws_, solver, trust ? straight : smooth);
-    level.iterations += other.iterations;
-    return other;
+    PeriodicResponse response = newton_from(problem, level, trust ? smooth : straight);
+    return response.converged() ? response : newton_from(problem, level, trust ? straight : smooth);
   }
 
   PeriodicResponse find(CondensedProblem& problem, RefinementLevel& level) {
