@@ -67,14 +67,15 @@ void grow(std::vector<Directions>& all, const CoarseSize& wanted) {
 
 }  // namespace
 
-void HarmonicCoarseSpace::set(const ComplianceOperator& compliance, int harmonics, const CoarseSize& wanted) {
-  if (!fft_ || compliance.points != points_) fft_ = std::make_unique<spectral::RealFft>(compliance.points);
-  contacts_ = compliance.contacts;
-  points_ = compliance.points;
+void HarmonicCoarseSpace::set(ContactOperator& contact, int harmonics, const CoarseSize& wanted) {
+  const CondensedProblem& problem = contact.problem();
+  if (!fft_ || problem.points() != points_) fft_ = std::make_unique<spectral::RealFft>(problem.points());
+  contacts_ = problem.contacts();
+  points_ = problem.points();
   spectra_.resize(fft_->harmonics(), contacts_);
   std::vector<Directions> all;
   for (int n = 0; n <= harmonics; ++n) {
-    Eigen::MatrixXcd response = compliance.response(n);
+    Eigen::MatrixXcd response = contact.harmonic_response(n);
     if (n == 0) response.imag().setZero();
     all.emplace_back(std::move(response));
   }

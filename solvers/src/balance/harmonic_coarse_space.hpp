@@ -1,25 +1,14 @@
 #pragma once
 #include <Eigen/Core>
 #include <complex>
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "wavebalance/solvers/balance/contact_operator.hpp"
 #include "wavebalance/solvers/balance/period_law.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::solvers {
-
-/// The products that an iterative solver needs of the compliance K between the samples of C contacts, N each,
-/// contact-major.
-struct ComplianceOperator {
-  int contacts = 1;
-  int points = 0;
-  /// K f and K^T v.
-  std::function<void(const Eigen::VectorXd&, Eigen::VectorXd&)> apply, apply_transposed;
-  /// C x C, m/N: the part exp(2 pi i n t) of the displacements that forces exp(2 pi i n t) cause, n >= 0.
-  std::function<Eigen::MatrixXcd(int n)> response;
-};
 
 /// How many unknowns a coarse space has. At most `largest`; of these at least `smallest`, and all without
 /// which a part of D K of norm `remainder` or more would be left out at one harmonic n, where the slopes D of
@@ -46,7 +35,7 @@ struct CoarseSize {
 class HarmonicCoarseSpace {
  public:
   /// Reads the responses of the harmonics n < N/2 of K. O(C^2 (M + sum r_n)).
-  void set(const ComplianceOperator& compliance, int harmonics, const CoarseSize& wanted);
+  void set(ContactOperator& contact, int harmonics, const CoarseSize& wanted);
 
   Eigen::Index size() const { return size_; }  ///< r_0 + 2 (r_1 + r_2 + ...)
 

@@ -23,13 +23,6 @@ constexpr Eigen::Index largest_dense = 4096;
 // iterations or fail.
 constexpr Eigen::Index few_functions = 1000;
 
-ComplianceOperator compliance_of(ContactOperator& contact) {
-  return {contact.problem().contacts(), contact.problem().points(),
-          [&contact](const Eigen::VectorXd& f, Eigen::VectorXd& u) { contact.apply(f, u); },
-          [&contact](const Eigen::VectorXd& v, Eigen::VectorXd& u) { contact.apply_transposed(v, u); },
-          [&contact](int n) { return contact.harmonic_response(n); }};
-}
-
 Eigen::Index most_samples(const ContactOperator& contact) {
   // In the force form K does not decay over harmonics, and nor does what the preconditioner leaves out.
   if (contact.is_force_form()) return largest_dense;
@@ -87,14 +80,13 @@ void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations
 bool JacobianSolver::factorize(ContactOperator& contact, const PeriodSlopes& slopes, Border border) {
   choose(contact, slopes);
   if (used_ == Used::dense) return dense_.factorize(reduce(contact), std::move(border));
-  return krylov_.factorize(compliance_of(contact), active_, slopes, contact.problem().frequency(),
-                           std::move(border));
+  return krylov_.factorize(contact, active_, slopes, std::move(border));
 }
 
 bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
                            Eigen::VectorXd& x, double& y) {
   if (used_ == Used::krylov) {
-    const KrylovBlock::Outcome outcome = krylov_.solve(compliance_of(contact), r, s, reduction, x, y);
+    const KrylovBlock::Outcome outcome = krylov_.solve(contact, r, s, reduction, x, y);
     count_krylov(contact, outcome.iterations);
     krylov_failures_ = outcome.solved ? 0 : krylov_failures_ + 1;
     if (outcome.solved) return true;
@@ -107,7 +99,7 @@ bool JacobianSolver::solve(ContactOperator& contact, const Eigen::VectorXd& r, d
 
 double JacobianSolver::condition(ContactOperator& contact) {
   if (used_ == Used::none) return 0.0;
-  return used_ == Used::dense ? dense_.condition() : krylov_.condition(compliance_of(contact));
+  return used_ == Used::dense ? dense_.condition() : krylov_.condition(contact);
 }
 
 }  // namespace wavebalance::solvers

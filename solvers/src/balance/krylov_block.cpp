@@ -33,44 +33,43 @@ CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequenc
 
 }  // namespace
 
-bool KrylovBlock::prepare(const ComplianceOperator& compliance, ActiveSlopes& active,
-                          const PeriodSlopes& slopes, double frequency) {
+bool KrylovBlock::prepare(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes) {
   active_ = &active;
   weighted_.setZero(slopes.displacement.size());
   largest_gain_ = smallest_gain_ = 0.0;
   if (!std::isfinite(active.scale().squaredNorm())) return false;
-  set_coarse(compliance, slopes, frequency);
+  set_coarse(contact, slopes);
   const Eigen::Index size = coarse_.size() + (border_.exists() ? 1 : 0);
   matrix_.resize(size, size);
-  coarse_.fill(slopes, frequency, matrix_);
+  coarse_.fill(slopes, contact.problem().frequency(), matrix_);
   return true;
 }
 
 // To choose the directions of many contacts takes as long as to solve with them. They are chosen anew at each
 // frequency, however near, since the sign of the preconditioner's determinant is taken for that of J.
-void KrylovBlock::set_coarse(const ComplianceOperator& compliance, const PeriodSlopes& slopes,
-                             double frequency) {
-  const CoarseSize wanted = coarse_size(compliance.contacts, slopes, frequency);
+void KrylovBlock::set_coarse(ContactOperator& contact, const PeriodSlopes& slopes) {
+  const double frequency = contact.problem().frequency();
+  const CoarseSize wanted = coarse_size(contact.problem().contacts(), slopes, frequency);
   if (frequency == coarse_frequency_ && wanted == coarse_wanted_) return;
-  const auto harmonics = std::min<Eigen::Index>((compliance.points - 1) / 2, wanted.largest / 2);
-  coarse_.set(compliance, static_cast<int>(harmonics), wanted);
+  const auto harmonics = std::min<Eigen::Index>((contact.problem().points() - 1) / 2, wanted.largest / 2);
+  coarse_.set(contact, static_cast<int>(harmonics), wanted);
   coarse_frequency_ = frequency;
   coarse_wanted_ = wanted;
 }
 
-bool KrylovBlock::factorize(const ComplianceOperator& compliance, ActiveSlopes& active,
-                            const PeriodSlopes& slopes, double frequency, Border border) {
+bool KrylovBlock::factorize(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes,
+                            Border border) {
   border_ = std::move(border);
-  if (!prepare(compliance, active, slopes, frequency)) return false;
-  if (border_.exists()) add_border(compliance);
+  if (!prepare(contact, active, slopes)) return false;
+  if (border_.exists()) add_border(contact);
   lu_.compute(matrix_);
   return !lu_.is_singular();
 }
 
 // With x = r - K S z - b y the last row is -(S K^T c).z + (d - c.b) y = s - c.r. With the preconditioner's
 // z = v - B (U g + b y) it becomes an equation for y and g = V S z.
-void KrylovBlock::add_border(const ComplianceOperator& compliance) {
-  compliance.apply_transposed(border_.row, samples_);
+void KrylovBlock::add_border(ContactOperator& contact) {
+  contact.apply_transposed(border_.row, samples_);
   active_row_ = -samples_(active_->samples()).cwiseProduct(active_->scale());
   active_column_ = active_->read(border_.column);
   const Eigen::Index size = coarse_.size();
@@ -98,10 +97,9 @@ void KrylovBlock::precondition(const Eigen::VectorXd& v, double s, Unknown& unkn
 }
 
 // z + B (K S z + b y).
-void KrylovBlock::multiply(const ComplianceOperator& compliance, const Unknown& unknown,
-                           Eigen::VectorXd& product) {
+void KrylovBlock::multiply(ContactOperator& contact, const Unknown& unknown, Eigen::VectorXd& product) {
   active_->write(unknown.z, weighted_);
-  compliance.apply(weighted_, samples_);
+  contact.apply(weighted_, samples_);
   product = unknown.z + active_->read(samples_);
   const double gain = product.norm() / unknown.z.norm();
   if (std::isfinite(gain)) {
@@ -117,23 +115,22 @@ double KrylovBlock::size_of_terms(double right, const Eigen::VectorXd& z) const 
   return border_.exists() ? std::max(right, z.norm()) : right;
 }
 
-KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
-                                               double s, double reduction, Unknown& unknown) {
+KrylovBlock::Outcome KrylovBlock::solve_active(ContactOperator& contact, const Eigen::VectorXd& r, double s,
+                                               double reduction, Unknown& unknown) {
   precondition(r, s, unknown);
   Unknown step;
   const auto map = [&](const Eigen::VectorXd& v, Eigen::VectorXd& image) {
     precondition(v, 0.0, step);
-    multiply(compliance, step, image);
+    multiply(contact, step, image);
   };
   Outcome outcome;
   Eigen::VectorXd product, v;
   for (int round = 0; round <= max_refinements; ++round) {
-    multiply(compliance, unknown, product);
+    multiply(contact, unknown, product);
     const Eigen::VectorXd remainder = r - product;
     const double right = border_.exists() ? (r - unknown.y * active_column_).norm() : r.norm();
     const double size = size_of_terms(right, unknown.z);
-    outcome.reduction = size > 0.0 ? remainder.norm() / size : 0.0;
-    outcome.solved = outcome.reduction <= reduction;
+    outcome.solved = !(size > 0.0) || remainder.norm() / size <= reduction;
     if (outcome.solved || round == max_refinements) break;
     const GmresResult found = gmres(map, remainder, 0.5 * reduction * size, max_iterations, v);
     outcome.iterations += found.iterations;
@@ -148,10 +145,10 @@ KrylovBlock::Outcome KrylovBlock::solve_active(const ComplianceOperator& complia
 
 // B x = B (r - K S z) differs from z by the residual. Where B takes samples x = z is used there, because K D
 // would magnify the residual.
-void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
+void KrylovBlock::complete(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
                            const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome) {
   active_->write(z, weighted_);
-  compliance.apply(weighted_, x);
+  contact.apply(weighted_, x);
   const double product = x.norm();
   x = r - x;
   const double size = size_of_terms(active_->read(r).norm(), z), residual = (active_->read(x) - z).norm();
@@ -159,30 +156,29 @@ void KrylovBlock::complete(const ComplianceOperator& compliance, const Eigen::Ve
   // The residual that GMRES updates differs from the true one when J is nearly singular.
   constexpr double rounding = 1e-13, drift = 2.0;
   outcome.solved = outcome.solved && residual <= drift * reduction * size + rounding * (product + r.norm());
-  if (size > 0.0) outcome.reduction = residual / size;
 }
 
-KrylovBlock::Outcome KrylovBlock::solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r,
-                                        double s, double reduction, Eigen::VectorXd& x, double& y) {
+KrylovBlock::Outcome KrylovBlock::solve(ContactOperator& contact, const Eigen::VectorXd& r, double s,
+                                        double reduction, Eigen::VectorXd& x, double& y) {
   y = 0.0;
   Eigen::VectorXd reduced = r;
   if (active_->count() == 0 && !border_.exists()) {
     x = std::move(reduced);
-    return {true, 0, 0.0};
+    return {true, 0};
   }
   Unknown unknown;
   const double last = border_.exists() ? s - border_.row.dot(r) : 0.0;
-  Outcome outcome = solve_active(compliance, active_->read(r), last, reduction, unknown);
+  Outcome outcome = solve_active(contact, active_->read(r), last, reduction, unknown);
   y = unknown.y;
   if (border_.exists()) reduced -= y * border_.column;
-  complete(compliance, reduced, reduction, unknown.z, x, outcome);
+  complete(contact, reduced, reduction, unknown.z, x, outcome);
   return outcome;
 }
 
 // Power iteration on J estimates the largest singular value, on P^-1 the smallest. Both
 // start from a vector with all frequencies, because the smallest singular value may belong to a smooth
 // motion.
-double KrylovBlock::condition(const ComplianceOperator& compliance) {
+double KrylovBlock::condition(ContactOperator& contact) {
   if (active_->count() == 0) return 1.0;
   Unknown unknown;
   Eigen::VectorXd product;
@@ -190,14 +186,14 @@ double KrylovBlock::condition(const ComplianceOperator& compliance) {
       Eigen::ArrayXd::LinSpaced(active_->count(), 0.0, double(active_->count()) - 1.0);
   const Eigen::VectorXd all_frequencies = samples.square().cos().matrix();
   unknown.z = (1.0 + all_frequencies.array()).matrix();
-  multiply(compliance, unknown, product);
+  multiply(contact, unknown, product);
   if (!border_.exists()) {
     unknown.z = product.normalized();
-    multiply(compliance, unknown, product);
+    multiply(contact, unknown, product);
     precondition(all_frequencies, 0.0, unknown);
     const Eigen::VectorXd shrunk = unknown.z.normalized();
     precondition(shrunk, 0.0, unknown);
-    multiply(compliance, unknown, product);
+    multiply(contact, unknown, product);
   }
   return smallest_gain_ > 0.0 ? largest_gain_ / smallest_gain_ : 1.0;
 }

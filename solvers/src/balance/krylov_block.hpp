@@ -23,22 +23,19 @@ namespace wavebalance::solvers {
 /// An iteration costs two products with K, factorize() O(C N log N + C^2 M + C s^2 + s^3).
 class KrylovBlock {
  public:
-  /// Iterations and residual of the last solve.
   struct Outcome {
     bool solved = false;
-    int iterations = 0;      ///< products of GMRES
-    double reduction = 0.0;  ///< ||r - J x|| over ||r|| on the active samples
+    int iterations = 0;  ///< products of GMRES
   };
 
-  /// Makes the preconditioner for D = `slopes`, of which `active` was set and must outlive the solves, at a
-  /// frequency in Hz. False when it is singular to working precision or D is not finite.
-  bool factorize(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
-                 double frequency, Border border);
+  /// Makes the preconditioner for D = `slopes`, of which `active` was set and must outlive the solves, at the
+  /// frequency of the problem. False when it is singular to working precision or D is not finite.
+  bool factorize(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes, Border border);
   const Border& border() const { return border_; }
   /// x = J^-1 r and y = 0 until the residual on the active samples is at most `reduction` of r; it vanishes
   /// on the others. With a border J x + b y = r, c.x + d y = s to `reduction` of r - b y or of x, whichever
   /// is larger on the active samples; the last equation holds for x = r - K S z - b y to rounding.
-  Outcome solve(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s, double reduction,
+  Outcome solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
                 Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of det P. That of det J is the same where K - U V is small.
@@ -46,7 +43,7 @@ class KrylovBlock {
   /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
   /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation, and of a few power iterations
   /// with J and P^-1. Three further products.
-  double condition(const ComplianceOperator& compliance);
+  double condition(ContactOperator& contact);
 
   /// Unknowns of the preconditioner.
   Eigen::Index size() const { return coarse_.size(); }
@@ -58,16 +55,15 @@ class KrylovBlock {
     double y = 0.0;
   };
 
-  bool prepare(const ComplianceOperator& compliance, ActiveSlopes& active, const PeriodSlopes& slopes,
-               double frequency);
-  void set_coarse(const ComplianceOperator& compliance, const PeriodSlopes& slopes, double frequency);
-  void add_border(const ComplianceOperator& compliance);
+  bool prepare(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes);
+  void set_coarse(ContactOperator& contact, const PeriodSlopes& slopes);
+  void add_border(ContactOperator& contact);
   void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
-  void multiply(const ComplianceOperator& compliance, const Unknown& unknown, Eigen::VectorXd& product);
-  Outcome solve_active(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double s,
-                       double reduction, Unknown& unknown);
+  void multiply(ContactOperator& contact, const Unknown& unknown, Eigen::VectorXd& product);
+  Outcome solve_active(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
+                       Unknown& unknown);
   double size_of_terms(double right, const Eigen::VectorXd& z) const;
-  void complete(const ComplianceOperator& compliance, const Eigen::VectorXd& r, double reduction,
+  void complete(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
                 const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome);
 
   ActiveSlopes* active_ = nullptr;

@@ -108,18 +108,11 @@ class ContactEquation {
 
  private:
   static SolveStatus status_of(detail::NewtonEnd end) {
-    switch (end) {
-      case detail::NewtonEnd::solved:
-      case detail::NewtonEnd::stalled:
-        break;
-      case detail::NewtonEnd::iteration_limit:
-        return SolveStatus::iteration_limit;
-      case detail::NewtonEnd::singular:
-        return SolveStatus::singular;
-      case detail::NewtonEnd::cancelled:
-        return SolveStatus::cancelled;
-    }
-    return SolveStatus::stalled;
+    using enum detail::NewtonEnd;
+    return end == iteration_limit ? SolveStatus::iteration_limit
+           : end == singular      ? SolveStatus::singular
+           : end == cancelled     ? SolveStatus::cancelled
+                                  : SolveStatus::stalled;
   }
 
   ContactSystem& system_;

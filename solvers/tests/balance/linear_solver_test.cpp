@@ -86,12 +86,8 @@ class CoarseSpaceTest : public ::testing::Test {
     set({0, 1000, 0.0});
   }
   void set(const CoarseSize& wanted) {
-    space_.set({problem_.contacts(),
-                points,
-                {},
-                {},
-                [this](int n) { return ContactOperator(problem_).harmonic_response(n); }},
-               harmonics, wanted);
+    ContactOperator contact(problem_);
+    space_.set(contact, harmonics, wanted);
   }
   LinearStructure structure() {
     LinearStructure chain = testing::random_chain(5, generator_);
