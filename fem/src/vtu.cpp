@@ -1,6 +1,7 @@
 #include "wavebalance/fem/vtu.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "require.hpp"
 
@@ -21,23 +23,14 @@ constexpr int quadratic_hexahedron = 25;
 constexpr int linear_hexahedron = 12;
 
 std::string escaped(const std::string& text) {
+  constexpr std::string_view letters = "&<>\"";
+  constexpr std::array<const char*, 4> entities{"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string result;
-  for (char letter : text) switch (letter) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += letter;
-    }
+  for (const char letter : text)
+    if (const auto place = letters.find(letter); place != std::string_view::npos)
+      result += entities[place];
+    else
+      result += letter;
   return result;
 }
 
@@ -123,17 +116,6 @@ std::string file_open_tag(const char* type) {
          "\" header_type=\"UInt64\">\n";
 }
 
-std::ofstream open_output(const std::filesystem::path& file) {
-  std::ofstream output(file, std::ios::binary);
-  if (!output) throw std::runtime_error(file.string() + ": the file cannot be opened for writing");
-  return output;
-}
-
-void close(std::ofstream& output, const std::filesystem::path& file) {
-  output.close();
-  if (!output) throw std::runtime_error(file.string() + ": writing failed");
-}
-
 }  // namespace
 
 void Mesh::validate() const {
@@ -190,9 +172,11 @@ void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::sp
                VtuFormat format) {
   mesh.validate();
   validate(mesh.nodes.cols(), fields);
-  std::ofstream output = open_output(file);
+  std::ofstream output(file, std::ios::binary);
+  if (!output) throw std::runtime_error(file.string() + ": the file cannot be opened for writing");
   write_vtu(output, mesh, fields, format);
-  close(output, file);
+  output.close();
+  if (!output) throw std::runtime_error(file.string() + ": writing failed");
 }
 
 void write_pvd(std::ostream& output, std::span<const PvdEntry> entries) {

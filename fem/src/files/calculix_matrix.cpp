@@ -24,8 +24,7 @@ Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std:
 }
 
 Eigen::SparseMatrix<double> read_calculix_matrix(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_calculix_matrix(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_calculix_matrix(from...); });
 }
 
 }  // namespace wavebalance::fem

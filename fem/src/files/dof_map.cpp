@@ -19,19 +19,7 @@ std::string name_of_dof(const NodeDof& dof) {
          direction_names.at(static_cast<std::size_t>(dof.direction - 1));
 }
 
-/// The words of a line, which commas and semicolons separate too.
-std::vector<std::string> cells(const Lines& lines) {
-  std::string text = lines.text();
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == ',' || c == ';' || c == '\t' || c == '\r'; }, ' ');
-  std::vector<std::string> found;
-  for (std::size_t start = text.find_first_not_of(' '); start != std::string::npos;) {
-    const std::size_t end = std::min(text.find(' ', start), text.size());
-    found.push_back(text.substr(start, end - start));
-    start = text.find_first_not_of(' ', end);
-  }
-  return found;
-}
+using Words = std::vector<std::string_view>;
 
 /// The places of the columns in a line; row -1 where the lines are in the order of the rows.
 struct Columns {
@@ -39,7 +27,7 @@ struct Columns {
   std::size_t count = 2;
 };
 
-Columns named_columns(const Lines& lines, const std::vector<std::string>& names) {
+Columns named_columns(const Lines& lines, const Words& names) {
   Columns columns{-1, -1, -1, names.size()};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = detail::lower(names[i]);
@@ -48,7 +36,7 @@ Columns named_columns(const Lines& lines, const std::vector<std::string>& names)
                        : name == "row" || name == "equation"  ? &columns.row
                                                               : nullptr;
     if (place == nullptr || *place >= 0)
-      lines.fail("found the column \"" + names[i] +
+      lines.fail("found the column \"" + std::string(names[i]) +
                  "\"; columns must be node, direction and, if there is one, row, each once");
     *place = static_cast<int>(i);
   }
@@ -57,10 +45,11 @@ Columns named_columns(const Lines& lines, const std::vector<std::string>& names)
   return columns;
 }
 
-int direction_in(const Lines& lines, const std::string& name) {
+int direction_in(const Lines& lines, std::string_view name) {
   const int direction = direction_of(name);
   if (direction == 0)
-    lines.fail("the direction is \"" + name + "\"; it must be x, y, z, rx, ry, rz or a number in 1..6");
+    lines.fail("the direction is \"" + std::string(name) +
+               "\"; it must be x, y, z, rx, ry, rz or a number in 1..6");
   return direction;
 }
 
@@ -71,12 +60,12 @@ int node_in(const Lines& lines, std::string_view text) {
 }
 
 /// "node.direction" of CalculiX.
-NodeDof dotted(const Lines& lines, const std::string& word) {
+NodeDof dotted(const Lines& lines, std::string_view word) {
   const std::size_t dot = word.find('.');
-  if (dot == std::string::npos)
-    lines.fail("found \"" + word +
+  if (dot == std::string_view::npos)
+    lines.fail("found \"" + std::string(word) +
                "\"; the line must hold node.direction, or the columns node and direction");
-  return {node_in(lines, std::string_view(word).substr(0, dot)), direction_in(lines, word.substr(dot + 1))};
+  return {node_in(lines, word.substr(0, dot)), direction_in(lines, word.substr(dot + 1))};
 }
 
 class DofMapReader {
@@ -84,7 +73,7 @@ class DofMapReader {
   DofMapReader(std::istream& input, const std::string& name) : lines_(input, name) {}
 
   DofMap read() {
-    while (lines_.next_with_data('#')) read_line(cells(lines_));
+    while (lines_.next_with_data('#')) read_line(detail::split(lines_.text(), " ,;\t\r"));
     if (found_.empty()) lines_.fail("there is no row; lines must hold node.direction, or node and direction");
     return map();
   }
@@ -96,7 +85,7 @@ class DofMapReader {
     int line;
   };
 
-  void read_line(const std::vector<std::string>& words) {
+  void read_line(const Words& words) {
     if (words.empty()) return;
     const bool opens = std::exchange(first_, false);
     const char letter = words[0][0];
@@ -110,9 +99,7 @@ class DofMapReader {
       lines_.fail(
           "found \"" + lines_.text().substr(0, 120) + "\"; the line must hold " +
           (columns_.row < 0 ? "node.direction, or node and direction" : "the columns of the first line"));
-    const auto word = [&](int column) -> const std::string& {
-      return words[static_cast<std::size_t>(column)];
-    };
+    const auto word = [&](int column) { return words[static_cast<std::size_t>(column)]; };
     const NodeDof dof{node_in(lines_, word(columns_.node)), direction_in(lines_, word(columns_.direction))};
     add(columns_.row < 0 ? next : lines_.index(word(columns_.row), "the row", detail::largest_side), dof);
   }
@@ -210,8 +197,7 @@ std::string DofMap::name(int row) const {
 DofMap read_dof_map(std::istream& input, const std::string& name) { return DofMapReader(input, name).read(); }
 
 DofMap read_dof_map(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_dof_map(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_dof_map(from...); });
 }
 
 }  // namespace wavebalance::fem

@@ -4,19 +4,14 @@
 #include <cmath>
 #include <system_error>
 
+#include "text_lines.hpp"
+
 namespace wavebalance::fem::detail {
 namespace {
 
 constexpr int longest_field = 200;
 
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blank = " \t\r";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
 
 /// The whole number at the front of a text, which is taken from it.
 std::optional<int> take_integer(std::string_view& text) {
@@ -31,10 +26,8 @@ std::optional<int> take_integer(std::string_view& text) {
 
 /// The text in lower case without blanks and the outer parentheses.
 std::optional<std::string> inside(std::string_view text) {
-  std::string result;
-  for (const char letter : trimmed(text))
-    if (letter != ' ' && letter != '\t')
-      result += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  std::string result = lower(trimmed(text));
+  std::erase_if(result, [](char letter) { return letter == ' ' || letter == '\t'; });
   if (result.size() < 3 || result.front() != '(' || result.back() != ')') return std::nullopt;
   return result.substr(1, result.size() - 2);
 }

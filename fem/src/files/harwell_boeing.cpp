@@ -99,10 +99,9 @@ void for_each_field(Lines& lines, const FortranFormat& format, int count, const 
 }
 
 int integer_in(const Lines& lines, std::string_view field, const char* what) {
-  const auto first = field.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos)
+  field = detail::trimmed(field);
+  if (field.empty())
     lines.fail("the field of " + std::string(what) + " is blank; the line must hold a whole number there");
-  field = field.substr(first, field.find_last_not_of(" \t\r") - first + 1);
   return lines.number<int>(field, what);
 }
 
@@ -174,8 +173,7 @@ Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::
 }
 
 Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_harwell_boeing(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_harwell_boeing(from...); });
 }
 
 Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name) {
@@ -191,8 +189,7 @@ Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& nam
 }
 
 Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_right_hand_side(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_right_hand_side(from...); });
 }
 
 }  // namespace wavebalance::fem

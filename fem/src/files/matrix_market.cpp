@@ -190,8 +190,7 @@ Sparse read_matrix_market(std::istream& input, const std::string& name) {
 }
 
 Sparse read_matrix_market(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_matrix_market(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_matrix_market(from...); });
 }
 
 Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name) {
@@ -199,8 +198,7 @@ Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string
 }
 
 Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file) {
-  std::ifstream input = detail::open_matrix_file(file);
-  return read_matrix_market_vector(input, file.string());
+  return detail::from_file(file, [](auto&&... from) { return read_matrix_market_vector(from...); });
 }
 
 void write_matrix_market(std::ostream& output, const Sparse& matrix, MatrixMarketSymmetry symmetry) {

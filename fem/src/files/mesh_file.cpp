@@ -4,6 +4,7 @@
 #include <istream>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "text_lines.hpp"
 #include "wavebalance/fem/mesh.hpp"
@@ -24,33 +25,24 @@ constexpr std::array shapes{Shape{"c3d10", 10, 24}, Shape{"c3d15", 15, 26}, Shap
                             Shape{"c3d4", 4, 10},   Shape{"c3d6", 6, 13},   Shape{"c3d8", 8, 12},
                             Shape{"b31", 2, 3},     Shape{"b32", 3, 21},    Shape{"b21", 2, 3},
                             Shape{"t3d2", 2, 3},    Shape{"t3d3", 3, 21},   Shape{"t2d2", 2, 3}};
+// What follows the name of a family of surfaces.
+constexpr std::array sides{Shape{"3", 3, 5}, Shape{"4", 4, 9}, Shape{"6", 6, 22}, Shape{"8", 8, 23}};
 constexpr std::array<std::string_view, 5> surfaces{"m3d", "cps", "cpe", "cax", "s"};
 constexpr std::array<std::string_view, 9> without_shape{"spring", "mass",   "dashpot", "gap", "dcoup",
                                                         "dist",   "rotary", "conn",    "f3d"};
 
-std::optional<Shape> surface_shape(std::string_view type) {
-  for (const std::string_view family : surfaces) {
-    if (!type.starts_with(family) || type.size() == family.size()) continue;
-    switch (type[family.size()]) {
-      case '3':
-        return Shape{family, 3, 5};
-      case '4':
-        return Shape{family, 4, 9};
-      case '6':
-        return Shape{family, 6, 22};
-      case '8':
-        return Shape{family, 8, 23};
-      default:
-        break;
-    }
-  }
-  return std::nullopt;
+/// The first of some shapes with whose name a type begins.
+std::optional<Shape> first_shape(std::span<const Shape> known, std::string_view type) {
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const Shape& one) { return type.starts_with(one.name); });
+  return found != known.end() ? std::optional(*found) : std::nullopt;
 }
 
 std::optional<Shape> shape_of(std::string_view type) {
-  const auto found = std::find_if(shapes.begin(), shapes.end(),
-                                  [&](const Shape& one) { return type.starts_with(one.name); });
-  return found != shapes.end() ? std::optional(*found) : surface_shape(type);
+  std::optional<Shape> found = first_shape(shapes, type);
+  for (const std::string_view family : surfaces)
+    if (!found && type.starts_with(family)) found = first_shape(sides, type.substr(family.size()));
+  return found;
 }
 
 bool has_no_shape(std::string_view type) {
@@ -62,10 +54,7 @@ std::vector<std::string> cells(std::string_view text) {
   std::vector<std::string> found;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.find(',', start), text.size());
-    std::string_view cell = text.substr(start, end - start);
-    while (!cell.empty() && static_cast<unsigned char>(cell.front()) <= ' ') cell.remove_prefix(1);
-    while (!cell.empty() && static_cast<unsigned char>(cell.back()) <= ' ') cell.remove_suffix(1);
-    found.emplace_back(cell);
+    found.emplace_back(detail::trimmed(text.substr(start, end - start)));
     start = end + 1;
   }
   if (!found.empty() && found.back().empty()) found.pop_back();  // a comma at the end of a line

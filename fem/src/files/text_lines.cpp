@@ -7,7 +7,7 @@
 namespace wavebalance::fem::detail {
 namespace {
 
-constexpr const char* blank_characters = " \t\r";
+constexpr std::string_view blank_characters = " \t\r";
 
 }  // namespace
 
@@ -32,16 +32,26 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(blank_characters);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank_characters) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
+  std::vector<std::string_view> words;
+  for (std::size_t start = text.find_first_not_of(separators); start != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, start), text.size());
+    words.push_back(text.substr(start, end - start));
+    start = text.find_first_not_of(separators, end);
+  }
+  return words;
+}
+
 bool Lines::next() {
   if (!std::getline(input_, text_)) return false;
   ++number_;
-  words_.clear();
-  const std::string_view view = text_;
-  for (std::size_t start = view.find_first_not_of(blank_characters); start != std::string_view::npos;) {
-    const std::size_t end = std::min(view.find_first_of(blank_characters, start), view.size());
-    words_.push_back(view.substr(start, end - start));
-    start = view.find_first_not_of(blank_characters, end);
-  }
+  words_ = split(text_, blank_characters);
   return true;
 }
 

@@ -19,8 +19,21 @@ constexpr int largest_side = 100'000'000;
 /// Opens a regular file of at most largest_matrix_file bytes. Throws MatrixFileError.
 std::ifstream open_matrix_file(const std::filesystem::path& file);
 
+/// What `read(input, name)` makes of a file.
+template <class Read>
+auto from_file(const std::filesystem::path& file, Read read) {
+  std::ifstream input = open_matrix_file(file);
+  return read(input, file.string());
+}
+
 /// The text in lower case.
 std::string lower(std::string_view text);
+
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text);
+
+/// The words that any of `separators` separate, none of them empty.
+std::vector<std::string_view> split(std::string_view text, std::string_view separators);
 
 /// Lines of a file with their numbers, for errors that say where. Errors are MatrixFileError.
 class Lines {
