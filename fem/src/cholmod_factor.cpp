@@ -67,31 +67,11 @@ struct SymmetricFactor::Implementation {
     session.check();
     if (session.common()->status == CHOLMOD_OK && factor->minor == factor->n) smallest = least_pivot(*factor);
   }
-
-  /// CHOLMOD does not change a factor that it solves with; its workspace is that of the call.
-  void solve(const double* right, double* solution, Eigen::Index columns) const {
-    CholmodSession own(CHOLMOD_AUTO);
-    for (Eigen::Index first = 0; first < columns; first += columns_at_once) {
-      const Eigen::Index count = std::min(columns_at_once, columns - first);
-      cholmod_dense given = dense_view(const_cast<double*>(right) + first * rows, rows, count);
-      cholmod_dense* found = cholmod_solve(CHOLMOD_A, factor, &given, own.common());
-      own.check();
-      if (found == nullptr) throw std::runtime_error("CHOLMOD could not solve with a factor");
-      std::copy_n(static_cast<const double*>(found->x), rows * count, solution + first * rows);
-      cholmod_free_dense(&found, own.common());
-    }
-  }
 };
 
 SymmetricFactor::SymmetricFactor(const Eigen::SparseMatrix<double>& matrix)
     : implementation_(std::make_unique<Implementation>()) {
-  if (matrix.isCompressed()) {
-    implementation_->make(matrix);
-  } else {
-    Eigen::SparseMatrix<double> compressed = matrix;
-    compressed.makeCompressed();
-    implementation_->make(compressed);
-  }
+  with_compressed(matrix, [&](const auto& compressed) { implementation_->make(compressed); });
 }
 
 SymmetricFactor::~SymmetricFactor() = default;
@@ -104,14 +84,20 @@ Eigen::Index SymmetricFactor::rows() const { return implementation_->rows; }
 
 double SymmetricFactor::smallest_pivot() const { return implementation_->smallest; }
 
+// CHOLMOD does not change a factor that it solves with; its workspace is that of the call.
 Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& right) const {
+  CholmodSession own(CHOLMOD_AUTO);
   Eigen::MatrixXd solution(right.rows(), right.cols());
-  implementation_->solve(right.data(), solution.data(), right.cols());
+  for (Eigen::Index first = 0; first < right.cols(); first += columns_at_once) {
+    const Eigen::Index count = std::min(columns_at_once, right.cols() - first);
+    cholmod_dense given = dense_view(const_cast<double*>(right.col(first).data()), right.rows(), count);
+    cholmod_dense* found = cholmod_solve(CHOLMOD_A, implementation_->factor, &given, own.common());
+    own.check();
+    if (found == nullptr) throw std::runtime_error("CHOLMOD could not solve with a factor");
+    std::copy_n(static_cast<const double*>(found->x), right.rows() * count, solution.col(first).data());
+    cholmod_free_dense(&found, own.common());
+  }
   return solution;
-}
-
-void SymmetricFactor::solve(const double* right, double* solution) const {
-  implementation_->solve(right, solution, 1);
 }
 
 }  // namespace wavebalance::fem::detail

@@ -153,10 +153,7 @@ class Elimination {
 
 Inertia inertia(const Sparse& matrix) {
   if (matrix.nonZeros() == 0) return {matrix.rows() == 0, 0, 0.0};  // no matrix to CHOLMOD
-  if (matrix.isCompressed()) return Elimination(matrix).run();
-  Sparse compressed = matrix;
-  compressed.makeCompressed();
-  return Elimination(compressed).run();
+  return with_compressed(matrix, [](const Sparse& compressed) { return Elimination(compressed).run(); });
 }
 
 }  // namespace wavebalance::fem::detail

@@ -36,6 +36,15 @@ class CholmodSession {
   cholmod_common common_ = {};
 };
 
+/// What `use` makes of a matrix, or of its compressed copy.
+template <class Use>
+auto with_compressed(const Eigen::SparseMatrix<double>& matrix, Use use) {
+  if (matrix.isCompressed()) return use(matrix);
+  Eigen::SparseMatrix<double> compressed = matrix;
+  compressed.makeCompressed();
+  return use(compressed);
+}
+
 /// CHOLMOD's description of a compressed symmetric matrix, of which it reads the lower triangle. Nothing is
 /// copied.
 inline cholmod_sparse cholmod_view(const Eigen::SparseMatrix<double>& matrix) {

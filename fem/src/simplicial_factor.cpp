@@ -33,11 +33,6 @@ Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& right) const {
   return implementation_->factor.solve(right);
 }
 
-void SymmetricFactor::solve(const double* right, double* solution) const {
-  const Eigen::Map<const Eigen::VectorXd> given(right, rows());
-  Eigen::Map<Eigen::VectorXd>(solution, rows()) = implementation_->factor.solve(given);
-}
-
 Inertia inertia(const Eigen::SparseMatrix<double>& matrix) {
   const Simplicial factor(matrix);
   if (factor.info() != Eigen::Success) return {};

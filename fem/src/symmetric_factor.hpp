@@ -22,7 +22,6 @@ class SymmetricFactor {
   /// The least entry of D in L D L^T with a unit diagonal of L.
   double smallest_pivot() const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
-  void solve(const double* right, double* solution) const;
 
  private:
   struct Implementation;
