@@ -9,10 +9,6 @@
 namespace wavebalance::fem {
 namespace {
 
-void require_size(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
-  detail::require_value(found == expected, where, name, static_cast<double>(found), std::to_string(expected));
-}
-
 // The elements of each unknown: all lists in one vector, and the start of each.
 struct Incidence {
   std::vector<int> starts;
@@ -53,7 +49,7 @@ FreeDofs::FreeDofs(int dofs, std::span<const int> held) {
 }
 
 Eigen::VectorXd FreeDofs::expand(const Eigen::VectorXd& unknowns) const {
-  require_size("FreeDofs::expand", "the size of unknowns", unknowns.size(), count());
+  detail::require_count("FreeDofs::expand", "the size of unknowns", unknowns.size(), count());
   Eigen::VectorXd values = Eigen::VectorXd::Zero(dofs());
   for (int i = 0; i < count(); ++i) values[free_[static_cast<std::size_t>(i)]] = unknowns[i];
   return values;
@@ -108,10 +104,10 @@ Eigen::SparseMatrix<double> Assembly::matrix(
   double* values = sum.valuePtr();
   for (int element = 0; element < connectivity_.cols(); ++element) {
     const Eigen::MatrixXd part = element_matrix(element);
-    require_size("Assembly::matrix", "the number of rows of an element matrix", part.rows(),
-                 connectivity_.rows());
-    require_size("Assembly::matrix", "the number of columns of an element matrix", part.cols(),
-                 connectivity_.rows());
+    detail::require_count("Assembly::matrix", "the number of rows of an element matrix", part.rows(),
+                          connectivity_.rows());
+    detail::require_count("Assembly::matrix", "the number of columns of an element matrix", part.cols(),
+                          connectivity_.rows());
     for (Eigen::Index j = 0; j < part.cols(); ++j) {
       const int column = connectivity_(j, element);
       if (column < 0) continue;
@@ -130,7 +126,8 @@ Eigen::VectorXd Assembly::vector(const std::function<Eigen::VectorXd(int)>& elem
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(pattern_.rows());
   for (int element = 0; element < connectivity_.cols(); ++element) {
     const Eigen::VectorXd part = element_vector(element);
-    require_size("Assembly::vector", "the size of an element vector", part.size(), connectivity_.rows());
+    detail::require_count("Assembly::vector", "the size of an element vector", part.size(),
+                          connectivity_.rows());
     for (Eigen::Index i = 0; i < part.size(); ++i)
       if (connectivity_(i, element) >= 0) sum[connectivity_(i, element)] += part[i];
   }

@@ -9,11 +9,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-void require_bar_positive(const char* member, double value) {
-  detail::require_value(value > 0.0 && std::isfinite(value), "BarOptions", member, value,
-                        "positive and finite");
-}
-
 // The symmetric tridiagonal matrix of a chain of equal elements [near coupling; coupling near], clamped
 // before its first node: every free node has two elements, the tip one.
 Sparse chain(int nodes, double near, double coupling) {
@@ -41,15 +36,15 @@ Sparse chain(int nodes, double near, double coupling) {
 }  // namespace
 
 void BarOptions::validate() const {
-  require_bar_positive("youngs_modulus", youngs_modulus);
-  require_bar_positive("density", density);
-  require_bar_positive("area", area);
-  require_bar_positive("length", length);
-  detail::require_value(elements >= 1 && elements <= 500'000'000, "BarOptions", "elements", elements,
+  constexpr const char* who = "BarOptions";
+  detail::require_positive(who, "youngs_modulus", youngs_modulus);
+  detail::require_positive(who, "density", density);
+  detail::require_positive(who, "area", area);
+  detail::require_positive(who, "length", length);
+  detail::require_value(elements >= 1 && elements <= 500'000'000, who, "elements", elements,
                         "in 1..500000000");
-  detail::require_value(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "BarOptions",
-                        "stiffness_damping", stiffness_damping, "finite and at least 0");
-  detail::require_value(lumped_fraction >= 0.0 && lumped_fraction <= 1.0, "BarOptions", "lumped_fraction",
+  detail::require_not_negative(who, "stiffness_damping", stiffness_damping);
+  detail::require_value(lumped_fraction >= 0.0 && lumped_fraction <= 1.0, who, "lumped_fraction",
                         lumped_fraction, "in [0, 1]");
 }
 

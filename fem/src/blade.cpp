@@ -8,11 +8,6 @@
 namespace wavebalance::fem {
 namespace {
 
-void require_blade_positive(const char* member, double value) {
-  detail::require_value(value > 0.0 && std::isfinite(value), "BladeOptions", member, value,
-                        "positive and finite");
-}
-
 double between(const std::array<double, 2>& ends, double s) { return ends[0] + (ends[1] - ends[0]) * s; }
 
 Eigen::Vector3d position(const BladeOptions& options, const Eigen::Vector3d& parameters) {
@@ -32,23 +27,24 @@ Eigen::Vector3d position(const BladeOptions& options, const Eigen::Vector3d& par
 }  // namespace
 
 void BladeOptions::validate() const {
-  for (int end : {0, 1}) {
-    const auto at = static_cast<std::size_t>(end);
-    require_blade_positive("chord", chord[at]);
-    require_blade_positive("thickness_ratio", thickness_ratio[at]);
-    detail::require_value(std::isfinite(camber_ratio[at]), "BladeOptions", "camber_ratio", camber_ratio[at],
+  constexpr const char* who = "BladeOptions";
+  const auto require_elements = [](const char* member, int count) {
+    detail::require_value(count >= 1, who, member, count, "at least 1");
+  };
+  for (const std::size_t end : {0u, 1u}) {
+    detail::require_positive(who, "chord", chord[end]);
+    detail::require_positive(who, "thickness_ratio", thickness_ratio[end]);
+    detail::require_value(std::isfinite(camber_ratio[end]), who, "camber_ratio", camber_ratio[end], "finite");
+    detail::require_value(std::isfinite(angle_degrees[end]), who, "angle_degrees", angle_degrees[end],
                           "finite");
-    detail::require_value(std::isfinite(angle_degrees[at]), "BladeOptions", "angle_degrees",
-                          angle_degrees[at], "finite");
   }
-  detail::require_value(edge_thickness > 0.0 && edge_thickness <= 1.0, "BladeOptions", "edge_thickness",
-                        edge_thickness, "in (0, 1]");
-  require_blade_positive("length", length);
+  detail::require_value(edge_thickness > 0.0 && edge_thickness <= 1.0, who, "edge_thickness", edge_thickness,
+                        "in (0, 1]");
+  detail::require_positive(who, "length", length);
   material.validate();
-  detail::require_value(chord_elements >= 1, "BladeOptions", "chord_elements", chord_elements, "at least 1");
-  detail::require_value(thickness_elements >= 1, "BladeOptions", "thickness_elements", thickness_elements,
-                        "at least 1");
-  detail::require_value(span_elements >= 1, "BladeOptions", "span_elements", span_elements, "at least 1");
+  require_elements("chord_elements", chord_elements);
+  require_elements("thickness_elements", thickness_elements);
+  require_elements("span_elements", span_elements);
 }
 
 Blade blade(const BladeOptions& options) {

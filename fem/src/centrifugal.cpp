@@ -15,8 +15,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 Eigen::Matrix3d projection_across(const RotationAxis& axis) {
   const double length = axis.direction.norm();
-  detail::require_value(length > 0.0 && std::isfinite(length), "centrifugal_stiffness",
-                        "the length of axis.direction", length, "positive and finite");
+  detail::require_positive("centrifugal_stiffness", "the length of axis.direction", length);
   detail::require(axis.point.allFinite(), "centrifugal_stiffness",
                   "axis.point has an entry that is not finite");
   const Eigen::Vector3d unit = axis.direction / length;

@@ -89,8 +89,7 @@ void check_structure(const Matrices& matrices, const StructureChecks& checks) {
 
 bool positive_semidefinite(const Sparse& matrix, double tolerance) {
   detail::require_square(matrix, "positive_semidefinite", "matrix", matrix.rows());
-  detail::require_value(tolerance > 0.0 && std::isfinite(tolerance), "positive_semidefinite", "tolerance",
-                        tolerance, "positive and finite");
+  detail::require_positive("positive_semidefinite", "tolerance", tolerance);
   if (matrix.rows() == 0) return true;
   const Eigen::VectorXd diagonal = matrix.diagonal();
   const double largest = diagonal.maxCoeff(), zero = tolerance * tolerance * largest;

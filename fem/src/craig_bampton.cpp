@@ -139,17 +139,13 @@ Eigen::MatrixXd CraigBampton::project(const Sparse& matrix) const {
 }
 
 Eigen::VectorXd CraigBampton::project_load(const Eigen::VectorXd& load) const {
-  detail::require_value(load.size() == transformation.rows(), "CraigBampton::project_load",
-                        "the size of load", static_cast<double>(load.size()),
-                        std::to_string(transformation.rows()));
+  detail::require_count("CraigBampton::project_load", "the size of load", load.size(), transformation.rows());
   return transformation.transpose() * load;
 }
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> CraigBampton::project_directions(
-    const Eigen::SparseMatrix<double, Eigen::RowMajor>& directions) const {
-  detail::require_value(directions.cols() == transformation.rows(), "CraigBampton::project_directions",
-                        "the number of columns of directions", static_cast<double>(directions.cols()),
-                        std::to_string(transformation.rows()));
+Directions CraigBampton::project_directions(const Directions& directions) const {
+  detail::require_count("CraigBampton::project_directions", "the number of columns of directions",
+                        directions.cols(), transformation.rows());
   std::vector<int> place(static_cast<std::size_t>(directions.cols()), -1);
   for (int i = 0; i < boundary.size(); ++i) place[static_cast<std::size_t>(boundary[i])] = i;
   std::vector<Eigen::Triplet<double>> entries;
@@ -180,9 +176,8 @@ std::vector<int> touched_unknowns(const Directions& directions) {
 }
 
 Eigen::VectorXd CraigBampton::recover(const Eigen::VectorXd& coordinates) const {
-  detail::require_value(coordinates.size() == transformation.cols(), "CraigBampton::recover",
-                        "the size of coordinates", static_cast<double>(coordinates.size()),
-                        std::to_string(transformation.cols()));
+  detail::require_count("CraigBampton::recover", "the size of coordinates", coordinates.size(),
+                        transformation.cols());
   return transformation * coordinates;
 }
 
@@ -198,8 +193,7 @@ CraigBampton craig_bampton(const Matrices& matrices, std::span<const int> bounda
     reduced.omega = modes.fixed.omega;
     reduced.transformation = transformation(dofs, boundary, modes.constraint, modes.fixed.shapes);
   }
-  reduced.boundary =
-      Eigen::Map<const Eigen::VectorXi>(boundary.data(), static_cast<Eigen::Index>(boundary.size()));
+  reduced.boundary = Eigen::Map<const Eigen::VectorXi>(boundary.data(), std::ssize(boundary));
   reduced.stiffness = reduced.project(matrices.stiffness);
   reduced.mass = reduced.project(matrices.mass);
   const Eigen::Index size = reduced.stiffness.rows();

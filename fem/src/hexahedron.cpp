@@ -22,14 +22,17 @@ struct Shape {
   Eigen::Vector3d derivatives;
 };
 
-Shape trilinear(const Eigen::Vector3d& node, const Eigen::Vector3d& point) {
-  const Eigen::Array3d factor = 1.0 + node.array() * point.array();
-  Shape shape;
-  shape.value = factor.prod() / 8.0;
-  shape.derivatives << node[0] * factor[1] * factor[2], node[1] * factor[0] * factor[2],
-      node[2] * factor[0] * factor[1];
-  shape.derivatives /= 8.0;
+// A product of factors of one coordinate each, with their slopes, over a divisor.
+Shape product_of(const Eigen::Array3d& factor, const Eigen::Array3d& slope, double divisor) {
+  Shape shape{
+      factor.prod() / divisor,
+      {slope[0] * factor[1] * factor[2], slope[1] * factor[0] * factor[2], slope[2] * factor[0] * factor[1]}};
+  shape.derivatives /= divisor;
   return shape;
+}
+
+Shape trilinear(const Eigen::Vector3d& node, const Eigen::Vector3d& point) {
+  return product_of(1.0 + node.array() * point.array(), node.array(), 8.0);
 }
 
 Shape serendipity_corner(const Eigen::Vector3d& node, const Eigen::Vector3d& point) {
@@ -48,12 +51,7 @@ Shape serendipity_midpoint(const Eigen::Vector3d& node, const Eigen::Vector3d& p
       factor[axis] = 1.0 - point[axis] * point[axis];
       slope[axis] = -2.0 * point[axis];
     }
-  Shape shape;
-  shape.value = factor.prod() / 4.0;
-  shape.derivatives << slope[0] * factor[1] * factor[2], slope[1] * factor[0] * factor[2],
-      slope[2] * factor[0] * factor[1];
-  shape.derivatives /= 4.0;
-  return shape;
+  return product_of(factor, slope, 4.0);
 }
 
 Shape shape_function(int nodes, int index, const Eigen::Vector3d& node, const Eigen::Vector3d& point) {
@@ -106,10 +104,18 @@ void scatter(const Eigen::MatrixXd& block, Eigen::Index a, Eigen::Index b, Eigen
     for (Eigen::Index i = 0; i < block.rows(); ++i) matrix(3 * i + a, 3 * j + b) = block(i, j);
 }
 
+struct Moduli {
+  double shear, lame;  // Lame's parameters mu and lambda
+};
+
+Moduli moduli_of(const SolidMaterial& material) {
+  const double nu = material.poissons_ratio, shear = material.youngs_modulus / (2.0 * (1.0 + nu));
+  return {shear, 2.0 * shear * nu / (1.0 - 2.0 * nu)};
+}
+
 void require_sizes(SolidElement element, const Eigen::Matrix3Xd& coordinates) {
-  if (coordinates.cols() != nodes_per_element(element))
-    reject_value("solid element", "the number of columns of coordinates",
-                 static_cast<double>(coordinates.cols()), std::to_string(nodes_per_element(element)));
+  require_count("solid element", "the number of columns of coordinates", coordinates.cols(),
+                nodes_per_element(element));
 }
 
 }  // namespace
@@ -169,9 +175,7 @@ Samples sample(SolidElement element, const Eigen::Matrix3Xd& coordinates, const 
 }
 
 Eigen::MatrixXd elastic_matrix(const Samples& samples, const SolidMaterial& material) {
-  const double nu = material.poissons_ratio;
-  const double shear = material.youngs_modulus / (2.0 * (1.0 + nu));
-  const double lame = 2.0 * shear * nu / (1.0 - 2.0 * nu);
+  const auto [shear, lame] = moduli_of(material);
   const Eigen::Index functions = samples.gradients[0].rows();
   // products[a][b](i, j) is the integral of dN_i/dx_a dN_j/dx_b.
   std::array<std::array<Eigen::MatrixXd, 3>, 3> products;
@@ -208,9 +212,7 @@ Eigen::Matrix3Xd with_incompatible_modes(SolidElement element, const Eigen::Matr
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> stress_at(const Samples& samples, const SolidMaterial& material,
                                                    const Eigen::Matrix3Xd& coefficients) {
-  const double nu = material.poissons_ratio;
-  const double shear = material.youngs_modulus / (2.0 * (1.0 + nu));
-  const double lame = 2.0 * shear * nu / (1.0 - 2.0 * nu);
+  const auto [shear, lame] = moduli_of(material);
   // slopes[b](a, p) is du_a/dx_b.
   std::array<Eigen::Matrix3Xd, 3> slopes;
   for (std::size_t b = 0; b < 3; ++b) slopes[b] = product(coefficients, samples.gradients[b]);

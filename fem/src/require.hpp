@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -30,6 +31,19 @@ inline void require(bool valid, const char* where, const std::string& fault) {
 inline void require_value(bool valid, const char* where, const char* argument, double value,
                           const std::string& allowed) {
   if (!valid) reject_value(where, argument, value, allowed);
+}
+
+inline void require_positive(const char* where, const char* argument, double value) {
+  require_value(value > 0.0 && std::isfinite(value), where, argument, value, "positive and finite");
+}
+
+inline void require_not_negative(const char* where, const char* argument, double value) {
+  require_value(value >= 0.0 && std::isfinite(value), where, argument, value, "finite and at least 0");
+}
+
+/// The same for a size or a number of rows other than that expected.
+inline void require_count(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
+  require_value(found == expected, where, name, static_cast<double>(found), std::to_string(expected));
 }
 
 /// Throws std::invalid_argument "<where>: <matrix> is <r> x <c>; it must be <n> x <n>" unless it is.

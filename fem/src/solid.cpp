@@ -11,10 +11,6 @@
 namespace wavebalance::fem {
 namespace {
 
-void require_count(const char* where, const char* name, Eigen::Index found, Eigen::Index expected) {
-  detail::require_value(found == expected, where, name, static_cast<double>(found), std::to_string(expected));
-}
-
 // Calls a function that computes something for one element; its errors get the number of the element.
 template <typename Function>
 auto on_element(int index, Function&& function) {
@@ -41,12 +37,10 @@ Eigen::MatrixXd extension_to_nodes(SolidElement element) {
 int nodes_per_element(SolidElement element) { return element == SolidElement::hexahedron8 ? 8 : 20; }
 
 void SolidMaterial::validate() const {
-  detail::require_value(youngs_modulus > 0.0 && std::isfinite(youngs_modulus), "SolidMaterial",
-                        "youngs_modulus", youngs_modulus, "positive and finite");
+  detail::require_positive("SolidMaterial", "youngs_modulus", youngs_modulus);
   detail::require_value(poissons_ratio > -1.0 && poissons_ratio < 0.5, "SolidMaterial", "poissons_ratio",
                         poissons_ratio, "in (-1, 1/2)");
-  detail::require_value(density > 0.0 && std::isfinite(density), "SolidMaterial", "density", density,
-                        "positive and finite");
+  detail::require_positive("SolidMaterial", "density", density);
 }
 
 Eigen::Matrix3Xd SolidMesh::coordinates(int index) const {
@@ -58,7 +52,8 @@ Eigen::Matrix3Xd SolidMesh::coordinates(int index) const {
 
 void SolidMesh::validate() const {
   detail::require_value(elements.cols() >= 1, "SolidMesh", "the number of elements", 0, "at least 1");
-  require_count("SolidMesh", "the number of rows of elements", elements.rows(), nodes_per_element(element));
+  detail::require_count("SolidMesh", "the number of rows of elements", elements.rows(),
+                        nodes_per_element(element));
   detail::require(nodes.allFinite(), "SolidMesh", "nodes has a coordinate that is not finite");
   for (Eigen::Index index = 0; index < elements.cols(); ++index)
     for (int node : elements.col(index))
@@ -94,7 +89,7 @@ Eigen::Matrix3Xd SolidModel::displacements(const Eigen::VectorXd& unknowns) cons
 Assembly SolidModel::assembly() const {
   mesh.validate();
   material.validate();
-  require_count("SolidModel", "the number of dofs", dofs.dofs(), 3 * mesh.nodes.cols());
+  detail::require_count("SolidModel", "the number of dofs", dofs.dofs(), 3 * mesh.nodes.cols());
   Connectivity unknowns(3 * mesh.elements.rows(), mesh.elements.cols());
   for (Eigen::Index index = 0; index < mesh.elements.cols(); ++index)
     for (Eigen::Index i = 0; i < unknowns.rows(); ++i)
@@ -116,8 +111,7 @@ SolidModel hold_nodes(SolidMesh mesh, const SolidMaterial& material, const std::
 }
 
 Matrices solid_matrices(const SolidModel& model, double stiffness_damping) {
-  detail::require_value(stiffness_damping >= 0.0 && std::isfinite(stiffness_damping), "solid_matrices",
-                        "stiffness_damping", stiffness_damping, "finite and at least 0");
+  detail::require_not_negative("solid_matrices", "stiffness_damping", stiffness_damping);
   const Assembly assembly = model.assembly();
   const SolidMesh& mesh = model.mesh;
   Matrices matrices;
@@ -143,8 +137,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> nodal_stress(const SolidModel& model,
   const SolidMesh& mesh = model.mesh;
   mesh.validate();
   model.material.validate();
-  require_count("nodal_stress", "the number of columns of displacements", displacements.cols(),
-                mesh.nodes.cols());
+  detail::require_count("nodal_stress", "the number of columns of displacements", displacements.cols(),
+                        mesh.nodes.cols());
   const Eigen::MatrixXd extension = extension_to_nodes(mesh.element);
   Eigen::Matrix<double, 6, Eigen::Dynamic> sum =
       Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, mesh.nodes.cols());

@@ -11,9 +11,8 @@ Eigen::MatrixXd static_displacements(const Eigen::SparseMatrix<double>& stiffnes
                                      const Eigen::MatrixXd& loads) {
   detail::require_square(stiffness, "static_displacements", "stiffness", stiffness.rows());
   detail::require_symmetric(stiffness, "static_displacements", "stiffness");
-  detail::require_value(loads.rows() == stiffness.rows(), "static_displacements",
-                        "the number of rows of loads", static_cast<double>(loads.rows()),
-                        std::to_string(stiffness.rows()));
+  detail::require_count("static_displacements", "the number of rows of loads", loads.rows(),
+                        stiffness.rows());
   const detail::SymmetricFactor factor(stiffness);
   if (!factor.positive_definite())
     throw std::domain_error("static_displacements: the stiffness is not positive definite");
