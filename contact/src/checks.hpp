@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
 
 namespace wavebalance::contact::detail {
@@ -24,6 +25,19 @@ void require_at_least(const char* where, const char* argument, double value, dou
 /// length than that expected.
 void require_length(const char* where, const char* array, std::size_t length, std::size_t expected);
 
+/// Forces and tangents of a law at each displacement, arrays of one length.
+template <class Law>
+void evaluate_each(const Law& law, const char* where, std::span<const double> displacement,
+                   std::span<double> force, std::span<double> tangent) {
+  require_length(where, "force", force.size(), displacement.size());
+  require_length(where, "tangent", tangent.size(), displacement.size());
+  for (std::size_t i = 0; i < displacement.size(); ++i) {
+    const auto at = law.evaluate(displacement[i]);
+    force[i] = at.force;
+    tangent[i] = at.tangent;
+  }
+}
+
 /// The larger of the two; not a number if one of them is not.
 inline double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
@@ -35,5 +49,10 @@ inline double saturate(double value) {
 
 /// The same on both sides, for forces of either sign.
 inline double saturate_both(double value) { return value < 0.0 ? -saturate(-value) : saturate(value); }
+
+/// What a spring stores at a penetration, nothing up to 0.
+inline double spring_energy(double stiffness, double penetration) {
+  return penetration <= 0.0 ? 0.0 : saturate(0.5 * (stiffness * penetration * penetration));
+}
 
 }  // namespace wavebalance::contact::detail

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "checks.hpp"
 
@@ -76,13 +75,7 @@ double ExponentialLaw::potential_in_contact(double displacement) const {
 
 void ExponentialLaw::evaluate(std::span<const double> displacement, std::span<double> force,
                               std::span<double> tangent) const {
-  detail::require_length("ExponentialLaw::evaluate", "force", force.size(), displacement.size());
-  detail::require_length("ExponentialLaw::evaluate", "tangent", tangent.size(), displacement.size());
-  for (std::size_t i = 0; i < displacement.size(); ++i) {
-    const ForceAndTangent at = evaluate(displacement[i]);
-    force[i] = at.force;
-    tangent[i] = at.tangent;
-  }
+  detail::evaluate_each(*this, "ExponentialLaw::evaluate", displacement, force, tangent);
 }
 
 LawDescription ExponentialLaw::description() {

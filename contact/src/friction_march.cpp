@@ -125,14 +125,12 @@ FrictionMarch::FrictionMarch(const CoulombLaw& law, int points, std::span<const 
       u_(displacement),
       with_slopes_(with_slopes),
       memory_(1e-15 * law.tangential_stiffness()) {
-  for (int j = 0; j < points; ++j) {
-    raw_.push_back(law.raw_normal_force(law.normal_rows() > 0 ? u_[static_cast<std::size_t>(j)] : 0.0));
-    normal_.push_back(std::max(0.0, raw_.back()));
-  }
+  for (std::size_t j = 0; j < static_cast<std::size_t>(points); ++j)
+    raw_.push_back(law.raw_normal_force(law.normal_rows() > 0 ? u_[j] : 0.0));
 }
 
 double FrictionMarch::limit_slope(int sample) const {
-  return raw_[static_cast<std::size_t>(sample)] > 0.0 ? law_.friction() * law_.normal_stiffness() : 0.0;
+  return raw(sample) > 0.0 ? law_.friction() * law_.normal_stiffness() : 0.0;
 }
 
 Pair FrictionMarch::within_limit(const Pair& force) const {
@@ -144,22 +142,18 @@ Pair FrictionMarch::within_limit(const Pair& force) const {
 void FrictionMarch::begin(const Pair& slider) {
   const int last = points_ - 1;
   Pair trial{};
-  for (int i = 0; i < law_.tangents(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    trial[at] =
-        law_.tangential_stiffness() * (u_[static_cast<std::size_t>(tangent_at(i, last))] - slider[at]);
-  }
+  for (std::size_t i = 0; i < tangents(); ++i)
+    trial[i] = law_.tangential_stiffness() * (along(i, last) - slider[i]);
   force_ = within_limit(trial);
   memory_.clear();
   if (!with_slopes_) return;
   const double norm = std::hypot(trial[0], trial[1]), most = limit(last);
   const double share = norm > most ? most / norm : 1.0;
-  for (int i = 0; i < law_.tangents(); ++i) {
+  for (std::size_t i = 0; i < tangents(); ++i) {
     Pair slope{};
     for (std::size_t k = 0; k < 2; ++k) {
-      const double radial = share < 1.0 ? trial[k] * trial[static_cast<std::size_t>(i)] / (norm * norm) : 0.0;
-      slope[k] =
-          law_.tangential_stiffness() * share * ((k == static_cast<std::size_t>(i) ? 1.0 : 0.0) - radial);
+      const double radial = share < 1.0 ? trial[k] * trial[i] / (norm * norm) : 0.0;
+      slope[k] = law_.tangential_stiffness() * share * (identity[k][i] - radial);
     }
     memory_.add(tangent_at(i, last), slope);
   }
@@ -170,8 +164,7 @@ void FrictionMarch::begin(const Pair& slider) {
 
 FrictionMarch::Closing FrictionMarch::closing(int sample) const {
   if (law_.normal_rows() == 0) return {};
-  const double now = raw_[static_cast<std::size_t>(sample)],
-               was = raw_[static_cast<std::size_t>(before(sample))];
+  const double now = raw(sample), was = raw(before(sample));
   if (!(now > 0.0 && was <= 0.0)) return {};
   const double rise = now - was, stiffness = law_.normal_stiffness();
   return {now / rise, -was / (rise * rise) * stiffness, now / (rise * rise) * stiffness};
@@ -179,11 +172,9 @@ FrictionMarch::Closing FrictionMarch::closing(int sample) const {
 
 ReturnStep FrictionMarch::step_to(int sample, const Closing& closing, Pair& travel) const {
   ReturnStep step{force_, {}, limit(before(sample)), limit(sample)};
-  for (int i = 0; i < law_.tangents(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    travel[at] = u_[static_cast<std::size_t>(tangent_at(i, sample))] -
-                 u_[static_cast<std::size_t>(tangent_at(i, before(sample)))];
-    step.increment[at] = law_.tangential_stiffness() * closing.share * travel[at];
+  for (std::size_t i = 0; i < tangents(); ++i) {
+    travel[i] = along(i, sample) - along(i, before(sample));
+    step.increment[i] = law_.tangential_stiffness() * closing.share * travel[i];
   }
   return step;
 }
@@ -193,10 +184,9 @@ void FrictionMarch::follow(int sample, const ReturnResult& result, const Closing
   if (result.state == FrictionState::open) return memory_.clear();
   memory_.turn(result.by_force);
   const double stiffness = law_.tangential_stiffness();
-  for (int i = 0; i < law_.tangents(); ++i) {
-    const auto column = static_cast<std::size_t>(i);
-    const double slope = stiffness * closing.share;
-    const Pair by{slope * result.by_increment[0][column], slope * result.by_increment[1][column]};
+  const double slope = stiffness * closing.share;
+  for (std::size_t i = 0; i < tangents(); ++i) {
+    const Pair by{slope * result.by_increment[0][i], slope * result.by_increment[1][i]};
     memory_.add(tangent_at(i, sample), by);
     memory_.add(tangent_at(i, before(sample)), {-by[0], -by[1]});
   }
@@ -221,8 +211,7 @@ std::pair<double, double> FrictionMarch::slip_in(int sample, const ReturnStep& s
                        step.increment[1] - result.force[1] + step.force[1]) /
                 stiffness,
             result.mean_limit};
-  const double was = raw_[static_cast<std::size_t>(before(sample))],
-               now = raw_[static_cast<std::size_t>(sample)];
+  const double was = raw(before(sample)), now = raw(sample);
   if (result.state == FrictionState::stick || !(was > 0.0)) return {0.0, 0.0};
   const double share = was / (was - now);
   return {std::hypot(share * step.increment[0] + step.force[0], share * step.increment[1] + step.force[1]) /
@@ -237,16 +226,15 @@ void FrictionMarch::note(int sample, const ReturnStep& step, const ReturnResult&
   record.slip.push_back(slip);
   record.work += limit * slip;
   if (law_.friction() > 0.0) record.normal_work += limit / law_.friction() * slip;
-  for (int i = 0; i < law_.tangents(); ++i)
-    record.force[static_cast<std::size_t>(tangent_at(i, sample))] = result.force[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < tangents(); ++i)
+    record.force[static_cast<std::size_t>(tangent_at(i, sample))] = result.force[i];
   for (const Memory::Entry& entry : memory_.entries())
-    for (int i = 0; i < law_.tangents(); ++i)
-      if (const double slope = entry.slope[static_cast<std::size_t>(i)]; slope != 0.0)
+    for (std::size_t i = 0; i < tangents(); ++i)
+      if (const double slope = entry.slope[i]; slope != 0.0)
         record.slopes.push_back({tangent_at(i, sample), entry.displacement, slope});
   if (law_.normal_rows() == 0) return;
-  record.force[static_cast<std::size_t>(sample)] = normal_[static_cast<std::size_t>(sample)];
-  if (with_slopes_ && raw_[static_cast<std::size_t>(sample)] > 0.0)
-    record.slopes.push_back({sample, sample, law_.normal_stiffness()});
+  record.force[static_cast<std::size_t>(sample)] = std::max(0.0, raw(sample));
+  if (with_slopes_ && raw(sample) > 0.0) record.slopes.push_back({sample, sample, law_.normal_stiffness()});
 }
 
 void FrictionMarch::period(FrictionPeriod* record) {

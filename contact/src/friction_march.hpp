@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -64,8 +65,6 @@ class FrictionMarch {
 
   const Pair& force() const { return force_; }
   void set_force(const Pair& force) { force_ = force; }
-  /// The derivative of the force after the last period by that before it.
-  const Matrix& carried() const { return carried_; }
   /// Whether the contact neither slipped nor opened in the last period.
   bool stuck() const { return stuck_; }
   /// Within the limit at the end of the period.
@@ -81,8 +80,16 @@ class FrictionMarch {
     double share = 1.0, by_now = 0.0, by_before = 0.0;
   };
   int before(int sample) const { return sample > 0 ? sample - 1 : points_ - 1; }
-  int tangent_at(int tangent, int sample) const { return (law_.normal_rows() + tangent) * points_ + sample; }
-  double limit(int sample) const { return law_.friction() * normal_[static_cast<std::size_t>(sample)]; }
+  int tangent_at(std::size_t tangent, int sample) const {
+    return (law_.normal_rows() + static_cast<int>(tangent)) * points_ + sample;
+  }
+  std::size_t tangents() const { return static_cast<std::size_t>(law_.tangents()); }
+  /// The displacement along a tangent.
+  double along(std::size_t tangent, int sample) const {
+    return u_[static_cast<std::size_t>(tangent_at(tangent, sample))];
+  }
+  double raw(int sample) const { return raw_[static_cast<std::size_t>(sample)]; }
+  double limit(int sample) const { return law_.friction() * std::max(0.0, raw(sample)); }
   double limit_slope(int sample) const;
   Closing closing(int sample) const;
   ReturnStep step_to(int sample, const Closing& closing, Pair& travel) const;
@@ -94,9 +101,9 @@ class FrictionMarch {
   int points_;
   std::span<const double> u_;
   bool with_slopes_;
-  std::vector<double> raw_, normal_;  // N at the samples, without and with the bound at zero
+  std::vector<double> raw_;  // N at the samples, without the bound at zero
   Pair force_{};
-  Matrix carried_{};
+  Matrix carried_{};  // the derivative of the force after the last period by that before it
   Memory memory_;
   bool stuck_ = false;
 };

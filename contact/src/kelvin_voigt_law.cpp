@@ -25,9 +25,7 @@ ForceAndSlopes KelvinVoigtLaw::evaluate(double displacement, double velocity) co
 }
 
 double KelvinVoigtLaw::potential(double displacement) const {
-  if (displacement <= gap_) return 0.0;
-  const double penetration = displacement - gap_;
-  return detail::saturate(0.5 * (stiffness_ * penetration * penetration));
+  return detail::spring_energy(stiffness_, displacement - gap_);
 }
 
 LawDescription KelvinVoigtLaw::description() {

@@ -1,7 +1,5 @@
 #include "wavebalance/contact/linear_law.hpp"
 
-#include <cstddef>
-
 #include "checks.hpp"
 
 namespace wavebalance::contact {
@@ -24,20 +22,12 @@ ForceAndTangent LinearLaw::resolvent(double v, double flexibility) const {
 }
 
 double LinearLaw::potential(double displacement) const {
-  if (displacement <= gap_) return 0.0;
-  const double penetration = displacement - gap_;
-  return detail::saturate(0.5 * (stiffness_ * penetration * penetration));
+  return detail::spring_energy(stiffness_, displacement - gap_);
 }
 
 void LinearLaw::evaluate(std::span<const double> displacement, std::span<double> force,
                          std::span<double> tangent) const {
-  detail::require_length("LinearLaw::evaluate", "force", force.size(), displacement.size());
-  detail::require_length("LinearLaw::evaluate", "tangent", tangent.size(), displacement.size());
-  for (std::size_t i = 0; i < displacement.size(); ++i) {
-    const ForceAndTangent at = evaluate(displacement[i]);
-    force[i] = at.force;
-    tangent[i] = at.tangent;
-  }
+  detail::evaluate_each(*this, "LinearLaw::evaluate", displacement, force, tangent);
 }
 
 LawDescription LinearLaw::description() {
