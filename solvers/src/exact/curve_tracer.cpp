@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linalg/multipliers.hpp"
 #include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -50,7 +51,7 @@ void CurveTracer::accept(PointOnCurve point) {
   added.motion = point->motion;
   added.slope = point->slope;
   added.multipliers = multipliers_of(*point);
-  added.unstable = unstable_of(added.multipliers);
+  added.unstable = count_outside(added.multipliers);
   multipliers_ = added.multipliers;
   operations_ += operations_of(*point);
   points_.push_back(std::move(point));
@@ -69,12 +70,11 @@ void CurveTracer::note_events(const CurvePoint& next) {
   append_changes(next, between.events);
   if (path_.cancelled()) return;  // some may be missing
   if (!between.explained) curve_.unexplained.push_back(curve_.points.size());
-  std::stable_sort(between.events.begin(), between.events.end(),
-                   [](const PlacedEvent& a, const PlacedEvent& b) { return a.place < b.place; });
-  for (PlacedEvent& one : between.events) {
-    one.event.next_point = curve_.points.size();
-    curve_.events.push_back(std::move(one.event));
-  }
+  std::stable_sort(
+      between.events.begin(), between.events.end(),
+      [](const PlacedEvent& a, const PlacedEvent& b) { return a.point->place < b.point->place; });
+  for (const PlacedEvent& one : between.events)
+    curve_.events.push_back({one.type, one.value, one.multiplier, one.point->motion, curve_.points.size()});
 }
 
 void CurveTracer::go_to(PointOnCurve next) {
@@ -126,6 +126,20 @@ void CurveTracer::end_before(const CurvePoint& next) {
                                    [limit](const CurvePoint& point) { return point.value - limit; });
   curve_.status = last ? status : SweepStatus::lost;
   if (last) go_to(std::move(last));
+}
+
+bool CurveTracer::is_smooth() const {
+  constexpr double sharper = 0.3;
+  const std::size_t count = points_.size();
+  return count > 1 && step_ > sharper * (points_[count - 1]->place - points_[count - 2]->place);
+}
+
+void CurveTracer::take(PointOnCurve next) {
+  step_ = std::min(options().largest_step, step_ * growth_);
+  if (within(next->value))
+    go_to(std::move(next));
+  else
+    end_before(*next);
 }
 
 void CurveTracer::shorten_step() {

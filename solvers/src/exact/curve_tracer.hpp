@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <deque>
 #include <vector>
 
@@ -41,9 +42,26 @@ class CurveTracer {
   void end_before(const CurvePoint& next);
   /// Half the step; the curve is lost where that is too short.
   void shorten_step();
+  /// Whether the last points lie so near to each other that their polynomial tells of the next one.
+  bool is_smooth() const;
+  /// Whether a solution is the next point of the curve: so far off what was expected, so far from the last
+  /// point, and with this cosine of the angle between the way and its direction. Then it gets its place and
+  /// its side.
+  template <class Point>
+  bool fits(Point& next, double off, double arc, double ahead) {
+    constexpr double close = 0.05, farthest = 0.25, longest = 2.5;
+    if (off > farthest * step_ || arc > longest * step_ || std::abs(ahead) < least_cosine) return false;
+    if (ahead < 0.0) next.turn_around();
+    growth_ = off < close * step_ ? 1.5 : 1.0;
+    next.place = points_.back()->place + arc;
+    return true;
+  }
+  /// Takes such a point, up to the end of the interval.
+  void take(PointOnCurve next);
   void note(SpecialPointType type, const CurvePoint& at);
 
   double step_;
+  static constexpr double least_cosine = 0.3;
 
  private:
   bool turns_as_it_ends() const;
@@ -53,7 +71,7 @@ class CurveTracer {
 
   CurvePath& path_;
   ExactCurve& curve_;
-  double operations_ = 0.0;
+  double operations_ = 0.0, growth_ = 1.5;
   const PointOnCurve first_;
   std::deque<PointOnCurve> points_;
   Eigen::VectorXcd multipliers_;  // of the last one

@@ -46,9 +46,7 @@ class PhaseTracer : public detail::CurveTracer {
       next.reset();
     }
     if (!next) return shorten_step();
-    step_ = std::min(options().largest_step, step_ * growth_);
-    if (!within(next->value)) return end_before(*next);
-    go_to(shared(std::move(*next)));
+    take(shared(std::move(*next)));
   }
 
   double operations_of(const CurvePoint& point) const override {
@@ -64,10 +62,9 @@ class PhaseTracer : public detail::CurveTracer {
 
   // The next point, if it lies where it is expected.
   std::optional<PathPoint> corrected() {
-    constexpr double sharper = 0.3;
     const PathPoint& last = this->last();
     // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
-    if (points().size() > 1 && step_ > sharper * (last.place - points()[points().size() - 2]->place)) {
+    if (is_smooth()) {
       Prediction expected = detail::through(neighbours(), last.place + step_);
       if (last.passages() == 0 || model_.cosine(last, expected) > least_cosine)
         return near(std::move(expected));
@@ -82,7 +79,6 @@ class PhaseTracer : public detail::CurveTracer {
 
   // The solution near a prediction. Sets arc_, its distance from the last point; 0 where there is none.
   std::optional<PathPoint> near(Prediction expected) {
-    constexpr double close = 0.05, farthest = 0.25, longest = 2.5;
     const PathPoint& last = this->last();
     arc_ = 0.0;
     if (!(expected.value > 0.0) || shrinks(last.iterate.layout, expected.iterate.layout)) return std::nullopt;
@@ -91,15 +87,10 @@ class PhaseTracer : public detail::CurveTracer {
     std::optional<PathPoint> next =
         model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
     if (!next) return std::nullopt;
-    const double off = model_.distance(expected, *next);
     arc_ = model_.arc_length(last, *next);
-    if (off > farthest * step_ || arc_ > longest * step_) return std::nullopt;
     // The unknown held says the direction where it changes all the way. The way itself says it always.
     const double ahead = next->passages() > 0 ? model_.cosine(last, *next) : 1.0;
-    if (std::abs(ahead) < least_cosine) return std::nullopt;
-    if (ahead < 0.0) next->turn_around();
-    growth_ = off < close * step_ ? 1.5 : 1.0;
-    next->place = last.place + arc_;
+    if (!fits(*next, model_.distance(expected, *next), arc_, ahead)) return std::nullopt;
     return next;
   }
 
@@ -141,11 +132,8 @@ class PhaseTracer : public detail::CurveTracer {
     for (PathPoint& point : over.between) go_to(shared(std::move(point)));
   }
 
-  // Of the angles between the directions of two points and the way from one to the other.
-  static constexpr double least_cosine = 0.3;
-
   PathModel& model_;
-  double growth_ = 1.5, arc_ = 0.0;
+  double arc_ = 0.0;
 };
 
 // Whether it is one of impact_motion().

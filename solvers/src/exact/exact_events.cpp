@@ -10,18 +10,6 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// A special point by its place between two neighbours, and the motion there.
-struct Located {
-  SpecialPointType type;
-  PointOnCurve point;
-  std::complex<double> multiplier;
-};
-
-struct Places {
-  std::vector<Located> found;
-  bool explained = true;  // whether they are all that the count of multipliers outside the circle needs
-};
-
 // The product of all 1 + sign multiplier, which is smooth and changes its sign where a real one passes.
 double product_of(const Eigen::VectorXcd& multipliers, double sign) {
   std::complex<double> product = 1.0;
@@ -50,14 +38,14 @@ struct Step {
   }
 };
 
-void append_real(std::vector<Located>& found, const Step& step, const Eigen::VectorXcd& of_a,
+void append_real(std::vector<PlacedEvent>& found, const Step& step, const Eigen::VectorXcd& of_a,
                  const Eigen::VectorXcd& of_b, double sign, SpecialPointType type) {
   if (!(product_of(of_a, sign) * product_of(of_b, sign) < 0.0)) return;
   const PointOnCurve at =
       step.zero([sign](const CurvePoint& point) { return product_of(point.motion.multipliers(), sign); });
   if (!at) return;
   const std::complex<double> multiplier = nearest(at->motion.multipliers(), -sign);
-  found.push_back({type, at, multiplier});
+  found.push_back({type, at, at->value, multiplier});
 }
 
 // Multipliers that pass the circle at a place, and those outside beside them.
@@ -65,7 +53,7 @@ struct Passing {
   int beside = 0, near = 0;
 };
 
-Passing passing(const Located& at) {
+Passing passing(const PlacedEvent& at) {
   constexpr double near = 1e-3;
   Passing counts;
   for (const std::complex<double> multiplier : at.point->motion.multipliers()) {
@@ -78,7 +66,7 @@ Passing passing(const Located& at) {
 
 // Where a complex pair passes the circle, between two places with so many multipliers outside. One that
 // passes it on the real axis at a place may be among them or not.
-void append_pair(std::vector<Located>& found, const Step& step, int before, int after) {
+void append_pair(std::vector<PlacedEvent>& found, const Step& step, int before, int after) {
   constexpr double real = 1e-9;
   if (before < 0 || after < 0 || std::abs(after - before) < 2) return;
   for (int number = std::min(before, after); number < std::max(before, after); ++number) {
@@ -87,22 +75,22 @@ void append_pair(std::vector<Located>& found, const Step& step, int before, int 
     if (!at) continue;
     const std::complex<double> multiplier = upper(at->motion.multipliers()[number]);
     if (multiplier.imag() <= real) continue;
-    found.push_back({SpecialPointType::neimark_sacker, at, multiplier});
+    found.push_back({SpecialPointType::neimark_sacker, at, at->value, multiplier});
     return;
   }
 }
 
-void sort(std::vector<Located>& found) {
+void sort(std::vector<PlacedEvent>& found) {
   std::sort(found.begin(), found.end(),
-            [](const Located& x, const Located& y) { return x.point->place < y.point->place; });
+            [](const PlacedEvent& x, const PlacedEvent& y) { return x.point->place < y.point->place; });
 }
 
-void append_pairs(std::vector<Located>& found, const Step& step, int of_a, int of_b) {
+void append_pairs(std::vector<PlacedEvent>& found, const Step& step, int of_a, int of_b) {
   sort(found);
-  std::vector<Located> pairs;
+  std::vector<PlacedEvent> pairs;
   const CurvePoint* last = &step.a;
   int before = of_a;
-  for (const Located& one : found) {
+  for (const PlacedEvent& one : found) {
     const int beside = passing(one).beside;
     append_pair(pairs, {step.path, *last, *one.point, step.turns}, before, beside);
     last = one.point.get();
@@ -118,15 +106,15 @@ void append_pairs(std::vector<Located>& found, const Step& step, int of_a, int o
 int clear_count(const Eigen::VectorXcd& multipliers) {
   constexpr double rounding = 1e-8;
   const bool clear = ((multipliers.array().abs() - 1.0).abs() > rounding).all();
-  return clear ? unstable_of(multipliers) : -1;
+  return clear ? count_outside(multipliers) : -1;
 }
 
 // Whether the count changes from one neighbour to the next as it does at the places between them. Where
 // several multipliers pass together, or one lies on the circle, nothing is known.
-bool is_explained(const std::vector<Located>& found, const Eigen::VectorXcd& of_a,
+bool is_explained(const std::vector<PlacedEvent>& found, const Eigen::VectorXcd& of_a,
                   const Eigen::VectorXcd& of_b) {
   int count = clear_count(of_a);
-  for (const Located& one : found) {
+  for (const PlacedEvent& one : found) {
     const Passing counts = passing(one);
     const int passes = one.type == SpecialPointType::neimark_sacker ? 2 : 1;
     if (counts.near != passes)
@@ -161,21 +149,21 @@ bool may_turn_twice(const Step& step) {
   return middle * begin < 0.0 || std::abs(middle) < clear * std::min(std::abs(begin), std::abs(end));
 }
 
-std::vector<Located> places_within(const Step& step, const Eigen::VectorXcd& of_a,
-                                   const Eigen::VectorXcd& of_b) {
-  std::vector<Located> found;
+std::vector<PlacedEvent> places_within(const Step& step, const Eigen::VectorXcd& of_a,
+                                       const Eigen::VectorXcd& of_b) {
+  std::vector<PlacedEvent> found;
   if (step.a.slope * step.b.slope < 0.0) {
     const PointOnCurve at = step.zero([](const CurvePoint& point) { return point.slope; });
     if (at) {
       const std::complex<double> multiplier = nearest(at->motion.multipliers(), 1.0);
-      found.push_back({SpecialPointType::fold, at, multiplier});
+      found.push_back({SpecialPointType::fold, at, at->value, multiplier});
     }
   } else {
     append_real(found, step, of_a, of_b, -1.0, SpecialPointType::branch);
   }
   append_real(found, step, of_a, of_b, 1.0, SpecialPointType::period_doubling);
   if (clear_count(of_a) >= 0 && clear_count(of_b) >= 0)
-    append_pairs(found, step, unstable_of(of_a), unstable_of(of_b));
+    append_pairs(found, step, count_outside(of_a), count_outside(of_b));
   else
     sort(found);
   return found;
@@ -185,14 +173,14 @@ constexpr int most_halvings = 7;
 
 // The same by halves of the step, where the count changes otherwise than by the places found, or places may
 // have cancelled each other.
-Places places_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
-                      const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, int halvings) {
+EventsBetween places_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
+                             const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b, int halvings) {
   const bool turns = a.slope * b.slope < 0.0;
   const bool known = clear_count(of_a) >= 0 && clear_count(of_b) >= 0;
   const Step step{path, a, b, turns};
-  Places places{places_within(step, of_a, of_b), true};
+  EventsBetween places{places_within(step, of_a, of_b)};
   if (!known) return places;
-  places.explained = is_explained(places.found, of_a, of_b);
+  places.explained = is_explained(places.events, of_a, of_b);
   const bool whole = halvings == most_halvings;
   const bool clear = places.explained && !may_pass_twice(of_a, of_b, -1.0, whole) &&
                      (turns || (!may_pass_twice(of_a, of_b, 1.0, whole) && !may_turn_twice(step)));
@@ -200,13 +188,13 @@ Places places_between(const CurvePath& path, const CurvePoint& a, const CurvePoi
   const PointOnCurve middle = path.between(a, b, 0.5, turns);
   if (!middle || !middle->agrees) return places;
   const Eigen::VectorXcd of_middle = middle->motion.multipliers();
-  Places first = places_between(path, a, *middle, of_a, of_middle, halvings - 1);
-  Places second = places_between(path, *middle, b, of_middle, of_b, halvings - 1);
+  EventsBetween first = places_between(path, a, *middle, of_a, of_middle, halvings - 1);
+  EventsBetween second = places_between(path, *middle, b, of_middle, of_b, halvings - 1);
   first.explained = first.explained && second.explained;
   if (places.explained &&
-      (!first.explained || first.found.size() + second.found.size() <= places.found.size()))
+      (!first.explained || first.events.size() + second.events.size() <= places.events.size()))
     return places;
-  std::move(second.found.begin(), second.found.end(), std::back_inserter(first.found));
+  std::move(second.events.begin(), second.events.end(), std::back_inserter(first.events));
   return first;
 }
 
@@ -223,16 +211,9 @@ std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<d
   return upper(best);
 }
 
-int unstable_of(const Eigen::VectorXcd& multipliers) { return count_outside(multipliers); }
-
 EventsBetween events_between(const CurvePath& path, const CurvePoint& a, const CurvePoint& b,
                              const Eigen::VectorXcd& of_a, const Eigen::VectorXcd& of_b) {
-  Places places = places_between(path, a, b, of_a, of_b, most_halvings);
-  EventsBetween between{{}, places.explained};
-  for (const Located& one : places.found)
-    between.events.push_back(
-        {one.point->place, {one.type, one.point->value, one.multiplier, one.point->motion}});
-  return between;
+  return places_between(path, a, b, of_a, of_b, most_halvings);
 }
 
 }  // namespace wavebalance::solvers::detail

@@ -6,16 +6,15 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Multipliers outside the unit circle; -1 where that is not known.
-int unstable_of(const Eigen::VectorXcd& multipliers);
-
 /// The multiplier nearest to a place on the unit circle, Im >= 0; NaN where none is known.
 std::complex<double> nearest(const Eigen::VectorXcd& multipliers, std::complex<double> place);
 
-/// A special point and its place along the curve.
+/// A special point: the motion there with its place along the curve, and the parameter.
 struct PlacedEvent {
-  double place;
-  ExactEvent event;
+  SpecialPointType type;
+  PointOnCurve point;
+  double value;
+  std::complex<double> multiplier{missing, missing};
 };
 
 struct EventsBetween {

@@ -43,7 +43,6 @@ class PathModel : public CurvePath {
  public:
   using CurvePath::CurvePath;
 
-  double length() const { return CurvePath::length(); }
   /// As of CurvePath, but at least by the instants of contact.
   double arc_length(const PathPoint& from, const PathPoint& to) const;
   PointOnCurve between(const CurvePoint& a, const CurvePoint& b, double share, bool turns) const override;

@@ -158,15 +158,10 @@ class ImpactTracer : public CurveTracer {
 // The first place, with its tangent towards options.to.
 std::optional<ImpactPlace> first_place(ImpactCurvePath& path, const PhaseMotion& first,
                                        const ExactCurveOptions& options) {
-  ImpactPoint start;
-  start.displacement = path.now->unknowns_of(first.impacts);
-  start.parameter = options.from;
-  std::optional<ImpactPlace> place = path.now->at_value(start, options.from);
-  if (!place || !place->solution.converged()) return std::nullopt;
-  ImpactPoint along = place->point;
-  along.displacement_tangent = Eigen::VectorXd::Zero(along.displacement.size());
-  along.parameter_tangent = options.to > options.from ? path.scales.parameter : -path.scales.parameter;
-  if (!path.now->set_tangent(place->point, along)) return std::nullopt;
+  std::optional<ImpactPlace> place = path.now->at_value(path.now->unknowns_of(first.impacts), options.from);
+  if (!place || !place->solution.converged() ||
+      !path.now->tangent_at(place->point, path.now->along_parameter(options.to > options.from)))
+    return std::nullopt;
   return place;
 }
 
@@ -210,13 +205,10 @@ ExactCurve doubled_impacts(const PhaseFamily& family, const ExactEvent& event,
   ImpactCurvePath path(family, event.motion, options, 2 * periods_of(family, event.motion, event.value));
   const std::vector<Impact> impacts = twice(event.motion.impacts);
   path.begin(event.value, impacts);
-  ImpactPoint start;
-  start.displacement = path.now->unknowns_of(impacts);
-  start.parameter = event.value;
   ExactCurve curve;
-  std::optional<ImpactPlace> place = path.now->at_value(start, event.value);
+  std::optional<ImpactPlace> place = path.now->at_value(path.now->unknowns_of(impacts), event.value);
   if (!place) return curve;
-  place->point.displacement_tangent = path.now->null_direction();
+  place->point.displacement_tangent = path.now->curve().null_direction();
   place->point.parameter_tangent = 0.0;
   path.now->normalize(place->point);
   std::optional<ImpactPlace> first = path.now->ahead(place->point, options.first_step);

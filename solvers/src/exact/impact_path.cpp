@@ -64,9 +64,9 @@ Eigen::VectorXd ImpactCurveEquations::weighted(const Eigen::VectorXd& u) const {
   return result;
 }
 
-double ImpactCurveEquations::height_slope(Index i, const Eigen::VectorXd& tangent,
-                                          double parameter_tangent) const {
-  return equations_->matrix().row(i).dot(tangent) + slope_[i] * parameter_tangent;
+double ImpactCurveEquations::height_slope(Index i, const ImpactPoint& tangent) const {
+  return equations_->matrix().row(i).dot(tangent.displacement_tangent) +
+         slope_[i] * tangent.parameter_tangent;
 }
 
 Eigen::VectorXd ImpactCurveEquations::null_direction() const {
@@ -79,6 +79,13 @@ ImpactSolution ImpactCurveEquations::solution(const ImpactPoint& at) const {
   ImpactSolution found = solution_of(model_, {contacts_, at.displacement, scales_.impulse});
   found.residual = residual().size() > 0 ? residual().cwiseAbs().maxCoeff() : 0.0;
   return found;
+}
+
+ImpactPoint impact_point(Eigen::VectorXd unknowns, double value) {
+  ImpactPoint point;
+  point.displacement = std::move(unknowns);
+  point.parameter = value;
+  return point;
 }
 
 ImpactPath::ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
@@ -100,23 +107,31 @@ Eigen::VectorXd ImpactPath::lengths(const Eigen::VectorXd& unknowns) const {
   return result;
 }
 
-std::optional<ImpactPlace> ImpactPath::at_value(ImpactPoint start, double value) {
-  constexpr double rounding = 1e-14;
-  const CurvePlane plane{Eigen::VectorXd::Zero(start.displacement.size()), 1.0 / scales_.parameter,
-                         value / scales_.parameter,
-                         rounding * std::max(1.0, std::abs(value) / scales_.parameter)};
+ImpactPoint ImpactPath::along_parameter(bool grows) const {
+  ImpactPoint along;
+  along.displacement_tangent = Eigen::VectorXd::Zero(2 * curve().impacts());
+  along.parameter_tangent = grows ? scales_.parameter : -scales_.parameter;
+  return along;
+}
+
+std::optional<ImpactPlace> ImpactPath::in_plane(const CurvePlane& plane, ImpactPoint start) {
   int corrections = 0;
   if (!solve_in(plane, nullptr, start, corrections)) return std::nullopt;
   return ImpactPlace{start, curve().solution(start)};
 }
 
-std::optional<ImpactPlace> ImpactPath::at_grazing(ImpactPoint start, Index i) {
+std::optional<ImpactPlace> ImpactPath::at_value(const Eigen::VectorXd& unknowns, double value) {
+  constexpr double rounding = 1e-14;
+  const double place = value / scales_.parameter;
+  return in_plane({Eigen::VectorXd::Zero(unknowns.size()), 1.0 / scales_.parameter, place,
+                   rounding * std::max(1.0, std::abs(place))},
+                  impact_point(unknowns, value));
+}
+
+std::optional<ImpactPlace> ImpactPath::at_grazing(const ImpactPoint& start, Index i) {
   constexpr double rounding = 1e-14;
   const Index count = curve().impacts();
-  const CurvePlane plane{Eigen::VectorXd::Unit(2 * count, count + i), 0.0, 0.0, rounding};
-  int corrections = 0;
-  if (!solve_in(plane, nullptr, start, corrections)) return std::nullopt;
-  return ImpactPlace{start, curve().solution(start)};
+  return in_plane({Eigen::VectorXd::Unit(2 * count, count + i), 0.0, 0.0, rounding}, start);
 }
 
 std::optional<ImpactPlace> ImpactPath::ahead(const ImpactPoint& from, double step, int* corrections) {
@@ -126,12 +141,6 @@ std::optional<ImpactPlace> ImpactPath::ahead(const ImpactPoint& from, double ste
   if (corrections != nullptr) *corrections = taken;
   ImpactSolution solution = curve().solution(to);
   return ImpactPlace{std::move(to), std::move(solution)};
-}
-
-bool ImpactPath::set_tangent(ImpactPoint& at, const ImpactPoint& along) { return tangent_at(at, along); }
-
-double ImpactPath::height_slope(Index i, const ImpactPoint& tangent) const {
-  return curve().height_slope(i, tangent.displacement_tangent, tangent.parameter_tangent);
 }
 
 }  // namespace wavebalance::solvers::detail

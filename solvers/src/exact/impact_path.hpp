@@ -42,7 +42,7 @@ class ImpactCurveEquations {
   const std::vector<int>& contacts() const { return contacts_; }
   Eigen::Index impacts() const { return static_cast<Eigen::Index>(contacts_.size()); }
   /// Of the displacement less gap of impact i along a tangent of the others, where it was evaluated last.
-  double height_slope(Eigen::Index i, const Eigen::VectorXd& tangent, double parameter_tangent) const;
+  double height_slope(Eigen::Index i, const ImpactPoint& tangent) const;
   /// The unit vector of unknowns that changes the equations least, where they were evaluated last.
   Eigen::VectorXd null_direction() const;
   /// The solution at the place evaluated last, and whether it is a motion of the structure.
@@ -56,6 +56,9 @@ class ImpactCurveEquations {
   std::optional<ImpactEquations> equations_;
   Eigen::VectorXd slope_;  // of the residual by the parameter, where it was evaluated last
 };
+
+/// With these unknowns, without a tangent.
+ImpactPoint impact_point(Eigen::VectorXd unknowns, double value);
 
 /// A place of a curve with K impacts, and the solution there.
 struct ImpactPlace {
@@ -74,22 +77,23 @@ class ImpactPath : private CurveCorrector<ImpactCurveEquations> {
   /// Unknowns by their arc lengths.
   Eigen::VectorXd lengths(const Eigen::VectorXd& unknowns) const;
   using CurveCorrector::chord;
+  using CurveCorrector::curve;
   using CurveCorrector::inner;
   using CurveCorrector::normalize;
+  using CurveCorrector::tangent_at;  // where it was solved for last
+  /// With the direction in which the parameter alone grows, or falls, as its tangent.
+  ImpactPoint along_parameter(bool grows) const;
 
-  /// The place at a value of the parameter, without a tangent.
-  std::optional<ImpactPlace> at_value(ImpactPoint start, double value);
+  /// The place at a value of the parameter near these unknowns, without a tangent.
+  std::optional<ImpactPlace> at_value(const Eigen::VectorXd& unknowns, double value);
   /// The place near a start at which impact i has no impulse, without a tangent.
-  std::optional<ImpactPlace> at_grazing(ImpactPoint start, Eigen::Index i);
+  std::optional<ImpactPlace> at_grazing(const ImpactPoint& start, Eigen::Index i);
   /// The place at an arc length along the tangent of another, with its tangent; how many corrections it took.
   std::optional<ImpactPlace> ahead(const ImpactPoint& from, double step, int* corrections = nullptr);
-  /// Sets the tangent at a place that was solved for last, on the side of `along`.
-  bool set_tangent(ImpactPoint& at, const ImpactPoint& along);
-  /// As of ImpactCurveEquations, where it was solved for last.
-  double height_slope(Eigen::Index i, const ImpactPoint& tangent) const;
-  Eigen::VectorXd null_direction() const { return curve().null_direction(); }
 
  private:
+  std::optional<ImpactPlace> in_plane(const CurvePlane& plane, ImpactPoint start);
+
   ImpactPathScales scales_;
 };
 

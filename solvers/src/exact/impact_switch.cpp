@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "linalg/index.hpp"
+#include "linalg/root.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -23,13 +24,6 @@ void reverse(ImpactPoint& point) {
   point.parameter_tangent *= -1.0;
 }
 
-ImpactPoint start_at(Eigen::VectorXd unknowns, double value) {
-  ImpactPoint start;
-  start.displacement = std::move(unknowns);
-  start.parameter = value;
-  return start;
-}
-
 // The impact whose impulse vanishes first, and after which share of the step; -1 where none does.
 std::pair<Index, double> first_to_vanish(const ImpactStep& step) {
   const auto count = Index(step.path.contacts().size());
@@ -40,14 +34,6 @@ std::pair<Index, double> first_to_vanish(const ImpactStep& step) {
     if (to[i] <= 0.0 && from[i] > to[i] && from[i] / (from[i] - to[i]) < first.second)
       first = {i, from[i] / (from[i] - to[i])};
   return first;
-}
-
-// Towards growing parameters.
-ImpactPoint upwards(const ImpactStep& step, const ImpactPoint& at) {
-  ImpactPoint along = at;
-  along.displacement_tangent = Eigen::VectorXd::Zero(at.displacement.size());
-  along.parameter_tangent = step.scales.parameter;
-  return along;
 }
 
 // The impacts without an impulse at a place: several of equal contacts vanish together. The last one first.
@@ -76,14 +62,13 @@ std::optional<ImpactSwitch> vanishing(const ImpactStep& step) {
     unknowns = without_impact(unknowns, i);
   }
   ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}};
-  const ImpactPoint at = start_at(unknowns, grazing->point.parameter);
-  std::optional<ImpactPlace> place = found.path->at_value(at, at.parameter);
-  if (!place || !found.path->set_tangent(place->point, upwards(step, at))) return std::nullopt;
+  std::optional<ImpactPlace> place = found.path->at_value(unknowns, grazing->point.parameter);
+  if (!place || !found.path->tangent_at(place->point, found.path->along_parameter(true))) return std::nullopt;
   // Where the contact is below its gap it touches no more.
   ImpactPoint whole = place->point;
   for (auto i = gone.rbegin(); i != gone.rend(); ++i)
     whole.displacement_tangent = with_impact(whole.displacement_tangent, *i, 0.0);
-  if (step.path.height_slope(first, whole) > 0.0) reverse(place->point);
+  if (step.path.curve().height_slope(first, whole) > 0.0) reverse(place->point);
   found.place = std::move(*place);
   return found;
 }
@@ -120,15 +105,10 @@ std::vector<Contact> touches_beside(const ImpactSolution& motion, const Contact&
   for (int c = 0; c < model.contacts(); ++c)
     for (Index k = 0; k < instants; ++k) {
       if (u(c, k) < u(c, (k + 1) % instants) || u(c, k) <= u(c, (k + instants - 1) % instants)) continue;
-      double low = (double(k) - 1.0) / instants, high = (double(k) + 1.0) / instants;
-      for (int i = 0; i < 50; ++i) {
-        const double third = (high - low) / 3.0;
-        if (height(c, low + third) < height(c, high - third))
-          low += third;
-        else
-          high -= third;
-      }
-      const double time = 0.5 * (low + high);
+      const auto velocity = [&](double time) { return motion.at(time).velocity[c]; };
+      const double low = (double(k) - 1.0) / instants, high = (double(k) + 1.0) / instants;
+      const auto top = root(velocity, {low, velocity(low)}, {high, velocity(high)}, 1e-12);
+      const double time = top.value_or(double(k) / instants);
       if (height(c, time) < -rounding * model.displacement_scale()) continue;
       if (c == known.contact && near(time, known.time)) continue;
       if (std::ranges::any_of(motion.impacts, [&](const Impact& impact) {
@@ -161,14 +141,14 @@ Added with_touches(const ImpactStep& step, const ImpactPoint& at, const std::vec
     added.numbers.push_back(place);
   }
   added.path = std::make_unique<ImpactPath>(step.family, step.scales, contacts);
-  added.grazing = added.path->at_grazing(start_at(unknowns, at.parameter), added.first);
+  added.grazing = added.path->at_grazing(impact_point(unknowns, at.parameter), added.first);
   return added;
 }
 
 ImpactPoint without(const ImpactPoint& at, const std::vector<Index>& numbers) {
   Eigen::VectorXd unknowns = at.displacement;
   for (auto i = numbers.rbegin(); i != numbers.rend(); ++i) unknowns = without_impact(unknowns, *i);
-  return start_at(unknowns, at.parameter);
+  return impact_point(unknowns, at.parameter);
 }
 
 std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
@@ -180,7 +160,7 @@ std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
   // Without the impact that has no impulse it is a motion of the present path.
   ImpactPoint at = without(added.grazing->point, added.numbers);
   if (!lies_near(step, at)) return std::nullopt;
-  std::optional<ImpactPlace> present = step.path.at_value(at, at.parameter);
+  std::optional<ImpactPlace> present = step.path.at_value(at.displacement, at.parameter);
   if (!present) return std::nullopt;
   touches.front().time = added.grazing->point.displacement[added.first];
   for (const Contact& other : touches_beside(present->solution, touches.front())) touches.push_back(other);
@@ -191,7 +171,7 @@ std::optional<ImpactSwitch> appearing(const ImpactStep& step) {
   const auto count = Index(added.path->contacts().size());
   along.displacement_tangent = Eigen::VectorXd::Unit(2 * count, count + added.first);
   along.parameter_tangent = 0.0;
-  if (!added.path->set_tangent(grazing->point, along)) return std::nullopt;
+  if (!added.path->tangent_at(grazing->point, along)) return std::nullopt;
   if (grazing->point.displacement_tangent[count + added.first] < 0.0) reverse(grazing->point);
   grazing->solution = std::move(present->solution);
   return ImpactSwitch{std::move(added.path), std::move(*grazing)};
@@ -209,12 +189,11 @@ std::optional<ImpactSwitch> passing(const ImpactStep& step) {
   for (const Index i : order) all.push_back(count + i);
   if (contacts == step.path.contacts()) return std::nullopt;
   ImpactSwitch found{std::make_unique<ImpactPath>(step.family, step.scales, contacts), {}, false};
-  const ImpactPoint at = start_at(unknowns(all), step.next.point.parameter);
-  std::optional<ImpactPlace> place = found.path->at_value(at, at.parameter);
-  ImpactPoint along = at;
+  std::optional<ImpactPlace> place = found.path->at_value(unknowns(all), step.next.point.parameter);
+  ImpactPoint along;
   along.displacement_tangent = step.last.point.displacement_tangent(all);
   along.parameter_tangent = step.last.point.parameter_tangent;
-  if (!place || !found.path->set_tangent(place->point, along)) return std::nullopt;
+  if (!place || !found.path->tangent_at(place->point, along)) return std::nullopt;
   found.place = std::move(*place);
   return found;
 }

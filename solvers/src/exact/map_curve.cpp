@@ -43,9 +43,7 @@ class MapTracer : public CurveTracer {
     const std::shared_ptr<MapPoint> next = corrected();
     if (!next) return retry();
     failures_ = 0;
-    step_ = std::min(options().largest_step, step_ * growth_);
-    if (!within(next->value)) return end_before(*next);
-    go_to(next);
+    take(next);
   }
 
   // Where a contact of several rows opens or closes in all of the period at once, as a journal in a ring
@@ -123,9 +121,8 @@ class MapTracer : public CurveTracer {
 
   // The next point, if it lies where it is expected.
   std::shared_ptr<MapPoint> corrected() {
-    constexpr double sharper = 0.3;
     // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
-    if (points().size() > 1 && step_ > sharper * (last().place - points()[points().size() - 2]->place))
+    if (is_smooth())
       if (std::shared_ptr<MapPoint> next = near(through_last())) return next;
     return near({moved_by(last().direction), last().displacement + step_ * last().displacement_direction});
   }
@@ -161,19 +158,12 @@ class MapTracer : public CurveTracer {
   }
 
   std::shared_ptr<MapPoint> near(const Expected& expected) {
-    constexpr double close = 0.05, farthest = 0.25, longest = 2.5, least_cosine = 0.3;
     std::shared_ptr<MapPoint> next = path_.solve(expected.start, last());
     if (!next) return nullptr;
     const double scale = path_.arc_scale(last()), arc = path_.arc_length(last(), *next),
                  off = std::hypot(rms_of(next->displacement - expected.displacement) / scale,
                                   (next->value - expected.start.value) / path_.parameter_scale());
-    if (off > farthest * step_ || arc > longest * step_) return nullptr;
-    const double ahead = cosine(last(), *next);
-    if (std::abs(ahead) < least_cosine) return nullptr;
-    if (ahead < 0.0) next->turn_around();
-    growth_ = off < close * step_ ? 1.5 : 1.0;
-    next->place = last().place + arc;
-    return next;
+    return fits(*next, off, arc, cosine(last(), *next)) ? next : nullptr;
   }
 
   // Of the angle between the way from one point to another and the direction there.
@@ -207,13 +197,13 @@ class MapTracer : public CurveTracer {
                       : before.passages != behind.passages ? grazing
                                                            : stick;
     // A motion in which all contacts stick is smooth up to the first slip.
-    const CurvePoint& at = type == slip && before.slips ? *change.behind : *change.before;
+    const PointOnCurve at = type == slip && before.slips ? change.behind : change.before;
     // Contacts of a symmetric structure touch together, which rounding tells apart.
     constexpr double together = 1e-8;
-    if (!events.empty() && events.back().event.type == type &&
-        std::abs(events.back().event.value - change.value) <= together * std::abs(change.value))
+    if (!events.empty() && events.back().type == type &&
+        std::abs(events.back().value - change.value) <= together * std::abs(change.value))
       return;
-    events.push_back({at.place, {type, change.value, {missing, missing}, at.motion}});
+    events.push_back({type, at, change.value});
   }
 
   // Where what contacts do is no more what it was, between two points.
@@ -250,7 +240,6 @@ class MapTracer : public CurveTracer {
   }
 
   MapPath& path_;
-  double growth_ = 1.5;
   int failures_ = 0;
 };
 

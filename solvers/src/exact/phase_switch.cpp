@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/exact_events.hpp"
 #include "linalg/index.hpp"
+#include "linalg/multipliers.hpp"
 #include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -69,12 +69,13 @@ void keep_passages(const Layout& known, Layout& layout) {
 }
 
 // The phases of the motion of a solution and the forces along it.
-PhaseIterate along_own_motion(const PathModel& model, const PathPoint& at) {
+PhaseIterate along_own_motion(const PathPoint& at) {
   constexpr Index instants = 1024;
-  const PhaseModel own(model.family().at(at.value), model.length());
+  const PhaseModel& own = at.motion.parts->model;
   const LegendreNodes& nodes = at.motion.parts->nodes;
-  const ContactMotion motion = own.motion(
-      at.iterate.forces, nodes, Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / double(instants)));
+  const ContactMotion motion =
+      own.motion(at.iterate.forces, *at.motion.parts->period,
+                 Eigen::VectorXd::LinSpaced(instants, 0.0, 1.0 - 1.0 / double(instants)));
   Layout layout = layout_of(own.laws, own.frequency, motion.displacement, motion.velocity);
   keep_passages(at.iterate.layout, layout);
   layout.cut_by_others = at.iterate.layout.cut_by_others;
@@ -92,7 +93,7 @@ struct WithInterval {
 bool differ(const PathModel& model, const PathPoint& a, const PathPoint& b) {
   if (a.slope * b.slope < 0.0) return true;
   return model.options().stability &&
-         unstable_of(a.motion.multipliers()) != unstable_of(b.motion.multipliers());
+         count_outside(a.motion.multipliers()) != count_outside(b.motion.multipliers());
 }
 
 // Whether an interval is about as long in a solution as it was in its start. Else it is another one of the
@@ -136,7 +137,7 @@ std::optional<std::vector<PathPoint>> towards(const PathModel& model, const Path
 // The solution with the phases of its own motion, of which the end of the new interval is held.
 std::optional<WithInterval> with_new_interval(const PathModel& model, const PathPoint& beyond,
                                               double wanted) {
-  PhaseIterate start = along_own_motion(model, beyond);
+  PhaseIterate start = along_own_motion(beyond);
   const std::vector<Interval> intervals = intervals_of(start.layout);
   for (const Interval& interval : intervals) {
     if (interval.length > 3.0 * wanted) break;

@@ -108,11 +108,6 @@ void ContactFlow::Engine::start() {
   level_ = coarsest_;
 }
 
-void ContactFlow::Engine::start(const Eigen::VectorXcd& poles) {
-  start();
-  states_ = poles;
-}
-
 void ContactFlow::Engine::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   states_ = poles_.complex_of(state.head(poles_.states())).col(0);
   for (Index m = 0; m < contacts_.memories(); ++m) now_.memory[std::size_t(m)] = state[poles_.states() + m];
@@ -145,31 +140,6 @@ void ContactFlow::Engine::start_near(const Eigen::MatrixXcd& harmonics, const Ei
   }
   time_ = 0.0;
   idle_ = 0;
-}
-
-Eigen::VectorXd ContactFlow::Engine::displacements_by_state() const {
-  Eigen::VectorXd result = Eigen::VectorXd::Ones(poles_.states() + contacts_.memories());
-  result.head(poles_.states()) = poles_.real_outputs(0).cwiseAbs().colwise().maxCoeff().transpose();
-  return result;
-}
-
-Eigen::VectorXd ContactFlow::Engine::state() const {
-  Eigen::VectorXd result(poles_.states() + contacts_.memories());
-  result << poles_.real_of(states_),
-      Eigen::Map<const Eigen::VectorXd>(now_.memory.data(), contacts_.memories());
-  return result;
-}
-
-void ContactFlow::Engine::perturb(const Eigen::MatrixXd& columns) {
-  variation_ = {};
-  if (columns.cols() == 0) return;
-  variation_ = detail::Variation(columns.topRows(poles_.states()), columns.bottomRows(contacts_.memories()));
-}
-
-Eigen::MatrixXd ContactFlow::Engine::perturbation() const {
-  Eigen::MatrixXd result(poles_.states() + contacts_.memories(), variation_.poles().cols());
-  if (!variation_.empty()) result << variation_.poles(), variation_.memory();
-  return result;
 }
 
 void ContactFlow::Engine::keep(const Solved& panel, double end) {
@@ -338,7 +308,10 @@ ContactFlow::~ContactFlow() = default;
 ContactFlow::ContactFlow(ContactFlow&&) noexcept = default;
 ContactFlow& ContactFlow::operator=(ContactFlow&&) noexcept = default;
 void ContactFlow::start() { engine_->start(); }
-void ContactFlow::start(const Eigen::VectorXcd& poles) { engine_->start(poles); }
+void ContactFlow::start(const Eigen::VectorXcd& poles) {
+  engine_->start();
+  engine_->states_ = poles;
+}
 void ContactFlow::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   engine_->start(state, contacts);
 }
@@ -346,8 +319,15 @@ void ContactFlow::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::Vec
                              const Eigen::VectorXd& force) {
   engine_->start_near(harmonics, displacement, force);
 }
-const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->panels(); }
-Eigen::VectorXd ContactFlow::displacements_by_state() const { return engine_->displacements_by_state(); }
+const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->panels_; }
+
+Eigen::VectorXd ContactFlow::displacements_by_state() const {
+  const detail::ContactPoles& poles = engine_->poles_;
+  Eigen::VectorXd result = Eigen::VectorXd::Ones(poles.states() + engine_->contacts_.memories());
+  result.head(poles.states()) = poles.real_outputs(0).cwiseAbs().colwise().maxCoeff().transpose();
+  return result;
+}
+
 FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample,
                                        double first) {
   return engine_->advance_period(points, sample, first);
@@ -355,18 +335,38 @@ FlowStatus ContactFlow::advance_period(int points, const std::function<void(cons
 FlowStatus ContactFlow::advance_to(double time) { return engine_->advance_to(time); }
 Eigen::VectorXd ContactFlow::off_center() const { return engine_->off_center(); }
 Eigen::MatrixXd ContactFlow::held() const { return engine_->held(); }
-Eigen::VectorXd ContactFlow::state() const { return engine_->state(); }
-const std::vector<int>& ContactFlow::contact_states() const { return engine_->contact_states(); }
-const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines(); }
-const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events(); }
-const std::vector<FrictionCycle>& ContactFlow::cycles() const { return engine_->cycles(); }
-int ContactFlow::rests() const { return engine_->rests(); }
-double ContactFlow::period() const { return engine_->period(); }
-double ContactFlow::tolerance() const { return engine_->tolerance(); }
-double ContactFlow::unresolved() const { return engine_->unresolved(); }
-double ContactFlow::length() const { return engine_->length(); }
-bool ContactFlow::rests_on_contacts() const { return engine_->rests_on_contacts(); }
-void ContactFlow::perturb(const Eigen::MatrixXd& columns) { engine_->perturb(columns); }
-Eigen::MatrixXd ContactFlow::perturbation() const { return engine_->perturbation(); }
+
+Eigen::VectorXd ContactFlow::state() const {
+  const detail::ContactStates& now = engine_->now_;
+  Eigen::VectorXd result(engine_->poles_.states() + Index(now.memory.size()));
+  result << engine_->poles_.real_of(engine_->states_),
+      Eigen::Map<const Eigen::VectorXd>(now.memory.data(), Index(now.memory.size()));
+  return result;
+}
+
+const std::vector<int>& ContactFlow::contact_states() const { return engine_->now_.state; }
+const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines_; }
+const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events_; }
+const std::vector<FrictionCycle>& ContactFlow::cycles() const { return engine_->cycles_; }
+int ContactFlow::rests() const { return engine_->rests_; }
+double ContactFlow::period() const { return engine_->poles_.period(); }
+double ContactFlow::tolerance() const { return engine_->options_.tolerance; }
+double ContactFlow::unresolved() const { return engine_->unresolved_; }
+double ContactFlow::length() const { return engine_->moving_; }
+bool ContactFlow::rests_on_contacts() const { return engine_->length_ > engine_->moving_; }
+
+void ContactFlow::perturb(const Eigen::MatrixXd& columns) {
+  engine_->variation_ = {};
+  if (columns.cols() == 0) return;
+  engine_->variation_ = detail::Variation(columns.topRows(engine_->poles_.states()),
+                                          columns.bottomRows(engine_->contacts_.memories()));
+}
+
+Eigen::MatrixXd ContactFlow::perturbation() const {
+  const detail::Variation& variation = engine_->variation_;
+  Eigen::MatrixXd result(engine_->poles_.states() + engine_->contacts_.memories(), variation.poles().cols());
+  if (!variation.empty()) result << variation.poles(), variation.memory();
+  return result;
+}
 
 }  // namespace wavebalance::solvers

@@ -12,8 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-bool is_pair(Complex exponent) { return exponent.imag() != 0.0; }
-
 // Zeros of moments that masses make, up to rounding.
 void clear_rounding(Eigen::MatrixXd& moment, const Eigen::MatrixXd& magnitude) {
   constexpr double rounding = 1e-11;
@@ -39,12 +37,17 @@ double fastest_turn(const Eigen::VectorXcd& exponents, const Eigen::MatrixXcd& o
 
 ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free,
                            double frequency)
-    : period_(1.0 / frequency), holding_(dynamics.holding()), constant_(dynamics.constant()) {
+    : RealStates(exponents_of(dynamics)),
+      period_(1.0 / frequency),
+      holding_(dynamics.holding()),
+      exponents_(exponents_of(dynamics)),
+      inputs_(inputs_of(dynamics)),
+      constant_(dynamics.constant()) {
   if (dynamics.structurally_damped())
     throw std::invalid_argument(
         "ContactPoles: the structure has structural damping, which has no equation in time; the damping must "
         "be viscous");
-  const Index count = Index(dynamics.poles().size()), rows = dynamics.contacts();
+  const Index rows = dynamics.contacts();
   constexpr Index few = 64;  // harmonics, which are summed at once for all contacts
   for (Index n = 0; n < contact_free.cols(); ++n)
     if (!contact_free.col(n).isZero(0.0)) harmonics_.push_back(n);
@@ -52,23 +55,14 @@ ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixX
   for (Index row = 0; row < (Index(harmonics_.size()) > few ? rows : 0); ++row)
     free_.emplace_back(contact_free.row(row).transpose(), 2.0 * std::numbers::pi * frequency);
   if (contact_free.size() > 0) free_scale_ = contact_free.rowwise().norm().maxCoeff();
-  exponents_.resize(count);
-  inputs_.resize(count, rows);
-  outputs_[0].resize(rows, count);
-  for (Index j = 0; j < count; ++j) {
-    const ContactPole& pole = dynamics.poles()[std::size_t(j)];
-    exponents_[j] = pole.exponent;
-    states_ += is_pair(pole.exponent) ? 2 : 1;
-    inputs_.row(j) = pole.left.transpose();
-    outputs_[0].col(j) = (is_pair(pole.exponent) ? 2.0 : 1.0) * pole.residue * pole.shape;
-  }
+  outputs_[0] = shapes_of(dynamics);
   for (std::size_t d = 1; d < levels; ++d) outputs_[d] = outputs_[d - 1] * exponents_.asDiagonal();
   for (std::size_t i = 0; i < levels; ++i) {
     moments_[i] = (outputs_[i] * inputs_).real();
     clear_rounding(moments_[i], outputs_[i].cwiseAbs() * inputs_.cwiseAbs());
   }
   for (std::size_t d = 0; d < levels; ++d) {
-    real_outputs_[d].resize(rows, states_);
+    real_outputs_[d].resize(rows, states());
     for (Index i = 0; i < rows; ++i) real_outputs_[d].row(i) = row_of(outputs_[d].row(i));
   }
   fastest_ = fastest_turn(exponents_, outputs_[0], inputs_);
@@ -112,50 +106,6 @@ std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::Vect
       const auto now = free_[std::size_t(row)].at(times[k] / period_);
       for (std::size_t d = 0; d < levels; ++d) result[d](row, k) = now[d];
     }
-  return result;
-}
-
-Eigen::MatrixXd ContactPoles::real_of(const Eigen::MatrixXcd& states) const {
-  Eigen::MatrixXd result(states_, states.cols());
-  Index i = 0;
-  for (Index j = 0; j < poles(); ++j) {
-    result.row(i++) = states.row(j).real();
-    if (is_pair(exponents_[j])) result.row(i++) = states.row(j).imag();
-  }
-  return result;
-}
-
-Eigen::RowVectorXd ContactPoles::row_of(const Eigen::RowVectorXcd& weights) const {
-  Eigen::RowVectorXd result(states_);
-  Index i = 0;
-  for (Index j = 0; j < poles(); ++j) {
-    result[i++] = weights[j].real();
-    if (is_pair(exponents_[j])) result[i++] = -weights[j].imag();
-  }
-  return result;
-}
-
-void ContactPoles::multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const {
-  Index i = 0;
-  for (Index j = 0; j < poles(); ++j) {
-    if (!is_pair(exponents_[j])) {
-      states.row(i++) *= factors[j].real();
-      continue;
-    }
-    const Eigen::RowVectorXd re = states.row(i), im = states.row(i + 1);
-    states.row(i) = factors[j].real() * re - factors[j].imag() * im;
-    states.row(i + 1) = factors[j].imag() * re + factors[j].real() * im;
-    i += 2;
-  }
-}
-
-Eigen::MatrixXcd ContactPoles::complex_of(const Eigen::MatrixXd& states) const {
-  Eigen::MatrixXcd result(poles(), states.cols());
-  Index i = 0;
-  for (Index j = 0; j < poles(); ++j) {
-    result.row(j) = states.row(i++).cast<Complex>();
-    if (is_pair(exponents_[j])) result.row(j) += Complex(0.0, 1.0) * states.row(i++).cast<Complex>();
-  }
   return result;
 }
 

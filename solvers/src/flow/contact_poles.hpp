@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "flow/harmonic_series.hpp"
-#include "linalg/index.hpp"
-#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "stability/pole_states.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -20,7 +19,7 @@ struct Signals : std::array<Eigen::MatrixXd, kinds> {
 /// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative of
 /// the displacements Re(c r^d y) - sum_k feed(d, k) f^(k) beside the motion without contact. The feeds are
 /// the moments H_i = Re(c r^i b) and the flexibility of contacts without mass. Times in s.
-class ContactPoles {
+class ContactPoles : public RealStates {
  public:
   /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
   /// in periods. Throws std::invalid_argument for structural damping.
@@ -28,7 +27,7 @@ class ContactPoles {
 
   Index rows() const { return inputs_.cols(); }
   Index poles() const { return exponents_.size(); }
-  Index states() const { return states_; }  ///< real: one of a real pole, two of a pair
+  Index states() const { return size(); }  ///< real: one of a real pole, two of a pair
   double period() const { return period_; }
   double holding() const {
     return holding_;
@@ -53,17 +52,8 @@ class ContactPoles {
     return free_scale_;
   }  ///< m, the largest rms of the motion without contact
 
-  /// The real row by which real states make Re(weights y).
-  Eigen::RowVectorXd row_of(const Eigen::RowVectorXcd& weights) const;
-  /// Multiplies real states, a column each, by a factor for each pole.
-  void multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const;
-  /// Complex states and real ones: the real part, and of pairs the imaginary part.
-  Eigen::MatrixXd real_of(const Eigen::MatrixXcd& states) const;
-  Eigen::MatrixXcd complex_of(const Eigen::MatrixXd& states) const;
-
  private:
   double period_, holding_, fastest_ = 0.0, free_scale_ = 0.0;
-  Index states_ = 0;
   Eigen::VectorXcd exponents_;
   void keep_harmonics(const Eigen::MatrixXcd& contact_free);
 

@@ -16,32 +16,16 @@ class ContactFlow::Engine {
   Engine(const PhasesProblem& problem, const FlowOptions& options);
 
   void start();
-  void start(const Eigen::VectorXcd& poles);
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
   FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample, double first);
   FlowStatus advance_to(double time);
-  Eigen::VectorXd state() const;
-  void perturb(const Eigen::MatrixXd& columns);
-  Eigen::MatrixXd perturbation() const;
-
-  const std::vector<ContactMachine>& machines() const { return machines_; }
-  const std::vector<int>& contact_states() const { return now_.state; }
-  const std::vector<FlowEvent>& events() const { return events_; }
-  const std::vector<FlowPanel>& panels() const { return panels_; }
-  Eigen::VectorXd displacements_by_state() const;
-  const std::vector<FrictionCycle>& cycles() const { return cycles_; }
-  int rests() const { return rests_; }
   Eigen::VectorXd off_center() const;
   Eigen::MatrixXd held() const;
-  double period() const { return poles_.period(); }
-  double tolerance() const { return options_.tolerance; }
-  double unresolved() const { return unresolved_; }
-  double length() const { return moving_; }
-  bool rests_on_contacts() const { return length_ > moving_; }
 
  private:
+  friend class ContactFlow;
   /// An exit of a contact's state.
   struct Guard {
     Index contact;

@@ -142,13 +142,7 @@ PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
 }  // namespace
 
 Eigen::VectorXcd states_by_pole(const ContactDynamics& dynamics, const Eigen::VectorXd& state) {
-  Eigen::VectorXcd states(Index(dynamics.poles().size()));
-  Index i = 0, j = 0;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const double real = state[i++], imaginary = pole.exponent.imag() != 0.0 ? state[i++] : 0.0;
-    states[j++] = {real, imaginary};
-  }
-  return states;
+  return RealStates(exponents_of(dynamics)).complex_of(state).col(0);
 }
 
 PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, const PeriodStart& start) {

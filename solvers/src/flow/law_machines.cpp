@@ -113,12 +113,12 @@ class PieceMachine final : public LawMachine {
   std::vector<std::vector<Way>> ways_;  // by state
 };
 
-/// A rigid obstacle at a contact with mass: it rebounds, or stays closed, by a vanishing acceleration, until
-/// its force does.
-class ImpactMachine final : public LawMachine {
+/// A rigid obstacle. At a contact with mass it rebounds, or stays closed, by a vanishing acceleration, until
+/// its force does; without mass, and a restitution, it is closed as it is reached.
+class RigidMachine final : public LawMachine {
  public:
-  /// rate, 1/s: at which rounding in a closed contact decays.
-  ImpactMachine(double gap, double restitution, double rate)
+  /// rate, 1/s: at which rounding in a closed contact with mass decays.
+  RigidMachine(double gap, std::optional<double> restitution, double rate)
       : gap_(gap), restitution_(restitution), rate_(rate) {}
   enum : int { open, closed };
 
@@ -130,11 +130,12 @@ class ImpactMachine final : public LawMachine {
   }
   std::vector<StateExit> exits(int state) const override {
     if (state == closed) return {{{open}}};
-    return {{{open, closed}, Impulse{0, restitution_}}};
+    if (!restitution_) return {{{closed}}};
+    return {{{open, closed}, Impulse{0, *restitution_}}};
   }
   void equations(int, const LocalSignals& now, std::span<Dual> out) const override {
-    out[0] =
-        now.acceleration[0] + 2.0 * rate_ * now.velocity[0] + rate_ * rate_ * (now.displacement[0] - gap_);
+    out[0] = now.displacement[0] - gap_;
+    if (restitution_) out[0] = now.acceleration[0] + 2.0 * rate_ * now.velocity[0] + rate_ * rate_ * out[0];
   }
   Dual guard(int state, int, const LocalSignals& now) const override {
     return state == open ? Dual(gap_) - now.displacement[0] : now.force[0];
@@ -144,37 +145,9 @@ class ImpactMachine final : public LawMachine {
     const bool leaves = after.velocity[0].value < 0.0;
     return leaves || after.acceleration[0].value <= 0.0 ? open : closed;
   }
-  int after_impulse(int, const LocalSignals&) const override { return open; }
-  int start(std::span<const double>, std::span<double>) const override { return open; }
-  int at(std::span<const double>, std::span<const double> force, std::span<double>) const override {
-    return force[0] > 0.0 ? closed : open;
-  }
-
- private:
-  double gap_, restitution_, rate_;
-};
-
-/// A rigid obstacle at a contact without mass.
-class ObstacleMachine final : public LawMachine {
- public:
-  explicit ObstacleMachine(double gap) : gap_(gap) {}
-  enum : int { open, closed };
-
-  ContactState kind(int state) const override {
-    return state == open ? ContactState::open : ContactState::closed;
-  }
-  std::vector<RowForce> forces(int state) const override {
-    return {state == open ? no_force() : free_force()};
-  }
-  std::vector<StateExit> exits(int state) const override { return {{{state == open ? closed : open}}}; }
-  void equations(int, const LocalSignals& now, std::span<Dual> out) const override {
-    out[0] = now.displacement[0] - gap_;
-  }
-  Dual guard(int state, int, const LocalSignals& now) const override {
-    return state == open ? Dual(gap_) - now.displacement[0] : now.force[0];
-  }
+  int after_impulse(int state, const LocalSignals&) const override { return restitution_ ? open : state; }
   int start(std::span<const double> displacement, std::span<double>) const override {
-    return displacement[0] < gap_ ? open : closed;
+    return restitution_ || displacement[0] < gap_ ? open : closed;
   }
   int at(std::span<const double>, std::span<const double> force, std::span<double>) const override {
     return force[0] > 0.0 ? closed : open;
@@ -182,6 +155,8 @@ class ObstacleMachine final : public LawMachine {
 
  private:
   double gap_;
+  std::optional<double> restitution_;
+  double rate_;
 };
 
 /// Friction of this contact as a machine, or why there is none.
@@ -210,9 +185,9 @@ std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const Con
     throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                 " has a law over a period without states");
   if (!law.is_rigid()) return std::make_shared<PieceMachine>(law, length);
-  if (inverse_mass_of(dynamics, row) == 0.0) return std::make_shared<ObstacleMachine>(law.gap());
-  if (const auto restitution = law.restitution())
-    return std::make_shared<ImpactMachine>(law.gap(), *restitution, rate);
+  const bool mass = inverse_mass_of(dynamics, row) > 0.0;
+  const auto restitution = mass ? law.restitution() : std::nullopt;
+  if (!mass || restitution) return std::make_shared<RigidMachine>(law.gap(), restitution, rate);
   throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                               " is rigid and has mass, so that its law must have a restitution");
 }

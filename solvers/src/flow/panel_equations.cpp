@@ -11,17 +11,6 @@ namespace {
 // Kinds that a law reads, in the order of its gradient: u, v, a, f.
 constexpr std::array<int, 4> read_kinds{0, 1, 2, force_kind};
 
-bool needs_acceleration(const std::vector<std::vector<Dual>>& equations, const Contacts& contacts,
-                        const FreeForces& free) {
-  for (std::size_t e = 0; e < equations.size(); ++e) {
-    const int rows = contacts.law(free.contact(e)).rows();
-    for (const Dual& value : equations[e])
-      for (int i = 0; i < rows; ++i)
-        if (value.slope[std::size_t(2 * rows + i)] != 0.0) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Contacts::Contacts(std::vector<ContactMachine> machines) : machines_(std::move(machines)), memory_begins_{0} {
@@ -146,16 +135,8 @@ double SlopeOfSignals::by(int kind, Index row) const {
   const Index i = row - contacts.row(contact);
   if (i < 0 || i >= rows) return 0.0;
   const auto slope = [&](int k) { return value.slope[std::size_t(k * rows + int(i))]; };
-  switch (kind) {
-    case 0:
-      return slope(0) + holding * slope(3);
-    case 1:
-      return slope(1);
-    case 2:
-      return slope(2);
-    default:
-      return slope(3);
-  }
+  const double own = slope(std::min(kind, 3));
+  return kind == 0 ? own + holding * slope(3) : own;
 }
 
 double SlopeOfSignals::by_memory(Index j) const {
@@ -180,7 +161,6 @@ namespace {
 Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& free, const PanelShape& shape,
                                     const std::vector<std::vector<Dual>>& equations, double holding) {
   const Index q = shape.nodes(), rows = free.constant.size();
-  const bool accelerations = needs_acceleration(equations, contacts, free);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(Index(equations.size()) * q, rows * q);
   for (std::size_t e = 0; e < equations.size(); ++e) {
     const Index c = free.contact(e);
@@ -188,7 +168,7 @@ Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& 
       const SlopeOfSignals slope{contacts, c, equations[e][std::size_t(n)], holding};
       auto target = result.row(Index(e) * q + n);
       for (Index r = contacts.row(c); r < contacts.row(c) + contacts.law(c).rows(); ++r) {
-        for (int d = 0; d < (accelerations ? 3 : 2); ++d)
+        for (int d = 0; d < 3; ++d)
           if (const double s = slope.by(d, r); s != 0.0) target += s * shape.influence(d).row(r * q + n);
         target[r * q + n] += slope.by(force_kind, r);
       }

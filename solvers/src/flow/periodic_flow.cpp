@@ -9,7 +9,7 @@
 #include "flow/flow_phases.hpp"
 #include "linalg/index.hpp"
 #include "period/past_periods.hpp"
-#include "phases/phase_loads.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -110,10 +110,7 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
 FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
                                const ContactLaws& laws, const TimeSteppingOptions& options,
                                const FlowOptions& flow) {
-  detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
-  return integrate_by_events(
-      PhasesProblem{dynamics, laws, free.at(problem.frequency(), problem.load_factor()), problem.frequency()},
-      options, flow);
+  return integrate_by_events(phases_problem(problem, laws, dynamics), options, flow);
 }
 
 }  // namespace wavebalance::solvers

@@ -14,9 +14,8 @@ namespace {
 // The deflection of the poles by constant forces against the contacts that moves these by -`shift`.
 Eigen::VectorXcd pressed(const ImpactModel& model, const Eigen::VectorXd& shift) {
   const Eigen::VectorXcd inverse = model.exponents().cwiseInverse();
-  const Index contacts = model.contacts();
-  const Eigen::MatrixXcd deflections = inverse.asDiagonal() * model.left().transpose();
-  const Eigen::MatrixXd compliance = -(model.outputs().topRows(contacts) * deflections).real();
+  const Eigen::MatrixXcd deflections = inverse.asDiagonal() * model.inputs();
+  const Eigen::MatrixXd compliance = -(model.outputs(0) * deflections).real();
   return deflections * least_squares(compliance, shift).cast<std::complex<double>>();
 }
 
@@ -55,7 +54,7 @@ bool ImpactFlow::rebound(int contact) {
   const double restitution = model_.restitution()[contact];
   const double before = model_.motion(state_, time_).velocity[contact];
   const double impulse = (1.0 + restitution) * before / model_.inverse_mass()(contact, contact);
-  state_ -= impulse * model_.left().row(contact).transpose();
+  state_ -= impulse * model_.inputs().col(contact);
   events_.push_back({contact, time_, impulse});
   fastest_ = std::max(fastest_, before);
   const double pressing = model_.motion(state_, time_).acceleration[contact];

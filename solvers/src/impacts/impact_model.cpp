@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "flow/law_machines.hpp"
 #include "linalg/index.hpp"
 #include "linalg/one_less_exp.hpp"
 #include "linalg/option_checks.hpp"
@@ -18,38 +19,12 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// The velocities (derivative 1) or displacements (0) of the contacts at once by unit impulses.
-Eigen::MatrixXd at_once(const ContactDynamics& dynamics, int derivative) {
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dynamics.contacts(), dynamics.contacts());
-  for (const ContactPole& pole : dynamics.poles()) {
-    const double weight = pole.exponent.imag() == 0.0 ? 1.0 : 2.0;
-    const std::complex<double> rate = derivative == 0 ? 1.0 : pole.exponent;
-    sum += weight * (rate * pole.residue * pole.shape * pole.left.transpose()).real();
-  }
-  return sum;
-}
-
 // The sum of the moduli of a derivative's harmonics.
 double magnitude_of(const PhasesProblem& problem, int c, int derivative) {
   double sum = 0.0;
   for (Index n = 0; n < problem.contact_free.cols(); ++n)
     sum += std::pow(turn * double(n) * problem.frequency, derivative) * std::abs(problem.contact_free(c, n));
   return sum;
-}
-
-// A contact without mass is displaced at once.
-void require_mass(const ContactDynamics& dynamics) {
-  constexpr double rounding = 1e-9;
-  const Eigen::MatrixXd displaced = at_once(dynamics, 0), moved = at_once(dynamics, 1);
-  double fastest = 0.0;
-  for (const ContactPole& pole : dynamics.poles()) fastest = std::max(fastest, std::abs(pole.exponent));
-  for (Index c = 0; c < moved.rows(); ++c) {
-    const bool mass = dynamics.constant()(c, c) == 0.0 && moved(c, c) > 0.0 &&
-                      std::abs(displaced(c, c)) * fastest <= rounding * moved(c, c) * double(moved.rows());
-    if (!mass)
-      throw std::invalid_argument("impact_motion: contact " + std::to_string(c) +
-                                  " has no mass, so that an impact there has no impulse; it must have mass");
-  }
 }
 
 }  // namespace
@@ -66,33 +41,17 @@ FreeScales free_scales(const PhasesProblem& problem) {
   return scales;
 }
 
-ImpactModel::Poles::Poles(const ContactDynamics& dynamics) {
-  const auto count = Index(dynamics.poles().size());
-  const Index contacts = dynamics.contacts();
-  exponents.resize(count);
-  shapes.resize(contacts, count);
-  left.resize(contacts, count);
-  for (Index l = 0; l < count; ++l) {
-    const ContactPole& pole = dynamics.poles()[static_cast<std::size_t>(l)];
-    exponents[l] = pole.exponent;
-    shapes.col(l) = (pole.exponent.imag() == 0.0 ? 1.0 : 2.0) * pole.residue * pole.shape;
-    left.col(l) = pole.left;
-  }
-  outputs.resize(3 * contacts, count);
-  outputs.topRows(contacts) = shapes;
-  outputs.middleRows(contacts, contacts) = shapes * exponents.asDiagonal();
-  outputs.bottomRows(contacts) = outputs.middleRows(contacts, contacts) * exponents.asDiagonal();
-  third_moduli = (outputs.bottomRows(contacts) * exponents.asDiagonal()).cwiseAbs();
-  inverse_mass = at_once(dynamics, 1);
-}
-
 ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
     : problem_(problem),
       gaps_(problem.laws.gaps(problem.dynamics.contacts())),
       restitution_(problem.laws.restitution(problem.dynamics.contacts())),
       period_(1.0 / problem.frequency),
       scales_(free_scales(problem)),
-      poles_(like != nullptr ? like->poles_ : std::make_shared<const Poles>(problem.dynamics)) {
+      poles_(like != nullptr ? like->poles_
+                             : std::make_shared<const ContactPoles>(problem.dynamics, Eigen::MatrixXcd(),
+                                                                    problem.frequency)),
+      third_moduli_(like != nullptr ? like->third_moduli_
+                                    : std::make_shared<const Eigen::MatrixXd>(outputs(3).cwiseAbs())) {
   difference_.resize(poles());
   last_.resize(poles());
   for (Index l = 0; l < poles(); ++l) {
@@ -139,8 +98,7 @@ Complex ImpactModel::periodic(Index pole, double share) const {
 GreenValues ImpactModel::green(int c, int d, double share) const {
   GreenValues sum;
   for (Index l = 0; l < poles(); ++l) {
-    const Complex value = poles_->shapes(c, l) * poles_->left(d, l) * periodic(l, share),
-                  exponent = exponents()[l];
+    const Complex value = outputs(0)(c, l) * inputs()(l, d) * periodic(l, share), exponent = exponents()[l];
     const Complex rate = exponent * value;
     // The logarithmic derivative of exp(lambda share T) / (1 - exp(lambda T)) by T, over lambda.
     const Complex by_period = share + last_[l];
@@ -157,7 +115,7 @@ GreenValues ImpactModel::green(int c, int d, double share) const {
 
 Eigen::VectorXcd ImpactModel::state_after(int c, double share) const {
   Eigen::VectorXcd state(poles());
-  for (Index l = 0; l < poles(); ++l) state[l] = -left()(c, l) * periodic(l, share);
+  for (Index l = 0; l < poles(); ++l) state[l] = -inputs()(l, c) * periodic(l, share);
   return state;
 }
 
@@ -167,11 +125,9 @@ Eigen::VectorXcd ImpactModel::growth(double seconds) const {
 
 ContactsAt ImpactModel::motion(const Eigen::VectorXcd& state, double time) const {
   ContactsAt result = free_motion(time);
-  const Index contacts = this->contacts();
-  const Eigen::VectorXd own = (outputs() * state).real();
-  result.displacement += own.head(contacts);
-  result.velocity += own.segment(contacts, contacts);
-  result.acceleration += own.tail(contacts);
+  result.displacement += (outputs(0) * state).real();
+  result.velocity += (outputs(1) * state).real();
+  result.acceleration += (outputs(2) * state).real();
   return result;
 }
 
@@ -197,13 +153,19 @@ void require_impacts(const PhasesProblem& problem) {
     throw std::invalid_argument(
         "impact_motion: the structure is free to move, so that impacts have no periodic Green function; it "
         "must be held");
-  require_mass(dynamics);
+  for (int c = 0; c < contacts; ++c)
+    if (inverse_mass_of(dynamics, c) == 0.0)
+      throw std::invalid_argument("impact_motion: contact " + std::to_string(c) +
+                                  " has no mass, so that an impact there has no impulse; it must have mass");
 }
 
 }  // namespace wavebalance::solvers::detail
 
 namespace wavebalance::solvers {
 
-Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics) { return detail::at_once(dynamics, 1); }
+Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics) {
+  const Eigen::MatrixXcd rates = detail::shapes_of(dynamics) * detail::exponents_of(dynamics).asDiagonal();
+  return (rates * detail::inputs_of(dynamics)).real();
+}
 
 }  // namespace wavebalance::solvers

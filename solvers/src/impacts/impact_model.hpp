@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "flow/harmonic_series.hpp"
+#include "flow/contact_poles.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -40,19 +40,19 @@ class ImpactModel {
   const Eigen::VectorXd& gaps() const { return gaps_; }                ///< C, m
   const Eigen::VectorXd& restitution() const { return restitution_; }  ///< C
   double period() const { return period_; }                            ///< s
-  int contacts() const { return static_cast<int>(poles_->shapes.rows()); }
-  Eigen::Index poles() const { return poles_->exponents.size(); }
-  const Eigen::VectorXcd& exponents() const { return poles_->exponents; }  ///< 1/s, one for each pair
-  const Eigen::MatrixXcd& left() const { return poles_->left; }            ///< C x poles
-  /// 3 C x poles: of displacements, velocities and accelerations of the contacts by the states.
-  const Eigen::MatrixXcd& outputs() const { return poles_->outputs; }
-  /// C x poles: moduli of the third derivatives of the displacements by the states.
-  const Eigen::MatrixXd& third_moduli() const { return poles_->third_moduli; }
+  int contacts() const { return static_cast<int>(poles_->rows()); }
+  Eigen::Index poles() const { return poles_->poles(); }
+  const Eigen::VectorXcd& exponents() const { return poles_->exponents(); }  ///< 1/s, one for each pair
+  const Eigen::MatrixXcd& inputs() const { return poles_->inputs(); }        ///< poles x C
+  /// C x poles: of a derivative 0 to 3 of the displacements of the contacts by the states.
+  const Eigen::MatrixXcd& outputs(int derivative) const { return poles_->outputs(derivative); }
+  /// C x poles: moduli of the third ones.
+  const Eigen::MatrixXd& third_moduli() const { return *third_moduli_; }
   /// C, m/s^3: a bound on the third derivative of the motion without contact.
   const Eigen::VectorXd& free_third() const { return free_third_; }
-  const Eigen::MatrixXd& inverse_mass() const { return poles_->inverse_mass; }  ///< C x C, 1/kg
-  double displacement_scale() const { return scales_.displacement; }            ///< m, of motion and gaps
-  double velocity_scale() const { return scales_.velocity; }                    ///< m/s
+  const Eigen::MatrixXd& inverse_mass() const { return poles_->inverse_mass(); }  ///< C x C, 1/kg
+  double displacement_scale() const { return scales_.displacement; }              ///< m, of motion and gaps
+  double velocity_scale() const { return scales_.velocity; }                      ///< m/s
 
   /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
   ContactsAt free_motion(double time) const;
@@ -72,13 +72,6 @@ class ImpactModel {
   ContactsAt motion(const Eigen::VectorXcd& state, double time) const;
 
  private:
-  /// By the dynamics alone.
-  struct Poles {
-    explicit Poles(const ContactDynamics& dynamics);
-    Eigen::VectorXcd exponents;
-    Eigen::MatrixXcd shapes, left, outputs;
-    Eigen::MatrixXd third_moduli, inverse_mass;
-  };
   std::complex<double> periodic(Eigen::Index pole, double share) const;
 
   PhasesProblem problem_;
@@ -86,7 +79,8 @@ class ImpactModel {
   double period_;
   std::vector<HarmonicSeries> free_;  // of each contact
   FreeScales scales_;
-  std::shared_ptr<const Poles> poles_;
+  std::shared_ptr<const ContactPoles> poles_;  // without the motion without contact
+  std::shared_ptr<const Eigen::MatrixXd> third_moduli_;
   Eigen::VectorXcd difference_;  // 1 - exp(lambda T), or exp(-lambda T) - 1 for growing ones
   Eigen::VectorXcd last_;        // periodic() at the end of the period
   Eigen::VectorXd free_third_;

@@ -13,7 +13,7 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 Eigen::VectorXd velocity_weights(const ImpactModel& model) {
-  return model.outputs().middleRows(model.contacts(), model.contacts()).cwiseAbs().colwise().maxCoeff();
+  return model.outputs(1).cwiseAbs().colwise().maxCoeff();
 }
 
 }  // namespace

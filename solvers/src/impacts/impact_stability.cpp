@@ -1,6 +1,7 @@
 #include <vector>
 
 #include "impacts/impact_parts.hpp"
+#include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
 #include "stability/pole_states.hpp"
@@ -27,18 +28,6 @@ ImpactSlopes slopes_of(const detail::ImpactSolution& motion, std::size_t i) {
   return {gain, -gain * acceleration / impact.velocity_before, impact.impulse / impact.velocity_before};
 }
 
-// A b, n x C: the rates of the states after unit impulses.
-Eigen::MatrixXd rates_after_impulse(const ContactDynamics& dynamics, Index size) {
-  Eigen::MatrixXd rates(size, dynamics.contacts());
-  Index row = 0;
-  for (const ContactPole& pole : dynamics.poles()) {
-    const Eigen::RowVectorXcd rate = pole.exponent * pole.left.transpose();
-    rates.row(row++) = rate.real();
-    if (pole.exponent.imag() != 0.0) rates.row(row++) = rate.imag();
-  }
-  return rates;
-}
-
 // The impact that the longest flight follows, and how long that is, in periods.
 struct LongestFlight {
   std::size_t end = 0;
@@ -57,10 +46,9 @@ LongestFlight longest_flight(const detail::ImpactSolution& motion) {
 
 // Of the states that are left, from right before the impact at the end of the longest flight on.
 Eigen::MatrixXd monodromy_of(const detail::ImpactSolution& motion) {
-  const ContactDynamics& dynamics = motion.model->problem().dynamics;
-  const PoleStates poles(dynamics, motion.model->period());
+  const PoleStates poles(motion.model->problem().dynamics, motion.model->period());
   const Eigen::MatrixXd impulse = poles.after_impulse(0.0),
-                        rate = rates_after_impulse(dynamics, poles.size());
+                        rate = detail::product(poles.generator(), impulse);  // of the states after it
   const Eigen::MatrixXd displacement = poles.free_motion(0.0), velocity = poles.free_velocity(0.0);
   const LongestFlight longest = longest_flight(motion);
   const std::vector<Index> left = poles.left_after(longest.length);

@@ -40,8 +40,8 @@ PhaseSolution::PhaseSolution(const PhaseModel& model, PhaseNewtonResult solved, 
     : newton(std::move(solved)) {
   const PanelForces& forces = newton.iterate.forces;
   const auto period = std::exchange(newton.known, {}).period;
-  motion = period ? model.response.motion(*period, forces.coefficients(), times)
-                  : model.response.motion(forces.grid(), forces.coefficients(), nodes, times);
+  motion = model.response.motion(period ? *period : *model.response.cells(forces.grid(), nodes),
+                                 forces.coefficients(), times);
   motion.displacement = free.displacement - motion.displacement;
   motion.velocity = free.velocity - motion.velocity;
   const bool rigid =

@@ -75,11 +75,6 @@ ContactMotion PhaseModel::free_motion(const Eigen::VectorXd& times) const {
   return result;
 }
 
-ContactMotion PhaseModel::motion(const PanelForces& forces, const LegendreNodes& nodes,
-                                 const Eigen::VectorXd& times) const {
-  return motion(forces, *response.cells(forces.grid(), nodes), times);
-}
-
 ContactMotion PhaseModel::motion(const PanelForces& forces, const PeriodCells& period,
                                  const Eigen::VectorXd& times) const {
   ContactMotion result = free_motion(times);

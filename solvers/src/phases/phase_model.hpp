@@ -29,9 +29,7 @@ struct PhaseModel {
   Eigen::VectorXd free_velocity(const std::vector<Instant>& instants) const;
   /// Displacement (m) and velocity (m per period) of all contacts at K times, C x K.
   ContactMotion free_motion(const Eigen::VectorXd& times) const;
-  ContactMotion motion(const PanelForces& forces, const LegendreNodes& nodes,
-                       const Eigen::VectorXd& times) const;
-  /// The same with the cells of the forces.
+  /// The same by forces with these cells.
   ContactMotion motion(const PanelForces& forces, const PeriodCells& period,
                        const Eigen::VectorXd& times) const;
 };

@@ -10,64 +10,10 @@
 #include "linalg/index.hpp"
 #include "phases/phase_evaluation.hpp"
 #include "phases/pole_response_parts.hpp"
+#include "stability/pole_states.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
-
-using PoleRate = std::complex<double>;
-
-// The real states of poles: one of each real pole, the real and imaginary part of each pair.
-class StatesOfPoles {
- public:
-  explicit StatesOfPoles(const Eigen::VectorXcd& exponents) {
-    for (const PoleRate exponent : exponents) {
-      begins_.push_back(size_);
-      pairs_.push_back(exponent.imag() > 0.0);
-      size_ += pairs_.back() ? 2 : 1;
-    }
-  }
-
-  Index size() const { return size_; }
-
-  // The complex states of poles by the real ones: a state of 1 in each column.
-  Eigen::MatrixXcd units(Index poles) const {
-    Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(poles, size_);
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      result(Index(r), begins_[r]) = 1.0;
-      if (pairs_[r]) result(Index(r), begins_[r] + 1) = PoleRate(0.0, 1.0);
-    }
-    return result;
-  }
-
-  Eigen::MatrixXd rows(const Eigen::MatrixXcd& states) const {
-    Eigen::MatrixXd result(size_, states.cols());
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      result.row(begins_[r]) = states.row(Index(r)).real();
-      if (pairs_[r]) result.row(begins_[r] + 1) = states.row(Index(r)).imag();
-    }
-    return result;
-  }
-
-  // What multiplies each complex state by its factor.
-  Eigen::MatrixXd diagonal(const Eigen::VectorXcd& factors) const {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size_, size_);
-    for (std::size_t r = 0; r < begins_.size(); ++r) {
-      const Index i = begins_[r];
-      const PoleRate factor = factors[Index(r)];
-      result(i, i) = factor.real();
-      if (!pairs_[r]) continue;
-      result(i + 1, i + 1) = factor.real();
-      result(i + 1, i) = factor.imag();
-      result(i, i + 1) = -factor.imag();
-    }
-    return result;
-  }
-
- private:
-  std::vector<Index> begins_;
-  std::vector<bool> pairs_;
-  Index size_ = 0;
-};
 
 // Cells that follow each other, with their panels and marks by their numbers in the grid of the period, and
 // as a grid of its own, whose last cell is the rest of the period.
@@ -262,14 +208,13 @@ Index lasting_poles(const Eigen::VectorXcd& exponents, double flight) {
 }
 
 // The map by what each window does, in order of time.
-PeriodMap map_by(const std::vector<Passed>& windows, const StatesOfPoles& lasting, Index poles,
-                 Index unknowns) {
+PeriodMap map_by(const std::vector<Passed>& windows, const RealStates& lasting, Index poles, Index unknowns) {
   PeriodMap map{{}, Eigen::MatrixXd(lasting.size(), unknowns), Eigen::MatrixXd(unknowns, lasting.size())};
   Eigen::VectorXcd decay = Eigen::VectorXcd::Ones(poles);
   for (auto window = windows.rbegin(); window != windows.rend(); ++window) {
     if (!window->unknowns.empty()) {
       map.by_unknowns(Eigen::all, window->unknowns) =
-          lasting.rows(decay.asDiagonal() * window->states_by.topRows(poles));
+          lasting.real_of(decay.asDiagonal() * window->states_by.topRows(poles));
       map.unknowns_by(window->unknowns, Eigen::all) = window->by_start;
     }
     decay.array() *= window->decay.head(poles).array();
@@ -291,8 +236,10 @@ std::optional<PeriodMap> period_map(const PhaseModel& model, const PhaseIterate&
   if (!first) return std::nullopt;
   const Eigen::VectorXcd& exponents = model.response.exponents();
   const Index left = lasting_poles(exponents, first->second);
-  const StatesOfPoles lasting(exponents.head(left));
-  Passing passing(model, nodes, now, impulses, lasting.units(exponents.size()));
+  const RealStates lasting(exponents.head(left));
+  Eigen::MatrixXcd start = Eigen::MatrixXcd::Zero(exponents.size(), lasting.size());
+  start.topRows(left) = lasting.complex_of(Eigen::MatrixXd::Identity(lasting.size(), lasting.size()));
+  Passing passing(model, nodes, now, impulses, std::move(start));
   std::vector<Passed> all;
   for (const Window& window : windows_of(now.grid, divides, first->first)) {
     auto passed = passing.pass(window);

@@ -118,11 +118,13 @@ ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eig
 
 // The same within a cell with forces, of which these are the Legendre coefficients, at points in [-1, 1].
 // What the slow poles make is a polynomial. Velocities only where they are asked for.
-ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell,
+ContactMotion PoleResponse::forced_flight(const PeriodCells& period, std::size_t number,
                                           const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
                                           const Eigen::VectorXd& points, bool velocity,
                                           const WavesAtNodes* known) const {
   constexpr Index few_pairs = 16;
+  const CellGrid& grid = period.grid;
+  const Cell& cell = period.cells[number];
   const Index count = coefficients.rows();
   Eigen::MatrixXd forces(count, Index(cell.parts.size()));
   for (std::size_t i = 0; i < cell.parts.size(); ++i)
@@ -130,12 +132,10 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
   if (Index(cell.parts.size()) * contacts() > few_pairs)
     return by_poles(grid, cell, state, forces, points, velocity);
   const Index degree = cell.waves->series_length() + count;
-  const Eigen::MatrixXd own_values = known ? Eigen::MatrixXd() : legendre_values(points, degree);
-  const Eigen::Ref<const Eigen::MatrixXd> values =
-      known ? known->polynomials().leftCols(degree) : own_values.leftCols(degree);
+  std::optional<WavesAtNodes> own;
+  const WavesAtNodes& waves = known ? *known : own.emplace(*cell.waves, period.nodes, points);
   const std::vector<Index>& far = cell.waves->far();
   const FarPoles::Series far_series = far_motion(grid, cell, forces);
-  const FarPoles::Decay own_decay = known ? FarPoles::Decay() : cell.waves->far_poles().decay(points);
   const Eigen::VectorXcd far_states = state(far) - far_series.at_begin;
   ContactMotion result{Eigen::MatrixXd::Zero(contacts(), points.size()),
                        Eigen::MatrixXd::Zero(velocity ? contacts() : 0, points.size())};
@@ -155,9 +155,9 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
       const Eigen::VectorXcd seen = shape(far), left = seen.cwiseProduct(far_states);
       series.head(count) +=
           far_series.real.transpose() * seen.real() - far_series.imag.transpose() * seen.imag();
-      motion.row(c) += (known ? known->far_decay() : own_decay).times(left).transpose();
+      motion.row(c) += waves.far_decay().times(left).transpose();
     }
-    motion.row(c) += (values * series).transpose();
+    motion.row(c) += (waves.polynomials().leftCols(degree) * series).transpose();
   };
   const Eigen::VectorXcd ones = Eigen::VectorXcd::Ones(exponents_.size());
   for (int c = 0; c < contacts(); ++c) {
@@ -165,22 +165,10 @@ ContactMotion PoleResponse::forced_flight(const CellGrid& grid, const Cell& cell
     if (velocity) add(result.velocity, c, exponents_, jump_);
   }
   const std::vector<Index>& fast = cell.waves->fast();
-  if (known) {
-    add_poles(
-        grid, cell, fast, forces,
-        [&](std::size_t i, const Eigen::VectorXcd& force) -> Eigen::VectorXcd {
-          return known->states(i, state[fast[i]], force);
-        },
-        result);
-  } else {
-    StatesAtPoints states(points, forces.rows());
-    add_poles(
-        grid, cell, fast, forces,
-        [&](std::size_t i, const Eigen::VectorXcd& force) {
-          return states(0.5 * cell.length * exponents_[fast[i]], state[fast[i]], force);
-        },
-        result);
-  }
+  add_poles(
+      grid, cell, fast, forces,
+      [&](std::size_t i, const Eigen::VectorXcd& force) { return waves.states(i, state[fast[i]], force); },
+      result);
   return result;
 }
 
@@ -237,11 +225,6 @@ void PoleResponse::add_poles(const CellGrid& grid, const Cell& cell, const std::
   }
 }
 
-ContactMotion PoleResponse::motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients,
-                                   const LegendreNodes& nodes, const Eigen::VectorXd& times) const {
-  return motion(*cells(grid, nodes), coefficients, times);
-}
-
 ContactMotion PoleResponse::motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
                                    const Eigen::VectorXd& times) const {
   const auto& [grid, nodes, cells, waves] = period;
@@ -263,7 +246,7 @@ ContactMotion PoleResponse::motion(const PeriodCells& period, const Eigen::Matri
     const auto own = Eigen::VectorXd::Map(since[j].data(), Index(since[j].size()));
     const ContactMotion part =
         cells[j].parts.empty() ? free_flight(states.col(Index(j)), own)
-                               : forced_flight(grid, cells[j], states.col(Index(j)), coefficients,
+                               : forced_flight(period, j, states.col(Index(j)), coefficients,
                                                ((2.0 / cells[j].length) * own.array() - 1.0).min(1.0), true);
     result.displacement(Eigen::all, numbers[j]) = part.displacement;
     result.velocity(Eigen::all, numbers[j]) = part.velocity;
@@ -280,7 +263,7 @@ ForcedMotion PoleResponse::forced_motion(const PeriodCells& period, const Eigen:
   for (std::size_t j = 0; j < cells.size(); ++j) {
     if (cells[j].parts.empty()) continue;
     const ContactMotion flight =
-        forced_flight(grid, cells[j], states.col(Index(j)), coefficients,
+        forced_flight(period, j, states.col(Index(j)), coefficients,
                       cells[j].points ? *cells[j].points : nodes.points, velocity, &*waves[j]);
     for (const Part& part : cells[j].parts) {
       if (part.count == 0) continue;

@@ -7,6 +7,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/one_less_exp.hpp"
 #include "phases/pole_response_parts.hpp"
+#include "stability/pole_states.hpp"
 
 namespace wavebalance::solvers::detail {
 double CellGrid::length(int cell) const {
@@ -16,23 +17,14 @@ double CellGrid::length(int cell) const {
 
 PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period)
     : order_(dynamics.poles().size()), period_(period), constant_(dynamics.constant()) {
-  const Index contacts = constant_.rows();
   const std::vector<ContactPole>& poles = dynamics.poles();
   std::iota(order_.begin(), order_.end(), Index{0});
   std::stable_sort(order_.begin(), order_.end(), [&](Index a, Index b) {
     return poles[std::size_t(a)].exponent.real() > poles[std::size_t(b)].exponent.real();
   });
-  const auto count = Index(poles.size());
-  exponents_.resize(count);
-  shapes_.resize(contacts, count);
-  left_.resize(contacts, count);
-  for (Index r = 0; r < count; ++r) {
-    const ContactPole& pole = poles[std::size_t(order_[std::size_t(r)])];
-    const double weight = pole.exponent.imag() > 0.0 ? 2.0 : 1.0;
-    exponents_[r] = period * pole.exponent;
-    shapes_.col(r) = weight * period * pole.residue * pole.shape;
-    left_.col(r) = pole.left;
-  }
+  exponents_ = period * exponents_of(dynamics)(order_);
+  shapes_ = period * shapes_of(dynamics)(Eigen::all, order_);
+  left_ = inputs_of(dynamics)(order_, Eigen::all).transpose();
   periodic_ = exponents_.unaryExpr(&one_less_exp).cwiseInverse();
   jump_ = (shapes_ * left_.transpose()).real();
   constexpr double rounding = 1e-9;
@@ -318,10 +310,6 @@ Influence PoleResponse::influence(const PeriodCells& period, bool velocity) cons
   }
   add_within_cells(period, velocity, all);
   return split(all, n, m, velocity);
-}
-
-Influence PoleResponse::influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const {
-  return influence(*cells(grid, nodes), velocity);
 }
 
 Influence PoleResponse::split(const Eigen::MatrixXd& all, Index n, Index m, bool velocity) {

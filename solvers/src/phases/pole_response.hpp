@@ -111,7 +111,6 @@ class PoleResponse {
   std::shared_ptr<const PeriodCells> cells(const CellGrid& grid, const LegendreNodes& nodes) const;
   /// Node j of panel p has number p q + j. O((n + m)^2 poles).
   Influence influence(const PeriodCells& period, bool velocity) const;
-  Influence influence(const CellGrid& grid, const LegendreNodes& nodes, bool velocity) const;
   /// By forces with these Legendre coefficients, q x panels, N. O(n poles (q + C)).
   ForcedMotion forced_motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
                              bool velocity) const;
@@ -131,8 +130,6 @@ class PoleResponse {
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
   /// (poles + C q)).
   ContactMotion motion(const PeriodCells& period, const Eigen::MatrixXd& coefficients,
-                       const Eigen::VectorXd& times) const;
-  ContactMotion motion(const CellGrid& grid, const Eigen::MatrixXd& coefficients, const LegendreNodes& nodes,
                        const Eigen::VectorXd& times) const;
 
  private:
@@ -158,8 +155,8 @@ class PoleResponse {
                     const Eigen::MatrixXcd& states, ForcedMotion& result) const;
   ContactMotion free_flight(const Eigen::VectorXcd& state, const Eigen::VectorXd& since) const;
   FarPoles::Series far_motion(const CellGrid& grid, const Cell& cell, const Eigen::MatrixXd& forces) const;
-  // `known`: the waves at these points.
-  ContactMotion forced_flight(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
+  // `known`: the waves of the cell with this number at these points.
+  ContactMotion forced_flight(const PeriodCells& period, std::size_t number, const Eigen::VectorXcd& state,
                               const Eigen::MatrixXd& coefficients, const Eigen::VectorXd& points,
                               bool velocity, const WavesAtNodes* known = nullptr) const;
   ContactMotion by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,

@@ -2,101 +2,143 @@
 
 #include <cmath>
 #include <complex>
-#include <numeric>
 
 namespace wavebalance::solvers {
 
 using Complex = std::complex<double>;
 
-PoleStates::PoleStates(const ContactDynamics& dynamics, double period)
-    : dynamics_(dynamics), period_(period) {
-  for (const ContactPole& pole : dynamics.poles()) {
+namespace detail {
+
+Eigen::VectorXcd exponents_of(const ContactDynamics& dynamics) {
+  Eigen::VectorXcd result(Index(dynamics.poles().size()));
+  for (Index l = 0; l < result.size(); ++l) result[l] = dynamics.poles()[std::size_t(l)].exponent;
+  return result;
+}
+
+Eigen::MatrixXcd shapes_of(const ContactDynamics& dynamics) {
+  Eigen::MatrixXcd result(dynamics.contacts(), Index(dynamics.poles().size()));
+  for (Index l = 0; l < result.cols(); ++l) {
+    const ContactPole& pole = dynamics.poles()[std::size_t(l)];
+    result.col(l) = (pole.exponent.imag() == 0.0 ? 1.0 : 2.0) * pole.residue * pole.shape;
+  }
+  return result;
+}
+
+Eigen::MatrixXcd inputs_of(const ContactDynamics& dynamics) {
+  Eigen::MatrixXcd result(Index(dynamics.poles().size()), dynamics.contacts());
+  for (Index l = 0; l < result.rows(); ++l) result.row(l) = dynamics.poles()[std::size_t(l)].left.transpose();
+  return result;
+}
+
+RealStates::RealStates(const Eigen::VectorXcd& exponents) {
+  for (const Complex exponent : exponents) {
     begins_.push_back(size_);
-    size_ += pole.exponent.imag() == 0.0 ? 1 : 2;
+    pairs_.push_back(exponent.imag() != 0.0);
+    size_ += pairs_.back() ? 2 : 1;
   }
 }
 
-std::vector<Eigen::Index> PoleStates::left_after(double time) const {
-  constexpr double vanished = 1e-20;
-  std::vector<Eigen::Index> left;
+Eigen::MatrixXd RealStates::real_of(const Eigen::MatrixXcd& states) const {
+  Eigen::MatrixXd result(size_, states.cols());
   for (std::size_t l = 0; l < begins_.size(); ++l) {
-    const Complex exponent = dynamics_.poles()[l].exponent;
-    if (std::exp(exponent.real() * time * period_) < vanished) continue;
-    left.push_back(begins_[l]);
-    if (exponent.imag() != 0.0) left.push_back(begins_[l] + 1);
+    result.row(begins_[l]) = states.row(Index(l)).real();
+    if (pairs_[l]) result.row(begins_[l] + 1) = states.row(Index(l)).imag();
   }
-  return left;
+  return result;
 }
 
-Eigen::MatrixXd PoleStates::motion_of_contacts(double time, int derivative) const {
-  Eigen::MatrixXd motion(dynamics_.contacts(), size_);
+Eigen::MatrixXcd RealStates::complex_of(const Eigen::MatrixXd& states) const {
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(Index(begins_.size()), states.cols());
   for (std::size_t l = 0; l < begins_.size(); ++l) {
-    const ContactPole& pole = dynamics_.poles()[l];
-    const Complex rate = derivative == 0 ? 1.0 : pole.exponent;
-    const Eigen::VectorXcd shape =
-        rate * pole.residue * std::exp(pole.exponent * time * period_) * pole.shape;
-    if (pole.exponent.imag() == 0.0) {
-      motion.col(begins_[l]) = shape.real();
-    } else {
-      motion.col(begins_[l]) = 2.0 * shape.real();
-      motion.col(begins_[l] + 1) = -2.0 * shape.imag();
-    }
+    result.row(Index(l)).real() = states.row(begins_[l]);
+    if (pairs_[l]) result.row(Index(l)).imag() = states.row(begins_[l] + 1);
   }
-  return motion;
+  return result;
 }
 
-Eigen::MatrixXd PoleStates::generator() const {
+Eigen::RowVectorXd RealStates::row_of(const Eigen::RowVectorXcd& weights) const {
+  Eigen::RowVectorXd result(size_);
+  for (std::size_t l = 0; l < begins_.size(); ++l) {
+    result[begins_[l]] = weights[Index(l)].real();
+    if (pairs_[l]) result[begins_[l] + 1] = -weights[Index(l)].imag();
+  }
+  return result;
+}
+
+Eigen::MatrixXd RealStates::diagonal(const Eigen::VectorXcd& factors) const {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size_, size_);
   for (std::size_t l = 0; l < begins_.size(); ++l) {
     const Index i = begins_[l];
-    const double re = dynamics_.poles()[l].exponent.real(), im = dynamics_.poles()[l].exponent.imag();
+    const double re = factors[Index(l)].real(), im = factors[Index(l)].imag();
     matrix(i, i) = re;
-    if (im != 0.0) matrix.block(i, i, 2, 2) << re, -im, im, re;
+    if (pairs_[l]) matrix.block(i, i, 2, 2) << re, -im, im, re;
   }
   return matrix;
 }
 
-Eigen::MatrixXd PoleStates::free_motion(double time) const { return motion_of_contacts(time, 0); }
-
-Eigen::MatrixXd PoleStates::free_velocity(double time) const { return motion_of_contacts(time, 1); }
-
-void PoleStates::advance(double time, Eigen::MatrixXd& states) const {
+void RealStates::multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const {
   for (std::size_t l = 0; l < begins_.size(); ++l) {
-    const Complex growth = std::exp(dynamics_.poles()[l].exponent * time * period_);
-    if (dynamics_.poles()[l].exponent.imag() == 0.0) {
-      states.row(begins_[l]) *= growth.real();
+    const double real = factors[Index(l)].real(), imag = factors[Index(l)].imag();
+    if (!pairs_[l]) {
+      states.row(begins_[l]) *= real;
       continue;
     }
     const Eigen::RowVectorXd re = states.row(begins_[l]), im = states.row(begins_[l] + 1);
-    states.row(begins_[l]) = growth.real() * re - growth.imag() * im;
-    states.row(begins_[l] + 1) = growth.imag() * re + growth.real() * im;
+    states.row(begins_[l]) = real * re - imag * im;
+    states.row(begins_[l] + 1) = imag * re + real * im;
   }
 }
 
+}  // namespace detail
+
+PoleStates::PoleStates(const ContactDynamics& dynamics, double period)
+    : RealStates(detail::exponents_of(dynamics)),
+      period_(period),
+      exponents_(detail::exponents_of(dynamics)),
+      shapes_(detail::shapes_of(dynamics)),
+      inputs_(detail::inputs_of(dynamics)) {}
+
+std::vector<Eigen::Index> PoleStates::left_after(double time) const {
+  constexpr double vanished = 1e-20;
+  std::vector<Eigen::Index> left;
+  for (std::size_t l = 0; l < std::size_t(exponents_.size()); ++l) {
+    if (std::exp(exponents_[Index(l)].real() * time * period_) < vanished) continue;
+    left.push_back(begin(l));
+    if (is_pair(l)) left.push_back(begin(l) + 1);
+  }
+  return left;
+}
+
+Eigen::MatrixXd PoleStates::motion_of_contacts(const Eigen::VectorXcd& factors) const {
+  Eigen::MatrixXd motion(shapes_.rows(), size());
+  for (Index c = 0; c < motion.rows(); ++c)
+    motion.row(c) = row_of(shapes_.row(c).cwiseProduct(factors.transpose()));
+  return motion;
+}
+
+Eigen::MatrixXd PoleStates::generator() const { return diagonal(exponents_); }
+
+Eigen::MatrixXd PoleStates::free_motion(double time) const { return motion_of_contacts(growth(time)); }
+
+Eigen::MatrixXd PoleStates::free_velocity(double time) const {
+  return motion_of_contacts(exponents_.cwiseProduct(growth(time)));
+}
+
+void PoleStates::advance(double time, Eigen::MatrixXd& states) const { multiply(growth(time), states); }
+
 Eigen::VectorXcd PoleStates::growth(double time) const {
-  Eigen::VectorXcd factors(Index(begins_.size()));
-  for (Index l = 0; l < factors.size(); ++l)
-    factors[l] = std::exp(dynamics_.poles()[std::size_t(l)].exponent * time * period_);
+  Eigen::VectorXcd factors(exponents_.size());
+  for (Index l = 0; l < factors.size(); ++l) factors[l] = std::exp(exponents_[l] * time * period_);
   return factors;
 }
 
 Eigen::MatrixXd PoleStates::after_impulses(const Eigen::VectorXcd& factors,
                                            const std::vector<int>& contacts) const {
-  Eigen::MatrixXd states(size_, Index(contacts.size()));
-  for (Index c = 0; c < states.cols(); ++c)
-    for (std::size_t l = 0; l < begins_.size(); ++l) {
-      const ContactPole& pole = dynamics_.poles()[l];
-      const Complex state = factors[Index(l)] * pole.left[contacts[std::size_t(c)]];
-      states(begins_[l], c) = state.real();
-      if (pole.exponent.imag() != 0.0) states(begins_[l] + 1, c) = state.imag();
-    }
-  return states;
+  return real_of(factors.asDiagonal() * inputs_(Eigen::all, contacts));
 }
 
 Eigen::MatrixXd PoleStates::after_impulse(double time) const {
-  std::vector<int> all(static_cast<std::size_t>(dynamics_.contacts()));
-  std::iota(all.begin(), all.end(), 0);
-  return after_impulses(growth(time), all);
+  return real_of(growth(time).asDiagonal() * inputs_);
 }
 
 }  // namespace wavebalance::solvers

@@ -5,16 +5,52 @@
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
 namespace wavebalance::solvers {
+namespace detail {
+
+/// The exponents of ContactDynamics::poles(), 1/s.
+Eigen::VectorXcd exponents_of(const ContactDynamics& dynamics);
+/// C x poles: the displacements of the contacts are Re(shapes a) in states a of the poles.
+Eigen::MatrixXcd shapes_of(const ContactDynamics& dynamics);
+/// Poles x C: what an impulse of 1 N s at a contact takes from the states.
+Eigen::MatrixXcd inputs_of(const ContactDynamics& dynamics);
+
+/// Complex states of poles as real numbers: the real part of each, and of one with an imaginary exponent,
+/// which stands for a pair, the imaginary part, too. Factors are one for each pole.
+class RealStates {
+ public:
+  explicit RealStates(const Eigen::VectorXcd& exponents);
+
+  Index size() const { return size_; }
+  /// The number of the real part of each pole.
+  Index begin(std::size_t pole) const { return begins_[pole]; }
+  bool is_pair(std::size_t pole) const { return pairs_[pole]; }
+
+  Eigen::MatrixXd real_of(const Eigen::MatrixXcd& states) const;
+  Eigen::MatrixXcd complex_of(const Eigen::MatrixXd& states) const;
+  /// The real row by which real states make Re(weights a).
+  Eigen::RowVectorXd row_of(const Eigen::RowVectorXcd& weights) const;
+  /// The block diagonal matrix that multiplies each pole's state by its factor.
+  Eigen::MatrixXd diagonal(const Eigen::VectorXcd& factors) const;
+  /// Does so to real states, a column each.
+  void multiply(const Eigen::VectorXcd& factors, Eigen::MatrixXd& states) const;
+
+ private:
+  std::vector<Index> begins_;
+  std::vector<bool> pairs_;
+  Index size_ = 0;
+};
+
+}  // namespace detail
 
 /// The n states of a structure: of each pole its amplitude a, a' = lambda a - left^T f, as one real number or
 /// as its real and imaginary part. The contacts are displaced by sum Re(weight residue shape a), weight 2 for
 /// a pair. Times are in periods.
-class PoleStates {
+class PoleStates : private detail::RealStates {
  public:
-  /// `period` in s. `dynamics` must outlive it.
+  /// `period` in s.
   PoleStates(const ContactDynamics& dynamics, double period);
 
-  Index size() const { return size_; }
+  using RealStates::size;
   /// Those of which a free flight of `time` leaves more than rounding.
   std::vector<Index> left_after(double time) const;
 
@@ -34,13 +70,12 @@ class PoleStates {
   Eigen::MatrixXd after_impulses(const Eigen::VectorXcd& factors, const std::vector<int>& contacts) const;
 
  private:
-  /// The motion of the contacts by the states, of each pole times a power of its exponent.
-  Eigen::MatrixXd motion_of_contacts(double time, int derivative) const;
+  /// The motion of the contacts by the states, of each pole times a factor.
+  Eigen::MatrixXd motion_of_contacts(const Eigen::VectorXcd& factors) const;
 
-  const ContactDynamics& dynamics_;
   double period_;
-  Index size_ = 0;
-  std::vector<Index> begins_;
+  Eigen::VectorXcd exponents_;        // 1/s
+  Eigen::MatrixXcd shapes_, inputs_;  // C x poles and poles x C
 };
 
 }  // namespace wavebalance::solvers

@@ -149,7 +149,7 @@ class Influence : public ::testing::Test {
 
 TEST_F(Influence, OfAPanelAmongManyIsThatOfThePanelAlone) {
   const auto influence_of = [&](int first, int count) {
-    return response.influence(phases_of(first, count, false).grid(), nodes, true);
+    return response.influence(*response.cells(phases_of(first, count, false).grid(), nodes), true);
   };
   const detail::Influence many = influence_of(0, contacts);
   for (int c = 0; c < contacts; ++c) {
