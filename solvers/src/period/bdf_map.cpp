@@ -59,30 +59,6 @@ int jacobian_callback(double periods, const double* state, double* by_state, dou
   return Eigen::Map<const Eigen::VectorXd>(by_state, size * size).allFinite() ? GSL_SUCCESS : GSL_ERANGE;
 }
 
-/// The quintic on [0, 1] with given value, slope and curvature at both ends: the factors of these six, [0]
-/// for the start and [1] for the end, in its value (first row) and its slope (second row) at s.
-struct QuinticWeights {
-  explicit QuinticWeights(double s) {
-    const double r = 1.0 - s;
-    fill(0, r, s, 1.0);
-    fill(1, s, r, -1.0);
-  }
-  double value[2], slope[2], curvature[2];
-  double value_rate[2], slope_rate[2], curvature_rate[2];
-
- private:
-  /// near is 1 at the end that is filled, far is 1 - near; direction is +1 where far grows with s.
-  void fill(int end, double near, double far, double direction) {
-    const double near2 = near * near;
-    value[end] = near2 * near * (1.0 + 3.0 * far + 6.0 * far * far);
-    slope[end] = direction * near2 * near * far * (1.0 + 3.0 * far);
-    curvature[end] = 0.5 * near2 * near * far * far;
-    value_rate[end] = -direction * 30.0 * near2 * far * far;
-    slope_rate[end] = near2 * (1.0 - 3.0 * far) * (1.0 + 5.0 * far);
-    curvature_rate[end] = direction * 0.5 * near2 * far * (2.0 - 5.0 * far);
-  }
-};
-
 }  // namespace
 
 /// GSL's evolution objects, with the two ends of the last step.
@@ -127,21 +103,26 @@ class BdfMap::Integrator {
   }
 
   /// The state at a time within the last step: the quintic through y, y' and y'' of the displacement half of
-  /// the state, where y' = 2 pi u'.
+  /// the state at both ends, where y' = 2 pi u'.
   Eigen::VectorXd at(double time) const {
     const int n = dofs_;
-    const Instant &a = begin_, &b = end_;
-    const double h = b.time - a.time;
-    if (h == 0.0) return b.state;
-    const QuinticWeights w((time - a.time) / h);
-    const double slope = 2.0 * std::numbers::pi * h, curvature = slope * h;
+    const double h = end_.time - begin_.time, s = (time - begin_.time) / h;
+    if (h == 0.0) return end_.state;
+    const double slope = 2.0 * std::numbers::pi * h;
+    const Eigen::VectorXd first = slope * begin_.state.tail(n),
+                          second = 0.5 * slope * h * begin_.rate.tail(n);
+    // What the parabola of the begin misses at the end in value, slope and curvature.
+    const Eigen::VectorXd value = end_.state.head(n) - begin_.state.head(n) - first - second,
+                          rise = slope * end_.state.tail(n) - first - 2.0 * second,
+                          bend = 0.5 * slope * h * end_.rate.tail(n) - second;
+    const Eigen::VectorXd third = 10.0 * value - 4.0 * rise + bend,
+                          fourth = -15.0 * value + 7.0 * rise - 2.0 * bend,
+                          fifth = 6.0 * value - 3.0 * rise + bend;
     Eigen::VectorXd state(2 * n);
-    state.head(n) = w.value[0] * a.state.head(n) + w.value[1] * b.state.head(n) +
-                    slope * (w.slope[0] * a.state.tail(n) + w.slope[1] * b.state.tail(n)) +
-                    curvature * (w.curvature[0] * a.rate.tail(n) + w.curvature[1] * b.rate.tail(n));
-    state.tail(n) = w.value_rate[1] / slope * (b.state.head(n) - a.state.head(n)) +
-                    w.slope_rate[0] * a.state.tail(n) + w.slope_rate[1] * b.state.tail(n) +
-                    h * (w.curvature_rate[0] * a.rate.tail(n) + w.curvature_rate[1] * b.rate.tail(n));
+    state.head(n) =
+        begin_.state.head(n) + s * (first + s * (second + s * (third + s * (fourth + s * fifth))));
+    state.tail(n) =
+        (first + s * (2.0 * second + s * (3.0 * third + s * (4.0 * fourth + 5.0 * s * fifth)))) / slope;
     return state;
   }
 
@@ -192,7 +173,6 @@ void BdfMap::start(const PeriodState& begin, double tolerance) {
   integrator_ = std::make_unique<Integrator>(system_, begin.motion, tolerance,
                                              tolerance * step_floor_ * (size > 0.0 ? size : 1.0));
   tolerance_ = tolerance;
-  changes_.clear();
 }
 
 // The contacts that press on their obstacles.
@@ -224,22 +204,6 @@ bool BdfMap::hides_changes() const {
     before = now;
   }
   return false;
-}
-
-// The contacts that open or close within the last step, by bisection.
-void BdfMap::note_changes() {
-  constexpr int halvings = 40;
-  const std::vector<bool> before = closed_contacts(integrator_->begin().state),
-                          after = closed_contacts(integrator_->end().state);
-  for (std::size_t c = 0; c < before.size(); ++c) {
-    if (before[c] == after[c]) continue;
-    double low = integrator_->begin().time, high = integrator_->end().time;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (low + high);
-      (closed_contacts(integrator_->at(middle))[c] == before[c] ? low : high) = middle;
-    }
-    changes_.push_back({high, static_cast<int>(c), after[c]});
-  }
 }
 
 Motion BdfMap::contacts() const {
@@ -277,11 +241,7 @@ Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
       period.ended = Period::End::step_failure;
       return period;
     }
-    if (hides_changes()) {
-      integrator_->retry();
-      continue;
-    }
-    note_changes();
+    if (hides_changes()) integrator_->retry();
   }
   states_ = std::move(states);
   end_.motion = integrator_->at(1.0);
@@ -289,11 +249,6 @@ Period BdfMap::advance(const PeriodState& begin, const StepControl& control) {
   period.ended = Period::End::complete;
   period.state = end_;
   period.contacts = contacts();
-  std::ranges::stable_sort(changes_, {}, &ContactChange::time);
-  const auto later = std::ranges::find_if(changes_, [](const auto& one) { return one.time >= 1.0; });
-  period.changes.assign(changes_.begin(), later);
-  changes_.erase(changes_.begin(), later);
-  for (ContactChange& one : changes_) one.time -= 1.0;
   return period;
 }
 

@@ -20,6 +20,7 @@ class BdfMap final : public PeriodMap {
          double step_floor);
   ~BdfMap() override;
 
+  using PeriodMap::state;
   PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const override;
   double size(const PeriodState& state) const override { return state.motion.norm(); }
   Period advance(const PeriodState& begin, const StepControl& control) override;
@@ -36,9 +37,7 @@ class BdfMap final : public PeriodMap {
   class Integrator;
 
   void start(const PeriodState& begin, double tolerance);
-  bool step(double limit);
   bool hides_changes() const;
-  void note_changes();
   std::vector<bool> closed_contacts(const Eigen::VectorXd& state) const;
   Motion contacts() const;
 
@@ -46,11 +45,10 @@ class BdfMap final : public PeriodMap {
   double step_floor_, linear_size_;  // m/s: the largest entry of the state without contact
   Eigen::VectorXd gaps_;
   std::unique_ptr<Integrator> integrator_;
-  Eigen::MatrixXd states_;              // 2n x samples, of the last period
-  PeriodState end_;                     // of the last period
-  double tolerance_ = 0.0;              // of the steps under way
-  std::vector<ContactChange> changes_;  // from the end of the last period on
-  long steps_ = 0, failed_steps_ = 0;   // the latter of the integrators before
+  Eigen::MatrixXd states_;             // 2n x samples, of the last period
+  PeriodState end_;                    // of the last period
+  double tolerance_ = 0.0;             // of the steps under way
+  long steps_ = 0, failed_steps_ = 0;  // the latter of the integrators before
 };
 
 }  // namespace wavebalance::solvers

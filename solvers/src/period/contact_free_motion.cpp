@@ -75,24 +75,24 @@ ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int sample
                                                : every(repeats_, problem.load_harmonics());
   const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
   const Eigen::MatrixXcd responses = contact_free_response(structure, amplitudes, frequency_);
-  contact_responses_ = structure.contact_directions * responses;
-  contact_rates_ = contact_responses_;
+  responses_[0] = structure.contact_directions * responses;
+  responses_[1] = responses_[0];
   initial_displacement_ = responses.real().rowwise().sum();
   initial_velocity_ = Eigen::VectorXd::Zero(structure.size());
   for (Index n = 0; n < responses.cols(); ++n) {
     const double rate = whole_turn * frequency_ * double(n);
-    contact_rates_.col(n) *= Complex(0.0, rate);
+    responses_[1].col(n) *= Complex(0.0, rate);
     initial_velocity_ -= rate * responses.col(n).imag();
   }
-  displacements_.resize(contact_responses_.rows(), samples);
-  velocities_.resize(contact_responses_.rows(), samples);
-  for (int k = 0; k < samples; ++k) {
-    displacements_.col(k) = displacement(double(k) / samples);
-    velocities_.col(k) = velocity(double(k) / samples);
+  for (int derivative = 0; derivative < 2; ++derivative) {
+    Eigen::MatrixXd& values = samples_[std::size_t(derivative)];
+    values.resize(structure.contacts(), samples);
+    for (int k = 0; k < samples; ++k) values.col(k) = at(derivative, double(k) / samples);
   }
 }
 
-Eigen::VectorXd ContactFreeMotion::at(const Eigen::MatrixXcd& responses, double periods) {
+Eigen::VectorXd ContactFreeMotion::at(int derivative, double periods) const {
+  const Eigen::MatrixXcd& responses = responses_[std::size_t(derivative)];
   const Complex turn = std::polar(1.0, whole_turn * periods);
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(responses.rows());
   Complex phase(1.0, 0.0);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 
@@ -20,30 +21,26 @@ class ContactFreeMotion {
   /// stiffness is singular. O(harmonics (n^3 + samples)).
   ContactFreeMotion(const CondensedProblem& problem, int samples);
 
-  int load_periods() const { return repeats_; }    ///< of the problem
   double frequency() const { return frequency_; }  ///< of the load, Hz
   double start() const { return start_; }          ///< in periods of the load after t = 0
 
-  /// C displacements (m) and velocities (m/s) of the contacts at a time in periods of the load from start()
-  /// on. O(C harmonics).
-  Eigen::VectorXd displacement(double periods) const { return at(contact_responses_, periods); }
-  Eigen::VectorXd velocity(double periods) const { return at(contact_rates_, periods); }
-  /// C x harmonics, m: column n belongs to Re(a exp(2 pi i n t)), t likewise.
-  const Eigen::MatrixXcd& responses() const { return contact_responses_; }
-  /// Those of sample `sample`. O(C).
-  Eigen::VectorXd displacement_sample(Eigen::Index sample) const { return displacements_.col(sample); }
-  Eigen::VectorXd velocity_sample(Eigen::Index sample) const { return velocities_.col(sample); }
+  /// C displacements (m) of the contacts, or with `derivative` = 1 velocities (m/s), at a time in periods of
+  /// the load from start() on. O(C harmonics).
+  Eigen::VectorXd at(int derivative, double periods) const;
+  /// The same at sample `sample`. O(C).
+  Eigen::VectorXd sample(int derivative, Eigen::Index sample) const {
+    return samples_[std::size_t(derivative)].col(sample);
+  }
 
   const Eigen::VectorXd& initial_displacement() const { return initial_displacement_; }  ///< n, m
   const Eigen::VectorXd& initial_velocity() const { return initial_velocity_; }          ///< n, m/s
 
  private:
-  static Eigen::VectorXd at(const Eigen::MatrixXcd& responses, double periods);
-
   int repeats_ = 1;
   double frequency_ = 0.0, start_ = 0.0;
-  Eigen::MatrixXcd contact_responses_, contact_rates_;  // C x harmonics
-  Eigen::MatrixXd displacements_, velocities_;          // C x samples
+  // By derivative: column n belongs to Re(a exp(2 pi i n t)), t likewise, C x harmonics; and C x samples.
+  std::array<Eigen::MatrixXcd, 2> responses_;
+  std::array<Eigen::MatrixXd, 2> samples_;
   Eigen::VectorXd initial_displacement_, initial_velocity_;
 };
 

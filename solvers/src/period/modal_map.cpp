@@ -39,17 +39,21 @@ PeriodState ModalMap::state(const Eigen::VectorXd& displacement, const Eigen::Ve
           Eigen::VectorXd::Zero(clear_below_.size())};
 }
 
-PeriodState ModalMap::balanced(PeriodState state) const {
+// The forces of a motion at an instant, with displacements `before` where laws have memory.
+Eigen::VectorXd ModalMap::forces_at(const PeriodState& state, Ticks time, Eigen::VectorXd velocity,
+                                    Eigen::VectorXd before, const Eigen::VectorXd& begin) const {
   const ModalFlow& flow = flows_.front();
-  const Eigen::VectorXd displacement = free_displacement(0) + flow.contact_displacement(state.motion);
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(displacement.size(), displacement.size());
-  state.force = step_forces(laws_,
-                            {flow.static_compliance(),
-                             none,
-                             displacement,
-                             depends_on_velocity_ ? velocity(state, 0) : Eigen::VectorXd(),
-                             {}},
-                            state.force);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(clear_below_.size(), clear_below_.size());
+  return step_forces(
+      laws_,
+      {flow.static_compliance(), none, free_motion(0, time) + flow.contact_displacement(state.motion),
+       std::move(velocity), std::move(before)},
+      begin);
+}
+
+PeriodState ModalMap::balanced(PeriodState state) const {
+  state.force =
+      forces_at(state, 0, depends_on_velocity_ ? velocity(state, 0) : Eigen::VectorXd(), {}, state.force);
   return state;
 }
 
@@ -62,27 +66,21 @@ const ModalFlow& ModalMap::flow(int level) {
 }
 
 // Times are in ticks, the shortest step.
-Eigen::VectorXd ModalMap::free_displacement(Ticks time) const {
+Eigen::VectorXd ModalMap::free_motion(int derivative, Ticks time) const {
   constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
-  if (time % sample == 0) return free_.displacement_sample(time / sample % (2 * steps_));
-  return free_.displacement(std::ldexp(double(time), -deepest_level) / steps_);
-}
-
-Eigen::VectorXd ModalMap::free_velocity(Ticks time) const {
-  constexpr Ticks sample = Ticks{1} << (deepest_level - 1);
-  if (time % sample == 0) return free_.velocity_sample(time / sample % (2 * steps_));
-  return free_.velocity(std::ldexp(double(time), -deepest_level) / steps_);
+  if (time % sample == 0) return free_.sample(derivative, time / sample % (2 * steps_));
+  return free_.at(derivative, std::ldexp(double(time), -deepest_level) / steps_);
 }
 
 Eigen::VectorXd ModalMap::velocity(const PeriodState& state, Ticks time) const {
-  Eigen::VectorXd velocity = free_velocity(time);
+  Eigen::VectorXd velocity = free_motion(1, time);
   flows_.front().add_contact_velocity(state.motion, velocity);
   return velocity;
 }
 
 Eigen::VectorXd ModalMap::displacement(const PeriodState& state, Ticks time) const {
   const ModalFlow& flow = flows_.front();
-  Eigen::VectorXd displacement = free_displacement(time);
+  Eigen::VectorXd displacement = free_motion(0, time);
   flow.add_contact_displacement(state.motion, displacement);
   displacement.noalias() -= flow.static_compliance() * state.force;
   return displacement;
@@ -101,7 +99,7 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;
   step.end.motion = flow.advance(begin.motion, begin.force);
-  step.displacement = free_displacement(end);
+  step.displacement = free_motion(0, end);
   flow.add_contact_displacement(step.end.motion, step.displacement);
   step.end.force.setZero(step.displacement.size());
   if (is_clear(step.displacement)) return step;
@@ -119,15 +117,7 @@ ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) 
 // The forces that laws with memory have at the end of a step once its motion is extrapolated. Otherwise what
 // a contact that sticks remembers would drift from its displacement.
 void ModalMap::remember(const Step& before, Step& step, Ticks end) {
-  const ModalFlow& flow = flows_.front();
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(clear_below_.size(), clear_below_.size());
-  step.end.force = step_forces(laws_,
-                               {flow.static_compliance(),
-                                none,
-                                free_displacement(end) + flow.contact_displacement(step.end.motion),
-                                {},
-                                before.displacement},
-                               before.end.force);
+  step.end.force = forces_at(step.end, end, {}, before.displacement, before.end.force);
   step.displacement = displacement(step.end, end);
 }
 
@@ -138,12 +128,9 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
   constexpr double event = 1e-3;  // the share of the error that is allowed where a contact opens or closes
   const Ticks length = Ticks{1} << (deepest_level - level), half = length / 2;
   Step whole = whole_step ? *whole_step : single(begin, start + length, level);
-  if (level == deepest_level || operations_ > max_operations_) {
-    note_changes(begin, whole, start + length, level);
-    return whole;
-  }
+  if (level == deepest_level || operations_ > max_operations_) return whole;
   if (begin.force.isZero(0.0) && whole.end.force.isZero(0.0)) {
-    Eigen::VectorXd middle = free_displacement(start + half);
+    Eigen::VectorXd middle = free_motion(0, start + half);
     flow(level + 1).add_contact_displacement_after(begin.motion, middle);
     if (is_clear(middle)) return whole;
   }
@@ -155,27 +142,10 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
   if (!(correction.norm() > allowed * (changes ? event : 1.0))) {
     second.end.motion += correction;
     if (has_memory_) remember(first, second, start + length);
-    note_changes(begin, first, start + half, level + 1);
-    note_changes(first.end, second, start + length, level + 1);
     return second;
   }
   const Step middle = refined(begin, start, level + 1, allowed, &first);
   return refined(middle.end, start + half, level + 1, allowed, nullptr);
-}
-
-// Notes the contacts that open or close in a step that ends at `end`, where their displacement would have
-// reached the gap with the velocity that it has at the end.
-void ModalMap::note_changes(const PeriodState& begin, const Step& step, Ticks end, int level) {
-  if (!opens_or_closes(begin.force, step.end.force)) return;
-  const double after = std::ldexp(double(end), -deepest_level) / steps_;
-  const double length = std::ldexp(1.0, -level) / steps_;
-  const Eigen::VectorXd velocity = this->velocity(step.end, end);
-  for (int c = 0; c < velocity.size(); ++c) {
-    const bool closes = begin.force[c] == 0.0, opens = step.end.force[c] == 0.0;
-    if (closes == opens || !std::isfinite(clear_below_[c])) continue;
-    const double back = (step.displacement[c] - clear_below_[c]) / velocity[c] * free_.frequency();
-    changes_.push_back({after - (std::isfinite(back) ? std::clamp(back, 0.0, length) : 0.0), c, closes});
-  }
 }
 
 Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
@@ -183,7 +153,6 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   const double allowed = control.tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
   const Eigen::Index contacts = clear_below_.size();
   max_operations_ = operations_ + control.max_operations;
-  changes_.clear();
   Period period;
   for (Eigen::MatrixXd* values :
        {&period.contacts.displacement, &period.contacts.velocity, &period.contacts.force})
@@ -198,8 +167,6 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   }
   period.ended = at.end.motion.allFinite() ? Period::End::complete : Period::End::step_failure;
   period.state = std::move(at.end);
-  period.changes = std::move(changes_);
-  std::ranges::stable_sort(period.changes, {}, &ContactChange::time);
   return period;
 }
 

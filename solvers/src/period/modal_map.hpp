@@ -25,6 +25,7 @@ class ModalMap final : public PeriodMap {
   /// the samples.
   ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow);
 
+  using PeriodMap::state;
   PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const override;
   PeriodState balanced(PeriodState state) const override;
   double size(const PeriodState& state) const override { return (state.motion + free_state_).norm(); }
@@ -40,15 +41,15 @@ class ModalMap final : public PeriodMap {
     Eigen::VectorXd displacement;
   };
   const ModalFlow& flow(int level);
-  Eigen::VectorXd free_displacement(Ticks time) const;
-  Eigen::VectorXd free_velocity(Ticks time) const;
+  Eigen::VectorXd forces_at(const PeriodState& state, Ticks time, Eigen::VectorXd velocity,
+                            Eigen::VectorXd before, const Eigen::VectorXd& begin) const;
+  Eigen::VectorXd free_motion(int derivative, Ticks time) const;
   Eigen::VectorXd displacement(const PeriodState& state, Ticks time) const;
   Eigen::VectorXd velocity(const PeriodState& state, Ticks time) const;
   bool is_clear(const Eigen::VectorXd& displacement) const;
   Step single(const PeriodState& begin, Ticks end, int level);
   Step refined(const PeriodState& begin, Ticks start, int level, double allowed, const Step* whole_step);
   void remember(const Step& before, Step& step, Ticks end);
-  void note_changes(const PeriodState& begin, const Step& step, Ticks end, int level);
 
   const ContactLaws& laws_;
   int steps_;
@@ -58,7 +59,6 @@ class ModalMap final : public PeriodMap {
   Eigen::VectorXd clear_below_;  // C, m: no force at or below
   bool depends_on_velocity_, has_memory_;
   double operations_ = 0.0, max_operations_ = 0.0;
-  std::vector<ContactChange> changes_;  // of the period under way
 };
 
 }  // namespace wavebalance::solvers

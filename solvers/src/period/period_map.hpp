@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <vector>
 
 #include "wavebalance/solvers/time/motion.hpp"
 
@@ -10,13 +9,6 @@ namespace wavebalance::solvers {
 struct PeriodState {
   Eigen::VectorXd motion;  ///< displacements and velocities, so scaled that the norm has a meaning
   Eigen::VectorXd force;   ///< C, N, of the contacts; empty where the map does not need them
-};
-
-/// A contact with an obstacle begins or ends to exert a force.
-struct ContactChange {
-  double time = 0.0;  ///< periods of the load after the start of the period
-  int contact = 0;
-  bool closes = false;
 };
 
 /// The errors that steps may have, and the effort after which they end.
@@ -29,9 +21,8 @@ struct StepControl {
 struct Period {
   enum class End { complete, effort_limit, step_failure };
   End ended = End::effort_limit;
-  PeriodState state;                   ///< at its end; only of a complete period
-  Motion contacts;                     ///< at uniform instants from its start on; only of a complete period
-  std::vector<ContactChange> changes;  ///< in the order of time
+  PeriodState state;  ///< at its end; only of a complete period
+  Motion contacts;    ///< at uniform instants from its start on; only of a complete period
 
   bool complete() const { return ended == End::complete; }
 };
@@ -47,6 +38,11 @@ class PeriodMap {
 
   /// The state of a displacement (n, m) and a velocity (n, m/s) without contact forces.
   virtual PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const = 0;
+  /// The same of `dofs` degrees of freedom, where empty vectors stand for rest.
+  PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity, int dofs) const {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(dofs);
+    return state(displacement.size() > 0 ? displacement : rest, velocity.size() > 0 ? velocity : rest);
+  }
   /// A state with the forces that the laws have there.
   virtual PeriodState balanced(PeriodState state) const { return state; }
   /// The norm of the whole motion of a state, to which distances are relative.

@@ -235,14 +235,11 @@ class Settling {
 
 // The state in which the integration begins: at rest without contact forces, or the state of the options with
 // the forces that the laws have there.
-PeriodState initial_state(const ModalMap& map, int dofs, const SettlingOptions& options) {
+PeriodState initial_state(const PeriodMap& map, int dofs, const SettlingOptions& options) {
   constexpr const char* who = "SettlingOptions";
   detail::require_dofs(who, "displacement", options.displacement, dofs);
   detail::require_dofs(who, "velocity", options.velocity, dofs);
-  const auto or_rest = [dofs](const Eigen::VectorXd& values) -> Eigen::VectorXd {
-    return values.size() > 0 ? values : Eigen::VectorXd::Zero(dofs);
-  };
-  const PeriodState state = map.state(or_rest(options.displacement), or_rest(options.velocity));
+  const PeriodState state = map.state(options.displacement, options.velocity, dofs);
   const bool at_rest = options.displacement.size() == 0 && options.velocity.size() == 0;
   return at_rest ? state : map.balanced(state);
 }
@@ -270,11 +267,8 @@ SettledMotion settle_free(const CondensedProblem& problem, const ContactLaws& la
   if (!structure || laws.act_over_period()) return {};
   const int periods = load_periods(problem);
   BdfMap map(*structure, laws, periods * problem.frequency(), options.steps, step_floor);
-  const auto or_rest = [&](const Eigen::VectorXd& values) -> Eigen::VectorXd {
-    return values.size() > 0 ? values : Eigen::VectorXd::Zero(structure->size());
-  };
-  PeriodState begin = map.state(or_rest(options.displacement), or_rest(options.velocity));
-  return Settling(map, std::move(begin), periods, 0.0, false, options).run(takes);
+  return Settling(map, initial_state(map, structure->size(), options), periods, 0.0, false, options)
+      .run(takes);
 }
 
 }  // namespace

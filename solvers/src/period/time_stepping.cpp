@@ -12,14 +12,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-PeriodState initial_state(const BdfMap& map, const TimeSteppingOptions& options, int dofs) {
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dofs);
-  const auto or_zero = [&](const Eigen::VectorXd& values) -> const Eigen::VectorXd& {
-    return values.size() == 0 ? zero : values;
-  };
-  return map.state(or_zero(options.initial_displacement), or_zero(options.initial_velocity));
-}
-
 /// Whether two periods differ by no more than the errors of their steps, which a tenth of the tolerance
 /// shows: they then cannot agree any better.
 bool is_noise(BdfMap& map, const PeriodState& begin, const TimeSteppingOptions& options, double change,
@@ -92,7 +84,9 @@ TimeSteppingResult integrate_to_periodic(const LinearStructure& structure, const
   options.validate(structure.size());
   BdfMap map(structure, laws, frequency_hz, options.output_points, options.step_floor);
   TimeSteppingResult result;
-  result.status = run(map, initial_state(map, options, structure.size()), options, result);
+  result.status =
+      run(map, map.state(options.initial_displacement, options.initial_velocity, structure.size()), options,
+          result);
   if (options.full_history && result.periods > 0) result.structure = map.structure();
   const bool long_enough = result.periods == options.max_periods && result.periods > 2 * options.longest;
   if (result.status == TimeSteppingStatus::iteration_limit && long_enough) result.attractor_periods = 0;
