@@ -8,10 +8,7 @@ namespace wavebalance::solvers {
 namespace {
 
 CurvePoint way_between(const CurvePoint& to, const CurvePoint& from) {
-  CurvePoint way;
-  way.displacement = to.displacement - from.displacement;
-  way.parameter = to.parameter - from.parameter;
-  return way;
+  return curve_point(to.displacement - from.displacement, to.parameter - from.parameter);
 }
 
 }  // namespace
@@ -44,6 +41,20 @@ double Scales::inner(const CurvePoint& a, const CurvePoint& b) const {
          a.parameter * b.parameter / (frequency * frequency);
 }
 
+std::optional<SweepStart> motion_beside(ContactSystem& system, const CurvePoint& origin,
+                                        const Eigen::VectorXd& change, const Scales& scales) {
+  const FrequencyParameter frequency;
+  ArcLengthOptions lengths;
+  lengths.displacement_scale = scales.displacement;
+  lengths.parameter_scale = scales.frequency;
+  lengths.max_corrections = 32;
+  CurvePoint beyond = origin, first;
+  beyond.displacement += 2.0 * change;
+  if (!ArcLength(system, frequency, lengths).between(origin, beyond, 0.5, first)) return std::nullopt;
+  system.problem().set_load_frequency(first.parameter);
+  return SweepStart{response_at(system, first.displacement), change, {}};
+}
+
 bool lies_on(const FrequencySweep& curve, const CurvePoint& origin, const CurvePoint& first,
              const Scales& scales) {
   constexpr double parallel = 0.98;  // cosine
@@ -51,9 +62,7 @@ bool lies_on(const FrequencySweep& curve, const CurvePoint& origin, const CurveP
   const double length = scales.inner(way, way);
   double nearest = std::numeric_limits<double>::infinity(), cosine = 0.0;
   for (const SweepPoint& point : curve.points) {
-    CurvePoint to;
-    to.displacement = point.unknown - origin.displacement;
-    to.parameter = point.frequency - origin.parameter;
+    const CurvePoint to = way_between(curve_point(point.unknown, point.frequency), origin);
     const double distance = scales.inner(to, to);
     if (distance < length || distance >= nearest) continue;
     nearest = distance;
@@ -72,10 +81,7 @@ Arrival::Arrival(const Parent& parent, int special_point, int contacts, Scales s
   for (std::size_t i = 0; i < parent.special_points().size(); ++i) {
     const SpecialPoint& other = parent.special_points()[i];
     if (other.type != type) continue;
-    CurvePoint point;
-    point.displacement = repeated(other.unknown, contacts, times);
-    point.parameter = other.frequency;
-    ends_.emplace_back(int(i), std::move(point));
+    ends_.emplace_back(int(i), curve_point(repeated(other.unknown, contacts, times), other.frequency));
   }
 }
 
@@ -124,9 +130,8 @@ bool Arrival::passes(const CurvePoint& before, const CurvePoint& after, const Cu
   const CurvePoint way = way_between(after, before), to = way_between(point, before);
   const double length = scales_.inner(way, way);
   const double share = std::clamp(scales_.inner(to, way) / length, 0.0, 1.0);
-  CurvePoint apart;
-  apart.displacement = to.displacement - share * way.displacement;
-  apart.parameter = to.parameter - share * way.parameter;
+  const CurvePoint apart =
+      curve_point(to.displacement - share * way.displacement, to.parameter - share * way.parameter);
   return scales_.inner(apart, apart) <= nearness * nearness * length;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "wavebalance/solvers/stability/curve_stability.hpp"
+#include "stability/curve_motions.hpp"
 
 namespace wavebalance::solvers {
 
@@ -32,6 +33,12 @@ struct Scales {
 
   double inner(const CurvePoint& a, const CurvePoint& b) const;
 };
+
+/// A start of a curve at the solution in the plane perpendicular to `change` through its end from the point
+/// `origin` of another curve, at whatever frequency; nothing where there is none. Sets the frequency of the
+/// problem.
+std::optional<SweepStart> motion_beside(ContactSystem& system, const CurvePoint& origin,
+                                        const Eigen::VectorXd& change, const Scales& scales);
 
 /// Whether `first` lies in the direction, from the point `origin` of a curve, of that curve's next point
 /// farther away.

@@ -126,22 +126,14 @@ class Branches {
     const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
     if (way.size() != problem.samples()) return false;
     ContactSystem system(problem, laws_, parent.curve->series_flexibility);
-    const FrequencyParameter frequency;
-    ArcLengthOptions lengths;
-    lengths.displacement_scale = scales.displacement;
-    lengths.parameter_scale = scales.frequency;
-    lengths.max_corrections = 32;
-    ArcLength path(system, frequency, lengths);
-    CurvePoint origin, beyond, first;
-    origin.displacement = repeated(from.unknown, problem.contacts(), times);
-    origin.parameter = beyond.parameter = from.frequency;
+    const CurvePoint origin = curve_point(repeated(from.unknown, problem.contacts(), times), from.frequency);
     const double rms = origin.displacement.norm() / std::sqrt(double(origin.displacement.size()));
     for (const double size : {0.01, 0.03, 0.1}) {
-      beyond.displacement = origin.displacement + 2.0 * size * rms * way;
-      if (!path.between(origin, beyond, 0.5, first)) continue;
-      if (times == 1 && lies_on(*parent.curve, origin, first, scales)) continue;
-      problem.set_load_frequency(first.parameter);
-      start.response = response_at(system, first.displacement);
+      auto first = motion_beside(system, origin, size * rms * way, scales);
+      if (!first) continue;
+      const CurvePoint place = curve_point(first->response.unknown, problem.load_frequency());
+      if (times == 1 && lies_on(*parent.curve, origin, place, scales)) continue;
+      start = *std::move(first);
       start.direction = way;
       return true;
     }
@@ -155,9 +147,8 @@ class Branches {
     branch.curve = frequency_sweep(problem, laws_, sweep, start);
     branch.end = end_of(branch.curve.status);
     if (branch.curve.points.empty()) return;
-    CurvePoint last;
-    last.displacement = branch.curve.points.back().unknown;
-    last.parameter = branch.curve.points.back().frequency;
+    const SweepPoint& end = branch.curve.points.back();
+    const CurvePoint last = curve_point(end.unknown, end.frequency);
     if (branch.end == BranchEnd::lost && arrival.is_beside(last)) branch.end = BranchEnd::special_point;
     if (branch.end == BranchEnd::special_point) {
       arrival.note_nearest(last, 2.0 * std::max(arrival.step(), sweep.arc_length.max_step));
@@ -203,10 +194,8 @@ class Branches {
     const auto point_of = [&](int special_point) {
       const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];
       const int times = branch.periods / parent.periods;
-      CurvePoint point;
-      point.displacement = repeated(from.unknown, problem.contacts(), times);
-      point.parameter = from.frequency;
-      return sweep_point(system, evaluator, point);
+      return sweep_point(system, evaluator,
+                         curve_point(repeated(from.unknown, problem.contacts(), times), from.frequency));
     };
     auto& points = branch.curve.points;
     auto& stability = branch.stability.points;
@@ -229,26 +218,17 @@ class Branches {
 }  // namespace
 
 BranchEnd end_of(SweepStatus status) {
-  switch (status) {
-    case SweepStatus::reached_end:
-      return BranchEnd::to_end;
-    case SweepStatus::returned:
-      return BranchEnd::from_end;
-    case SweepStatus::no_start:
-      return BranchEnd::no_start;
-    case SweepStatus::closed:
-      return BranchEnd::closed;
-    case SweepStatus::lost:
-      return BranchEnd::lost;
-    case SweepStatus::unbounded:
-      return BranchEnd::unbounded;
-    case SweepStatus::point_limit:
-      return BranchEnd::point_limit;
-    case SweepStatus::ended:
-      return BranchEnd::special_point;
-    case SweepStatus::cancelled:
-      break;
-  }
+  static constexpr std::pair<SweepStatus, BranchEnd> ends[] = {
+      {SweepStatus::reached_end, BranchEnd::to_end},
+      {SweepStatus::returned, BranchEnd::from_end},
+      {SweepStatus::no_start, BranchEnd::no_start},
+      {SweepStatus::closed, BranchEnd::closed},
+      {SweepStatus::lost, BranchEnd::lost},
+      {SweepStatus::unbounded, BranchEnd::unbounded},
+      {SweepStatus::point_limit, BranchEnd::point_limit},
+      {SweepStatus::ended, BranchEnd::special_point}};
+  for (const auto& [of_curve, of_branch] : ends)
+    if (of_curve == status) return of_branch;
   return BranchEnd::cancelled;
 }
 

@@ -98,32 +98,20 @@ ComplexModes complex_modes(const LinearStructure& structure) {
   const FirstOrderForm form = first_order_form(structure);
   const auto eigen = detail::general_eigen(form.matrix);
   if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
-  const bool unsymmetric = !structure.symmetric() || has_equal(eigen->values);
-  ComplexModes modes{Eigen::VectorXcd(2 * n), eigen->vectors.topRows(n), {}};
-  if (unsymmetric) {
-    // The lower half of an eigenvector of the inverse form is a displacement, as the upper one of the other.
-    if (form.inverse) modes.shapes = eigen->vectors.bottomRows(n);
-    modes.left = left_modes(form, eigen->vectors);
-  }
-  Index count = 0;
-  const double largest = eigen->values.cwiseAbs().maxCoeff();
+  // Of each pair the exponent in the upper half plane. Zeros of the inverse form are infinite exponents.
+  std::vector<Index> kept;
+  const double least = form.inverse ? 1e-13 * eigen->values.cwiseAbs().maxCoeff() : -1.0;
   for (Index i = 0; i < 2 * n; ++i) {
-    const Complex value = eigen->values[i];
-    if (value.imag() < 0.0 || (form.inverse && std::abs(value) <= 1e-13 * largest)) continue;
-    const Complex exponent = form.inverse ? 1.0 / value : value;
-    modes.exponents[count] = exponent;
-    if (unsymmetric) modes.left.col(count) = modes.left.col(i).eval();
-    modes.shapes.col(count++) = modes.shapes.col(i).eval();
+    const double upwards = (form.inverse ? -1.0 : 1.0) * eigen->values[i].imag();
+    if (upwards >= 0.0 && std::abs(eigen->values[i]) > least) kept.push_back(i);
   }
-  modes.exponents.conservativeResize(count);
-  modes.shapes.conservativeResize(Eigen::NoChange, count);
-  // 1 / value of the upper half plane lies in the lower one.
-  for (Index i = 0; i < count; ++i)
-    if (modes.exponents[i].imag() < 0.0) {
-      modes.exponents[i] = std::conj(modes.exponents[i]);
-      modes.shapes.col(i) = modes.shapes.col(i).conjugate().eval();
-      if (unsymmetric) modes.left.col(i) = modes.left.col(i).conjugate().eval();
-    }
+  const bool unsymmetric = !structure.symmetric() || has_equal(eigen->values);
+  ComplexModes modes{eigen->values(kept), {}, {}};
+  if (form.inverse) modes.exponents = modes.exponents.cwiseInverse().eval();
+  // The lower half of an eigenvector of the inverse form is a displacement, as the upper one of the other.
+  const bool lower = unsymmetric && form.inverse;
+  modes.shapes = eigen->vectors.middleRows(lower ? n : 0, n)(Eigen::all, kept);
+  if (unsymmetric) modes.left = left_modes(form, eigen->vectors)(Eigen::all, kept);
   return modes;
 }
 

@@ -1,6 +1,7 @@
 #include "stability/contact_dynamics_reduced.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -46,24 +47,10 @@ LinearStructure projected(const LinearStructure& structure, const Eigen::MatrixX
   return result;
 }
 
-// Reduces a structure without symmetry, whose `metric` is the symmetric part of its stiffness.
-LinearStructure unsymmetric_reduction(const LinearStructure& structure,
-                                      const Eigen::SparseMatrix<double>& metric, int vectors) {
-  detail::SparseLu factor(structure.stiffness);  // not singular, since its symmetric part is definite
-  Eigen::MatrixXd basis(structure.size(), std::min<Index>(vectors, structure.size()));
-  const Eigen::MatrixXd forces = structure.contact_directions.transpose();
-  Eigen::MatrixXd block(structure.size(), 2 * forces.cols());
-  block << factor.solve(forces), factor.solve_transposed(forces);
-  Index count = append_orthonormal(metric, block, basis, 0), start = 0;
-  while (count < basis.cols() && count > start) {
-    const auto last = basis.middleCols(start, count - start);
-    block.resize(structure.size(), 2 * last.cols());
-    block << factor.solve(Eigen::MatrixXd(structure.mass * last)),
-        factor.solve(Eigen::MatrixXd(structure.damping * last));
-    start = count;
-    count = append_orthonormal(metric, block, basis, count);
-  }
-  return projected(structure, basis.leftCols(count));
+Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
+  both << a, b;
+  return both;
 }
 
 }  // namespace
@@ -77,14 +64,19 @@ LinearStructure krylov_reduction(const LinearStructure& structure, int vectors) 
     throw std::invalid_argument("ContactDynamics: stiffness (" + std::to_string(structure.size()) +
                                 " degrees of freedom) is not positive definite; a structure that is reduced "
                                 "must be held, or max_size must be at least its size");
-  if (!symmetric) return unsymmetric_reduction(structure, metric, vectors);
+  std::optional<detail::SparseLu> lu;  // not singular, since its symmetric part is definite
+  if (!symmetric) lu.emplace(structure.stiffness);
   Eigen::MatrixXd basis(structure.size(), std::min<Index>(vectors, structure.size()));
-  Eigen::MatrixXd block = factor.solve(Eigen::MatrixXd(structure.contact_directions.transpose()));
-  Index count = append_orthonormal(structure.stiffness, block, basis, 0), start = 0;
+  const Eigen::MatrixXd forces = structure.contact_directions.transpose();
+  Eigen::MatrixXd block =
+      symmetric ? factor.solve(forces) : beside(lu->solve(forces), lu->solve_transposed(forces));
+  Index count = append_orthonormal(metric, block, basis, 0), start = 0;
   while (count < basis.cols() && count > start) {
-    block = factor.solve(structure.mass * basis.middleCols(start, count - start));
+    const Eigen::MatrixXd last = basis.middleCols(start, count - start), inertia = structure.mass * last;
+    block = symmetric ? factor.solve(inertia)
+                      : beside(lu->solve(inertia), lu->solve(Eigen::MatrixXd(structure.damping * last)));
     start = count;
-    count = append_orthonormal(structure.stiffness, block, basis, count);
+    count = append_orthonormal(metric, block, basis, count);
   }
   return projected(structure, basis.leftCols(count));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -37,72 +38,29 @@ bool passes_between_samples(const Eigen::VectorXd& samples, const Value& value, 
   return false;
 }
 
-bool passes_between_samples(const ContactCurve& curve, double level, Index l) {
-  return passes_between_samples(
-      curve.samples(), [&](double sample) { return curve(curve.time_of(sample)); }, level, l);
-}
-
 using Intervals = std::vector<ContactInterval>;
 
-// From each begin to the next end.
-void add_intervals(int contact, const std::vector<double>& begins, const std::vector<double>& ends,
-                   Intervals& intervals) {
-  for (const double begin : begins) {
-    const auto end = std::upper_bound(ends.begin(), ends.end(), begin);
-    const double shift = std::floor(begin);
-    intervals.push_back({contact, begin - shift, (end == ends.end() ? ends.front() + 1.0 : *end) - shift});
-  }
-}
-
-// The intervals of a unilateral law beyond its gap; nothing where one of them holds no sample.
-std::optional<Intervals> intervals_beyond_gap(const ContactAlong& along, int contact) {
-  const double gap = along.law.gap();
-  const Eigen::VectorXd& samples = along.curve.samples();
-  const Index count = samples.size();
+// The intervals in which a law acts(l) at samples l, which change(l) at times between l and the next; nothing
+// where one of them holds no sample, passes(l) about sample l.
+template <class Acts, class Change, class Passes>
+std::optional<Intervals> intervals_of_action(int contact, Index count, const Acts& acts, const Change& change,
+                                             const Passes& passes) {
+  std::vector<bool> at(static_cast<std::size_t>(count));
+  for (Index l = 0; l < count; ++l) at[static_cast<std::size_t>(l)] = acts(l);
   std::vector<double> openings, closings;
-  for (Index l = 0; l < count; ++l) {
-    const bool above = samples[l] > gap, next = samples[(l + 1) % count] > gap;
-    if (above != next) (next ? closings : openings).push_back(crossing(along.curve, gap, l));
-    if (!above && passes_between_samples(along.curve, gap, l) && !(samples[(l + count - 1) % count] > gap) &&
-        !next)
-      return std::nullopt;
+  for (std::size_t l = 0; l < at.size(); ++l) {
+    const bool before = at[(l + at.size() - 1) % at.size()], next = at[(l + 1) % at.size()];
+    if (at[l] != next) (next ? closings : openings).push_back(change(Index(l)));
+    if (!at[l] && !before && !next && passes(Index(l))) return std::nullopt;
   }
   Intervals intervals;
-  if (closings.empty()) {
-    if (samples[0] > gap) intervals.push_back({contact, 0.0, 1.0});
-    return intervals;
+  if (closings.empty() && at.front()) intervals.push_back({contact, 0.0, 1.0});
+  for (const double begin : closings) {  // to the next end
+    const auto end = std::upper_bound(openings.begin(), openings.end(), begin);
+    const double shift = std::floor(begin);
+    intervals.push_back(
+        {contact, begin - shift, (end == openings.end() ? openings.front() + 1.0 : *end) - shift});
   }
-  add_intervals(contact, closings, openings, intervals);
-  return intervals;
-}
-
-// Whether the law has a slope somewhere in the interval.
-bool has_slope(const ContactAlong& along, const ContactInterval& interval) {
-  constexpr int parts = 16;
-  for (int part = 1; part < parts; ++part)
-    if (along.tangent(interval.begin + interval.length() * part / parts) != 0.0) return true;
-  return false;
-}
-
-// The intervals between the kinks of a law that acts on both sides of its gap, less those without slope.
-Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
-  const Eigen::VectorXd& samples = along.curve.samples();
-  const Index count = samples.size();
-  std::vector<double> times;
-  for (const double kink : along.law.kinks()) {
-    const double level = along.flexibility > 0.0 ? kink + along.flexibility * along.law.force(kink) : kink;
-    for (Index l = 0; l < count; ++l)
-      if ((samples[l] > level) != (samples[(l + 1) % count] > level))
-        times.push_back(crossing(along.curve, level, l));
-  }
-  for (double& time : times) time -= std::floor(time);
-  std::sort(times.begin(), times.end());
-  Intervals all, intervals;
-  if (times.empty()) all.push_back({contact, 0.0, 1.0});
-  for (std::size_t i = 0; i < times.size(); ++i)
-    all.push_back({contact, times[i], i + 1 < times.size() ? times[i + 1] : times.front() + 1.0});
-  for (const ContactInterval& one : all)
-    if (one.length() > 0.0 && has_slope(along, one)) intervals.push_back(one);
   return intervals;
 }
 
@@ -119,69 +77,88 @@ double change_of_action(const Along& along, const ContactCurve& curve, Index l) 
   return high;
 }
 
-// The intervals in which a law acts; nothing where one of them holds no sample, passes(l) about sample l.
 template <class Along, class Passes>
 std::optional<Intervals> intervals_of_action(const Along& along, const ContactCurve& curve, int contact,
                                              const Passes& passes) {
-  const Index count = curve.samples().size();
-  std::vector<bool> acts(static_cast<std::size_t>(count));
-  for (Index l = 0; l < count; ++l) acts[static_cast<std::size_t>(l)] = along.acts(curve.time_of(double(l)));
-  std::vector<double> openings, closings;
-  for (Index l = 0; l < count; ++l) {
-    const bool here = acts[static_cast<std::size_t>(l)],
-               next = acts[static_cast<std::size_t>((l + 1) % count)];
-    if (here != next) (next ? closings : openings).push_back(change_of_action(along, curve, l));
-    const bool before = acts[static_cast<std::size_t>((l + count - 1) % count)];
-    if (!here && !before && !next && passes(l)) return std::nullopt;
-  }
-  Intervals intervals;
-  if (closings.empty() && acts.front()) intervals.push_back({contact, 0.0, 1.0});
-  if (!closings.empty()) add_intervals(contact, closings, openings, intervals);
-  return intervals;
+  return intervals_of_action(
+      contact, curve.samples().size(), [&](Index l) { return along.acts(curve.time_of(double(l))); },
+      [&](Index l) { return change_of_action(along, curve, l); }, passes);
 }
 
-constexpr std::ptrdiff_t most_cuts = 64;
-
-// The levels of the curve at the breakpoints, ascending; in the force form those of v = u + flexibility f.
-std::vector<double> levels(const ContactAlong& along) {
-  const std::vector<double> all = along.law.breakpoints(), kinks = along.law.kinks();
-  std::vector<double> result;
-  std::set_difference(all.begin(), all.end(), kinks.begin(), kinks.end(), std::back_inserter(result));
+// The levels of the curve at displacements, in the force form those of v = u + flexibility f.
+std::vector<double> levels(const ContactAlong& along, std::vector<double> displacements) {
   if (along.flexibility > 0.0)
-    for (double& level : result) level += along.flexibility * along.law.force(level);
-  return result;
+    for (double& level : displacements) level += along.flexibility * along.law.force(level);
+  return displacements;
 }
 
-// The times (in periods) at which a contact passes the breakpoints of its law that are not its kinks, where
-// intervals end as it is. Nothing of more than 64, since a table that dense is nearly smooth and rules that
-// check themselves cut it as finely as they need. O(N log points + crossings).
-std::vector<double> cut_times(const ContactAlong& along) {
-  const std::vector<double> at = levels(along);
+// The times (in periods) at which a curve crosses ascending levels; nothing of more than `most`. O(N log
+// levels + crossings).
+std::vector<double> crossings(const ContactCurve& curve, const std::vector<double>& at, std::size_t most) {
   std::vector<double> times;
-  if (at.empty()) return times;
-  const Eigen::VectorXd& samples = along.curve.samples();
-  const Eigen::Index count = samples.size();
-  for (Eigen::Index l = 0; l < count; ++l) {
+  const Eigen::VectorXd& samples = curve.samples();
+  const Index count = samples.size();
+  for (Index l = 0; l < count && !at.empty(); ++l) {
     const auto [low, high] = std::minmax(samples[l], samples[(l + 1) % count]);
     const auto first = std::lower_bound(at.begin(), at.end(), low);
     const auto last = std::lower_bound(first, at.end(), high);
-    if (std::distance(first, last) + std::ptrdiff_t(times.size()) > most_cuts) return {};
-    for (auto level = first; level != last; ++level) times.push_back(crossing(along.curve, *level, l));
+    if (static_cast<std::size_t>(last - first) + times.size() > most) return {};
+    for (auto level = first; level != last; ++level) times.push_back(crossing(curve, *level, l));
   }
   return times;
 }
 
-std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
-  const auto passes = [&](Index l) {
-    return along.unilateral && passes_between_samples(along.curve, along.law.gap(), l);
-  };
-  auto intervals = along.has_velocity() ? intervals_of_action(along, along.curve, contact, passes)
-                   : along.unilateral   ? intervals_beyond_gap(along, contact)
-                                        : intervals_between_kinks(along, contact);
-  if (intervals)
-    std::sort(intervals->begin(), intervals->end(),
-              [](const auto& a, const auto& b) { return a.begin < b.begin; });
+// Whether the law has a slope somewhere in the interval.
+bool has_slope(const ContactAlong& along, const ContactInterval& interval) {
+  constexpr int parts = 16;
+  for (int part = 1; part < parts; ++part)
+    if (along.tangent(interval.begin + interval.length() * part / parts) != 0.0) return true;
+  return false;
+}
+
+// The intervals between the kinks of a law that acts on both sides of its gap, less those without slope.
+Intervals intervals_between_kinks(const ContactAlong& along, int contact) {
+  constexpr auto no_limit = std::numeric_limits<std::size_t>::max();
+  std::vector<double> times = crossings(along.curve, levels(along, along.law.kinks()), no_limit);
+  for (double& time : times) time -= std::floor(time);
+  std::sort(times.begin(), times.end());
+  if (times.empty()) times.push_back(0.0);
+  Intervals intervals;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const ContactInterval one{contact, times[i], i + 1 < times.size() ? times[i + 1] : times.front() + 1.0};
+    if (one.length() > 0.0 && has_slope(along, one)) intervals.push_back(one);
+  }
   return intervals;
+}
+
+// The times (in periods) at which a contact passes the breakpoints of its law that are not its kinks, where
+// intervals end as it is. Nothing of more than 64, since a table that dense is nearly smooth and rules that
+// check themselves cut it as finely as they need.
+std::vector<double> cut_times(const ContactAlong& along) {
+  constexpr std::size_t most = 64;
+  const std::vector<double> all = along.law.breakpoints(), kinks = along.law.kinks();
+  std::vector<double> smooth;
+  std::set_difference(all.begin(), all.end(), kinks.begin(), kinks.end(), std::back_inserter(smooth));
+  return crossings(along.curve, levels(along, std::move(smooth)), most);
+}
+
+std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
+  const ContactCurve& curve = along.curve;
+  const double gap = along.law.gap();
+  const auto passes = [&](Index l) {
+    return along.unilateral &&
+           passes_between_samples(
+               curve.samples(), [&](double sample) { return curve(curve.time_of(sample)); }, gap, l);
+  };
+  if (along.has_velocity()) return intervals_of_action(along, curve, contact, passes);
+  if (!along.unilateral) return intervals_between_kinks(along, contact);
+  return intervals_of_action(
+      contact, curve.samples().size(), [&](Index l) { return curve.samples()[l] > gap; },
+      [&](Index l) { return crossing(curve, gap, l); }, passes);
+}
+
+bool comes_before(const ContactInterval& a, const ContactInterval& b) {
+  return std::pair(a.contact, a.begin) < std::pair(b.contact, b.begin);
 }
 
 }  // namespace
@@ -254,7 +231,6 @@ bool add_intervals(const CoupledAlong& along, Intervals& intervals) {
   for (int contact = along.row; contact < along.row + along.law.rows(); ++contact) {
     auto own = intervals_of_action(along, curve, contact, passes);
     if (!own) return false;
-    std::sort(own->begin(), own->end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
     intervals.insert(intervals.end(), own->begin(), own->end());
   }
   return true;
@@ -288,29 +264,28 @@ std::optional<int> add_intervals(const ContactAlong& along, int contact, Periodi
   return static_cast<int>(intervals->size());
 }
 
-void set_slopes(const std::shared_ptr<AllContacts>& contacts, const std::shared_ptr<AllCoupled>& coupled,
+// By displacements and, where laws depend on them, by velocities, and where forces jump.
+void set_slopes(const AllContacts& all, const AllCoupled& all_coupled, bool velocities,
                 PeriodicStiffness& stiffness) {
-  stiffness.tangent = [contacts, coupled](int contact, double time) {
+  const auto contacts = std::make_shared<AllContacts>(all);
+  const auto coupled = std::make_shared<AllCoupled>(all_coupled);
+  const auto along = [contacts](int contact) -> const ContactAlong& {
+    return (*contacts)[static_cast<std::size_t>(contact)];
+  };
+  stiffness.tangent = [along, coupled](int contact, double time) {
     for (const CoupledAlong& one : *coupled)
       if (one.has(contact)) return one.slope(contact, contact, time);
-    return (*contacts)[static_cast<std::size_t>(contact)].tangent(time);
+    return along(contact).tangent(time);
   };
-  if (coupled->empty()) return;
-  stiffness.coupling = [coupled](int force, int displacement, double time) {
-    for (const CoupledAlong& one : *coupled)
-      if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
-    return 0.0;
-  };
-}
-
-// The slopes by the velocity, and where forces jump.
-void set_damping(const std::shared_ptr<AllContacts>& contacts, PeriodicStiffness& stiffness) {
-  stiffness.damping = [contacts](int contact, double time) {
-    return (*contacts)[static_cast<std::size_t>(contact)].damping(time);
-  };
-  stiffness.impulse = [contacts](int contact, double time) {
-    return (*contacts)[static_cast<std::size_t>(contact)].impulse(time);
-  };
+  if (!coupled->empty())
+    stiffness.coupling = [coupled](int force, int displacement, double time) {
+      for (const CoupledAlong& one : *coupled)
+        if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
+      return 0.0;
+    };
+  if (!velocities) return;
+  stiffness.damping = [along](int contact, double time) { return along(contact).damping(time); };
+  stiffness.impulse = [along](int contact, double time) { return along(contact).impulse(time); };
 }
 
 // Why no stiffness is known, whatever the motion.
@@ -337,32 +312,30 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   };
   if (const StabilityStatus why = refusal_of(laws, unknowns); why != StabilityStatus::converged)
     return ended(why);
-  const auto coupled = std::make_shared<AllCoupled>(coupled_along(trial, laws, unknowns));
-  const auto contacts = std::make_shared<AllContacts>();
-  if (!add_friction(trial, laws, unknowns, stiffness) || (!coupled->empty() && !stiffness.friction.empty()))
+  const AllCoupled coupled = coupled_along(trial, laws, unknowns);
+  AllContacts contacts;
+  if (!add_friction(trial, laws, unknowns, stiffness) || (!coupled.empty() && !stiffness.friction.empty()))
     return ended(StabilityStatus::unsupported_law);
   for (int c = 0; c < count; ++c)
-    contacts->push_back(
+    contacts.push_back(
         {laws[c], laws[c].unilateral(), unknowns.flexibility.size() > 0 ? unknowns.flexibility[c] : 0.0,
          ContactCurve(trial, unknowns.coefficients.col(c), unknowns.samples.col(c), unknowns.first_sample),
          unknowns.frequency});
   int rigid = 0, elastic = 0;  // intervals of contact
   for (int c = 0; c < count; ++c) {
     if (laws[c].acts_over_period()) continue;
-    const auto added = add_intervals((*contacts)[static_cast<std::size_t>(c)], c, stiffness);
+    const auto added = add_intervals(contacts[static_cast<std::size_t>(c)], c, stiffness);
     if (!added) return ended(StabilityStatus::too_few_samples);
     (laws[c].is_rigid() ? rigid : elastic) += *added;
   }
-  for (const CoupledAlong& one : *coupled)
+  for (const CoupledAlong& one : coupled)
     if (!add_intervals(one, stiffness.intervals)) return ended(StabilityStatus::too_few_samples);
+  std::sort(stiffness.intervals.begin(), stiffness.intervals.end(), comes_before);
   if (rigid > 0) {
-    if (elastic > 0 || !coupled->empty()) stiffness.intervals.clear();
+    if (elastic > 0 || !coupled.empty()) stiffness.intervals.clear();
     return ended(StabilityStatus::no_finite_stiffness);
   }
-  std::stable_sort(stiffness.intervals.begin(), stiffness.intervals.end(),
-                   [](const auto& a, const auto& b) { return a.contact < b.contact; });
-  set_slopes(contacts, coupled, stiffness);
-  if (laws.depend_on_velocity()) set_damping(contacts, stiffness);
+  set_slopes(contacts, coupled, laws.depend_on_velocity(), stiffness);
   return stiffness;
 }
 

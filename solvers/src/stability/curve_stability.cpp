@@ -3,22 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
+#include "stability/curve_motions.hpp"
 #include "stability/stability_checks.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
-#include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 constexpr int not_counted = -2;
 
@@ -88,26 +84,19 @@ class Tracker {
         curve_(curve),
         dynamics_(dynamics),
         options_(options),
-        system_(problem, laws, curve.series_flexibility),
-        path_(system_, curve_parameter(curve.parameter), scales()),
-        evaluator_(problem.pair().trial(), options.output_points, 0) {
-    if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
-      problem.set_load_frequency(curve.points.front().frequency);
-  }
+        motions_("curve_stability", problem, laws, curve, lengths(laws), options.output_points) {}
 
   CurveStability run() {
     std::optional<CurveSample> before;
     for (std::size_t i = 0; i < curve_.points.size(); ++i) {
       const SweepPoint& point = curve_.points[i];
-      CurveSample here{{}, {}};
-      here.point.displacement = point.unknown;
-      here.point.parameter = value_of(point);
+      CurveSample here{motions_.at(point), {}};
       measure(here, options_.special_points ? Measure::count : Measure::count_alone);
       if (!is_known(here)) here.stability.unstable = -1;
       result_.points.push_back(here.stability);
       index_ = i;
       if (before && options_.special_points) {
-        step_ = path_.distance(before->point, here.point);
+        step_ = motions_.path().distance(before->point, here.point);
         examine(*before, here, 0);
       }
       before = std::move(here);
@@ -117,7 +106,7 @@ class Tracker {
   }
 
  private:
-  double value_of(const SweepPoint& point) const { return parameter_of(point, curve_.parameter); }
+  double value_of(const SweepPoint& point) const { return motions_.value_of(point); }
 
   bool tell(double value) {
     const double done =
@@ -128,33 +117,19 @@ class Tracker {
     return !result_.cancelled;
   }
 
-  // The scales of displacement and parameter by which frequency_sweep() measures steps.
-  ArcLengthOptions scales() const {
-    double largest = 0.0;
-    const auto [low, high] =
-        std::minmax_element(curve_.points.begin(), curve_.points.end(),
-                            [this](const auto& a, const auto& b) { return value_of(a) < value_of(b); });
-    for (const SweepPoint& point : curve_.points) largest = std::max(largest, point.max_abs_displacement);
-    ArcLengthOptions scales;
-    const double interval = curve_.points.empty() ? 0.0 : value_of(*high) - value_of(*low);
-    scales.max_corrections = 32;  // half as many without grazing events
-    const double gap = laws_.largest_gap();
-    scales.displacement_scale = gap > 0.0 ? gap : largest > 0.0 ? largest : 1.0;
-    scales.least_scale = 1e-3;
-    scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
-    return scales;
-  }
-
-  PeriodicResponse response(const CurvePoint& point) {
-    curve_parameter(curve_.parameter).set(system_, point.parameter);
-    return response_at(system_, point.displacement);
+  static ArcLengthOptions lengths(const ContactLaws& laws) {
+    ArcLengthOptions options;
+    options.displacement_scale = laws.largest_gap();
+    options.least_scale = 1e-3;
+    options.max_corrections = 32;  // half as many without grazing events
+    return options;
   }
 
   // The measurements at a point; each includes those before it, but count_alone has no signs.
   enum class Measure { contacts, signs, count, count_alone };
 
   void measure(CurveSample& sample, Measure what) {
-    const PeriodicResponse at = response(sample.point);
+    const PeriodicResponse at = motions_.response(sample.point);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
     const auto contacts =
         std::count_if(stiffness.intervals.begin(), stiffness.intervals.end(),
@@ -163,16 +138,13 @@ class Tracker {
     if (what == Measure::contacts) return;
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;
-    if (!stiffness.friction.empty()) {  // one map has both
-      const FrictionVerdict verdict = friction_verdict(dynamics_, stiffness, at.frequency, how);
-      set_signs(verdict.signs, sample);
-      if (is_known(sample)) set_count(verdict.count, sample);
-      return;
-    }
-    if (what != Measure::count_alone)
-      set_signs(stability_signs(dynamics_, stiffness, at.frequency, how), sample);
-    if (what == Measure::signs || !is_known(sample)) return;
-    set_count(unstable_multipliers(dynamics_, stiffness, at.frequency, how), sample);
+    if (what == Measure::count_alone && stiffness.friction.empty())
+      return set_count(unstable_multipliers(dynamics_, stiffness, at.frequency, how), sample);
+    if (what == Measure::signs && stiffness.friction.empty())
+      return set_signs(stability_signs(dynamics_, stiffness, at.frequency, how), sample);
+    const SignsAndCount both = signs_and_count(dynamics_, stiffness, at.frequency, how);
+    set_signs(both.signs, sample);
+    if (is_known(sample)) set_count(both.count, sample);
   }
 
   static void set_signs(const StabilitySigns& signs, CurveSample& sample) {
@@ -191,7 +163,7 @@ class Tracker {
   void examine(const CurveSample& a, const CurveSample& b, int halvings) {
     const Difference between = difference(a, b);
     if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
-    const bool located = path_.distance(a.point, b.point) <= options_.tolerance * step_;
+    const bool located = motions_.path().distance(a.point, b.point) <= options_.tolerance * step_;
     const bool ends = located || std::ldexp(1.0, -halvings) < 0.01 * options_.tolerance;
     const bool signs = between.fold || between.flip;
     const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;
@@ -199,7 +171,7 @@ class Tracker {
     if (!middle) {
       for (const SpecialPointType type :
            events(between, reverses_between(a.point.parameter, b.point.parameter)))
-        add(special_point(type, a, b, located));
+        add(special_point(type, a.point, b.point, located));
       return;
     }
     examine(a, *middle, halvings + 1);
@@ -214,7 +186,7 @@ class Tracker {
     std::optional<CurveSample> found;
     for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) {
       CurveSample sample{{}, {}};
-      if (!path_.between(a, b, share, sample.point, farthest * step_)) continue;
+      if (!motions_.path().between(a, b, share, sample.point, farthest * step_)) continue;
       measure(sample, what);
       if (what == Measure::contacts || is_known(sample)) return sample;
       if (!found) found = std::move(sample);
@@ -274,28 +246,10 @@ class Tracker {
     if (!known || point.type == SpecialPointType::grazing) result_.special_points.push_back(std::move(point));
   }
 
-  SpecialPoint special_point(SpecialPointType type, const CurveSample& a, const CurveSample& b,
-                             bool located) {
-    SpecialPoint point;
-    point.type = type;
-    const double middle = 0.5 * (a.point.parameter + b.point.parameter);
-    (curve_.parameter == SweepParameter::frequency ? point.frequency : point.load_scale) = middle;
-    point.bracket = std::abs(a.point.parameter - b.point.parameter);
+  SpecialPoint special_point(SpecialPointType type, const CurvePoint& a, const CurvePoint& b, bool located) {
+    SpecialPoint point = motions_.special_point(type, a, b, index_);
     point.located = located;
-    point.next_point = index_;
-    point.unknown = a.point.displacement;
-    point.unknown_parameter = a.point.parameter;
-    const PeriodicResponse at = response(a.point);
-    if (curve_.parameter == SweepParameter::load_scale) point.frequency = problem_.load_frequency();
-    point.multiplier = type == SpecialPointType::grazing ? Complex(not_a_number, not_a_number)
-                                                         : critical_multiplier(type, at);
-    point.max_displacement = -std::numeric_limits<double>::infinity();
-    for (Eigen::Index c = 0; c < at.coefficients.cols(); ++c) {
-      const Eigen::VectorXd u = evaluator_(at.coefficients.col(c));
-      point.max_displacement = std::max(point.max_displacement, u.maxCoeff());
-      point.max_abs_displacement = std::max(point.max_abs_displacement, u.cwiseAbs().maxCoeff());
-      point.vibration = std::max(point.vibration, 0.5 * (u.maxCoeff() - u.minCoeff()));
-    }
+    if (type != SpecialPointType::grazing) point.multiplier = critical_multiplier(type, motions_.response(a));
     return point;
   }
 
@@ -303,7 +257,7 @@ class Tracker {
     FloquetOptions how;
     how.stability = with_harmonics_of(problem_.pair(), options_.stability);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
-    Complex nearest(not_a_number, not_a_number);
+    Complex nearest(missing, missing);
     const auto consider = [&](Complex multiplier) {
       if (!(distance_from(type, multiplier) >= distance_from(type, nearest))) nearest = multiplier;
     };
@@ -320,9 +274,7 @@ class Tracker {
   const FrequencySweep& curve_;
   const ContactDynamics& dynamics_;
   const CurveStabilityOptions& options_;
-  ContactSystem system_;
-  ArcLength path_;
-  TrialEvaluator evaluator_;
+  CurveMotions motions_;
   CurveStability result_;
   std::size_t index_ = 0;  // the point at the end of the piece that is examined
   double step_ = 0.0;      // its scaled arc length
@@ -359,12 +311,6 @@ CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& law
                                const FrequencySweep& curve, const ContactDynamics& dynamics,
                                const CurveStabilityOptions& options) {
   options.validate();
-  for (const SweepPoint& point : curve.points)
-    if (point.unknown.size() != problem.samples())
-      throw std::invalid_argument("curve_stability: a point of the curve has " +
-                                  std::to_string(point.unknown.size()) + " unknowns, but the problem has " +
-                                  std::to_string(problem.samples()) +
-                                  "; frequency_sweep() keeps them with keep_unknowns");
   return Tracker(problem, laws, curve, dynamics, options).run();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "linalg/dense.hpp"
 #include "linalg/gauss_rule.hpp"
@@ -28,15 +29,15 @@ std::optional<std::vector<ContactInterval>> resolved_pieces(const PeriodicStiffn
   const auto nodes = [harmonics](double length) { return gauss_nodes(harmonics, length); };
   std::vector<ContactInterval> pieces;
   for (const ContactInterval& interval : cut_intervals(stiffness)) {
-    const double error = allowed[std::size_t(interval.contact)];
-    if (interval.always() &&
-        is_resolved_periodically(stiffness, interval.contact, periodic_nodes(harmonics), error)) {
+    if (interval.always() && is_resolved_periodically(stiffness, interval.contact, periodic_nodes(harmonics),
+                                                      allowed[std::size_t(interval.contact)])) {
       pieces.push_back(interval);
       continue;
     }
-    const auto halves = resolved_halves(stiffness, interval, nodes, error, most);
+    const Piece whole{interval.begin, interval.end, {interval.contact}, 1};
+    const auto halves = resolved_halves(stiffness, whole, nodes, allowed, most);
     if (!halves) return std::nullopt;
-    pieces.insert(pieces.end(), halves->begin(), halves->end());
+    for (const Piece& half : *halves) pieces.push_back({interval.contact, half.begin, half.end});
   }
   return pieces;
 }
@@ -120,15 +121,6 @@ Eigen::MatrixXcd FloquetDeterminant::decaying(Eigen::MatrixXcd compliance) const
   return compliance;
 }
 
-// nodes x (2H + 2), exp(2 pi i n t), n = -H - 1..H.
-Eigen::MatrixXcd FloquetDeterminant::phases() const {
-  const Index count = harmonics_ + 2;
-  const Eigen::MatrixXcd upper = waves_.leftCols(count) + Complex(0.0, 1.0) * waves_.rightCols(count);
-  Eigen::MatrixXcd all(nodes(), 2 * harmonics_ + 2);
-  all << upper.rightCols(count - 1).conjugate().rowwise().reverse(), upper.leftCols(count - 1);
-  return all;
-}
-
 // sum_n g_n exp(2 pi i n (t_i - t_j)) w_j D(t_j) for each g, as from compliance(). With p_n = g_n + g_-n and
 // q_n = i (g_n - g_-n) it is sum_n p_n cos + q_n sin of 2 pi n (t_i - t_j), one real product per contact j.
 std::vector<Eigen::MatrixXcd> FloquetDeterminant::kernels(
@@ -189,58 +181,30 @@ FloquetDeterminant::Value FloquetDeterminant::operator()(Complex sigma) {
   return {lu.log_determinant(), lu.solve(matrices[1]).trace()};
 }
 
-Complex FloquetDeterminant::log(Complex sigma) {
-  if (sigma.imag() < 0.0) return std::conj(log(std::conj(sigma)));
-  return log_of(compliance(sigma, false));
-}
-
 Complex FloquetDeterminant::smooth_log(double nu) {
   const double x = 2.0 * nu / omega_;
   const double weight = x * x * x * x * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x)));
-  return log_of(weighted_compliance({0.0, nu}, weight, false));
-}
-
-Complex FloquetDeterminant::log_of(const ContactDynamics::Values& values) {
   ++evaluations_;
-  if (nodes() == 0) return 0.0;
-  Eigen::MatrixXcd matrix = kernels({&values.compliance}).front();
-  matrix.diagonal().array() += 1.0;
-  return detail::Lu<Complex>(matrix).log_determinant();
-}
-
-// Re sum over the harmonics first..H of weight * g_n exp(2 pi i (n + shift)(t_i - t_j)), whose other half is
-// the complex conjugate.
-int FloquetDeterminant::real_sign(double shift, int first) {
-  ++evaluations_;
-  if (nodes() == 0) return 1;
-  const Index count = harmonics_ + 1;
-  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(count, shift, harmonics_ + shift);
-  Eigen::MatrixXcd compliance = 2.0 * decaying(dynamics_.compliance(0.0, omega_ * orders).compliance);
-  if (first == 0) compliance.row(0) *= 0.5;
-  Eigen::MatrixXcd turned = phases().rightCols(count);
-  for (Index i = 0; i < turned.rows() && shift != 0.0; ++i)
-    turned.row(i) *= std::polar(1.0, two_pi * shift * time_[i]);
-  Eigen::MatrixXd result(nodes(), nodes()), left, right;
-  for (const Range& column : ranges_) {
-    const auto at = turned.middleRows(column.begin, column.count);
-    right.resize(column.count, 2 * count);
-    right << at.real(), at.imag();
-    right = weighted_.segment(column.begin, column.count).asDiagonal() * right;
-    for (const Range& row : ranges_) {
-      const Eigen::MatrixXcd moved =
-          turned.middleRows(row.begin, row.count) * compliance.col(pair(row, column)).asDiagonal();
-      left.resize(row.count, 2 * count);
-      left << moved.real(), moved.imag();
-      result.block(row.begin, column.begin, row.count, column.count) =
-          detail::product_transposed(left, right);
-    }
+  if (nodes() == 0) {
+    at_zero_ = at_half_ = 1;
+    return 0.0;
   }
-  result.diagonal().array() += 1.0;
-  return detail::Lu<double>(result).determinant_sign();
+  const Eigen::MatrixXcd compliance = weighted_compliance({0.0, nu}, weight, false).compliance;
+  Eigen::MatrixXcd matrix = kernels({&compliance}).front();
+  matrix.diagonal().array() += 1.0;
+  const Complex log = detail::Lu<Complex>(matrix).log_determinant();
+  // It is real at both ends.
+  const int sign = std::cos(log.imag()) < 0.0 ? -1 : 1;
+  if (x == 0.0) at_zero_ = sign;
+  if (x == 1.0) at_half_ = sign;
+  return log;
 }
 
-int FloquetDeterminant::sign_at_zero() { return real_sign(0.0, 0); }
-int FloquetDeterminant::sign_at_half() { return real_sign(0.5, 1); }
+// `known` is set by smooth_log().
+int FloquetDeterminant::sign_at(double nu, const int& known) {
+  if (known == 0) smooth_log(nu);
+  return known;
+}
 
 FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
   const Index count = 2 * harmonics_ + 1;
@@ -258,13 +222,12 @@ FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {
     vector = next / next.norm();
   }
   if (!((singular * vector).norm() < 1e-4 * singular.cwiseAbs().maxCoeff())) return mode;
-  const Eigen::MatrixXcd waves = phases().rightCols(count).conjugate();
   const Eigen::MatrixXcd responses = values.compliance.bottomRows(count);
-  for (const Range& column : ranges_) {
-    const Eigen::VectorXcd force = weighted_.segment(column.begin, column.count)
-                                       .cwiseProduct(vector.segment(column.begin, column.count));
-    mode.force.row(column.contact) = force.transpose() * waves.middleRows(column.begin, column.count);
-  }
+  for (const Range& range : ranges_)
+    for (Index j = range.begin; j < range.begin + range.count; ++j)
+      for (Index n = 0; n < count; ++n)
+        mode.force(range.contact, n) +=
+            weighted_[j] * vector[j] * std::polar(1.0, -two_pi * double(n - harmonics_) * time_[j]);
   for (int c = 0; c < dynamics_.contacts(); ++c)
     for (int d = 0; d < dynamics_.contacts(); ++d)
       mode.displacement.row(c) -=
@@ -289,16 +252,12 @@ struct Contacts {
 };
 
 Contacts extremes(const PeriodicStiffness& stiffness, int contacts) {
-  constexpr int samples = 8;
   Contacts result{Eigen::VectorXd::Zero(contacts), Eigen::VectorXd::Zero(contacts)};
   for (const ContactInterval& interval : cut_intervals(stiffness)) {
     double& longest = result.longest[interval.contact];
     longest = std::max(longest, interval.length());
-    for (int i = 0; i <= samples; ++i) {
-      const double time = interval.begin + interval.length() * i / samples;
-      double& largest = result.stiffness[interval.contact];
-      largest = std::max(largest, std::abs(stiffness.tangent(interval.contact, time)));
-    }
+    double& largest = result.stiffness[interval.contact];
+    largest = std::max(largest, largest_slope(stiffness.tangent, interval));
   }
   return result;
 }
@@ -326,8 +285,9 @@ double omitted(const Contacts& contacts, const Eigen::MatrixXcd& beyond, const E
   return worst;
 }
 
-}  // namespace
-
+// The least number of harmonics, `harmonics` or more by steps of a half up to `most`, beyond which contact
+// hardly matters, see StabilityOptions::max_omitted. Where high modes yield to contact like springs, the
+// compliance beyond H does not decay; its mean there is then taken as a compliance at once.
 Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                 double angular_frequency, int harmonics, int most, double max_omitted) {
   constexpr int samples = 9;
@@ -343,6 +303,18 @@ Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicS
     if (omitted(contacts, beyond, at_once, constant, harmonics) <= max_omitted) return {harmonics, at_once};
   }
   return {};
+}
+
+}  // namespace
+
+std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& dynamics,
+                                                        const PeriodicStiffness& stiffness, double frequency,
+                                                        int harmonics, int most, double max_omitted) {
+  const Truncation truncation =
+      resolving_truncation(dynamics, stiffness, two_pi * frequency, harmonics, most, max_omitted);
+  if (truncation.harmonics == 0) return std::nullopt;
+  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
+  return determinant.resolved() ? std::optional(std::move(determinant)) : std::nullopt;
 }
 
 StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {

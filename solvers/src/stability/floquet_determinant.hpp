@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
@@ -10,15 +11,9 @@ namespace wavebalance::solvers {
 
 /// How many harmonics represent perturbations, and with which compliances at once.
 struct Truncation {
-  int harmonics = 0;        ///< H; 0 where none of those tried are enough
+  int harmonics = 0;        ///< H; 0 for none
   Eigen::VectorXd at_once;  ///< C, m/N; empty for zero
 };
-
-/// The least number of harmonics, `harmonics` or more by steps of a half up to `most`, beyond which contact
-/// hardly matters, see StabilityOptions::max_omitted. Where high modes yield to contact like springs, the
-/// compliance beyond H does not decay; its mean there is then taken as a compliance at once.
-Truncation resolving_truncation(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                double angular_frequency, int harmonics, int most, double max_omitted);
 
 /// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative. Where
 /// Im sigma > 0 the harmonic n = -H - 1 is added with the weight 2 Im sigma / omega, so that Delta is real at
@@ -44,15 +39,13 @@ class FloquetDeterminant {
     std::complex<double> derivative;  ///< d log Delta / d sigma, s
   };
   Value operator()(std::complex<double> sigma);
-  /// Value::log alone, at a third of the cost.
-  std::complex<double> log(std::complex<double> sigma);
   /// The logarithm at i nu, 0 <= nu <= omega / 2, where the weight of the harmonic -H - 1 rises smoothly at
   /// both ends, so that Delta is a smooth function on the whole unit circle.
   std::complex<double> smooth_log(double nu);
 
-  /// The signs of Delta at 0 and at i omega / 2, by real arithmetic.
-  int sign_at_zero();
-  int sign_at_half();
+  /// The signs of Delta at 0 and at i omega / 2, without an evaluation after smooth_log() there.
+  int sign_at_zero() { return sign_at(0.0, at_zero_); }
+  int sign_at_half() { return sign_at(0.5 * omega_, at_half_); }
 
   /// The displacements at the contacts (C x (2H + 1), harmonics n = -H..H) of the vector on which the matrix
   /// is smallest, with their contact forces, scaled to the largest displacement 1. Zero displacements where
@@ -72,14 +65,12 @@ class FloquetDeterminant {
   ContactDynamics::Values compliance(std::complex<double> sigma, bool with_slope) const;
   ContactDynamics::Values weighted_compliance(std::complex<double> sigma, double weight,
                                               bool with_slope) const;
-  std::complex<double> log_of(const ContactDynamics::Values& values);
   Eigen::MatrixXcd decaying(Eigen::MatrixXcd compliance) const;
-  Eigen::MatrixXcd phases() const;
   std::vector<Eigen::MatrixXcd> kernels(const std::vector<const Eigen::MatrixXcd*>& compliances) const;
   void set_weighted_waves(const Eigen::MatrixXd& waves, const Range& row,
                           const Eigen::Ref<const Eigen::VectorXcd>& g,
                           Eigen::Ref<Eigen::MatrixXd> columns) const;
-  int real_sign(double shift, int first);
+  int sign_at(double nu, const int& known);
   Eigen::Index pair(const Range& row, const Range& column) const {
     return row.contact + column.contact * dynamics_.contacts();
   }
@@ -89,11 +80,19 @@ class FloquetDeterminant {
   int harmonics_;
   Eigen::VectorXd at_once_;  // C, m/N, taken out of the compliances
   int evaluations_ = 0;
+  int at_zero_ = 0, at_half_ = 0;  // signs; 0 before they are known
   bool resolved_ = true;
   std::vector<Range> ranges_;
   Eigen::VectorXd time_, weighted_;  // nodes, in periods; w_j D(t_j)
   Eigen::MatrixXd waves_;            // nodes x 2 (H + 2), cos(2 pi n t), then sin, n = 0..H + 1
 };
+
+/// The determinant with the least number of harmonics, `harmonics` or more by steps of a half up to `most`,
+/// beyond which contact hardly matters, see StabilityOptions::max_omitted. Nothing where none of those tried
+/// are enough or the rules of the pieces do not represent the stiffness.
+std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& dynamics,
+                                                        const PeriodicStiffness& stiffness, double frequency,
+                                                        int harmonics, int most, double max_omitted);
 
 /// Whether an exponent of the structure lies on the imaginary axis to rounding.
 bool has_undamped_pole(const ContactDynamics& dynamics, double angular_frequency);

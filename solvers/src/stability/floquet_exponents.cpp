@@ -6,11 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "linalg/dense.hpp"
-#include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/stability_checks.hpp"
+#include "stability/winding.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -18,7 +17,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using std::numbers::pi;
-constexpr int max_points = 1024;  // of the unit circle
 
 // log(1 - exp((zero - sigma) T)) and its derivative by sigma: a factor of the characteristic polynomial.
 FloquetDeterminant::Value factor(Complex zero, Complex sigma, double period) {
@@ -33,6 +31,7 @@ class CharacteristicPolynomial {
   explicit CharacteristicPolynomial(FloquetDeterminant& determinant)
       : determinant_(determinant), period_(2.0 * pi / determinant.angular_frequency()) {}
 
+  FloquetDeterminant& determinant() const { return determinant_; }
   double period() const { return period_; }
   std::vector<Complex>& found() { return found_; }
   // How many multipliers outside the unit circle are among those found.
@@ -41,22 +40,6 @@ class CharacteristicPolynomial {
     for (const Complex zero : found_)
       if (zero.real() > 0.0) count += is_pair(zero) ? 2 : 1;
     return count;
-  }
-
-  // Points of the unit circle that resolve the polynomial: four times the multipliers that have not decayed.
-  int points() const {
-    int lasting = 0, count = 32;
-    for (const ContactPole& pole : determinant_.dynamics().poles())
-      if (pole.exponent.real() * period_ > -3.5) lasting += pole.exponent.imag() == 0.0 ? 1 : 2;
-    while (count < 4 * lasting && count < max_points) count *= 2;
-    return count;
-  }
-
-  // The logarithm of F without `found`.
-  Complex log(Complex sigma) const {
-    FloquetDeterminant::Value value{determinant_.log(sigma), 0.0};
-    for (const ContactPole& pole : determinant_.dynamics().poles()) add(pole.exponent, sigma, 1.0, value);
-    return value.log;
   }
 
   FloquetDeterminant::Value operator()(Complex sigma) const {
@@ -86,58 +69,6 @@ class CharacteristicPolynomial {
   std::vector<Complex> found_;
 };
 
-// Coefficients of F as a polynomial in 1 / z from `count` (even) points of the unit circle.
-Eigen::VectorXd polynomial(const CharacteristicPolynomial& characteristic, int count) {
-  const int half = count / 2;
-  Eigen::VectorXcd values(half + 1);
-  const double step = 2.0 * pi / characteristic.period() / count;
-  for (int k = 0; k <= half; ++k) values[k] = characteristic.log({0.0, k * step});
-  const double scale = values.real().maxCoeff();
-  Eigen::VectorXd coefficients(half);
-  for (int j = 0; j < half; ++j) {
-    double sum = 0.0;
-    for (int k = 0; k <= half; ++k) {
-      const double angle = 2.0 * pi * double((long(j) * k) % count) / count;
-      sum +=
-          (k == 0 || k == half ? 1.0 : 2.0) * std::real(std::exp(values[k] - scale) * std::polar(1.0, angle));
-    }
-    coefficients[j] = sum / count;
-  }
-  return coefficients;
-}
-
-// How many coefficients exceed the noise of the truncated harmonics, that of the upper half of them.
-Index significant(const Eigen::VectorXd& coefficients) {
-  const Eigen::VectorXd sizes = coefficients.cwiseAbs();
-  const double noise = 4.0 * sizes.tail(sizes.size() / 2).maxCoeff();
-  Index count = sizes.size();
-  while (count > 1 && sizes[count - 1] <= std::max(noise, 1e-13 * sizes.maxCoeff())) --count;
-  return count;
-}
-
-// The multipliers above `least` in modulus as roots of the polynomial, by falling modulus, of each conjugate
-// pair the upper one.
-std::vector<Complex> approximate_multipliers(const CharacteristicPolynomial& characteristic, double least) {
-  Eigen::VectorXd coefficients;
-  Index count = 0;
-  for (int points = characteristic.points(); points <= max_points; points *= 2) {
-    coefficients = polynomial(characteristic, points);
-    count = significant(coefficients);
-    if (count < coefficients.size() / 2) break;
-  }
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(count - 1, count - 1);
-  if (count < 2) return {};
-  companion.row(0) = -coefficients.segment(1, count - 1).transpose() / coefficients[0];
-  companion.diagonal(-1).setOnes();
-  const Eigen::VectorXcd roots = detail::eigenvalues(companion);
-  std::vector<Complex> multipliers;
-  for (const Complex root : roots)
-    if (root.imag() >= 0.0 && std::abs(root) >= least) multipliers.push_back(root);
-  std::sort(multipliers.begin(), multipliers.end(),
-            [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
-  return multipliers;
-}
-
 // The exponent with 0 <= Im sigma <= omega / 2 of a multiplier or of its conjugate.
 Complex folded(Complex sigma, double period) {
   return {sigma.real(), std::abs(std::remainder(sigma.imag() * period, 2.0 * pi)) / period};
@@ -166,7 +97,7 @@ void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptio
   std::size_t wanted = starts.size();
   if (starts.empty()) {
     wanted = 2 * std::size_t(options.max_exponents) + 2;
-    for (const Complex multiplier : approximate_multipliers(characteristic, 1e-2))
+    for (const Complex multiplier : approximate_multipliers(characteristic.determinant(), 1e-2))
       starts.push_back(std::log(multiplier) / period);
   }
   std::vector<Complex>& found = characteristic.found();
@@ -225,19 +156,15 @@ FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const Period
   result.status = options.starts.empty() ? require_countable(dynamics, stiffness, 2.0 * pi * frequency)
                                          : require_stiffness(dynamics, stiffness);
   if (result.status != StabilityStatus::converged) return result;
-  const Truncation truncation =
-      resolving_truncation(dynamics, stiffness, 2.0 * pi * frequency, options.stability.harmonics,
-                           options.max_raise * options.stability.harmonics, options.stability.max_omitted);
-  result.harmonics = truncation.harmonics;
-  if (result.harmonics == 0) {
+  const int harmonics = options.stability.harmonics;
+  auto resolving = resolving_determinant(dynamics, stiffness, frequency, harmonics,
+                                         options.max_raise * harmonics, options.stability.max_omitted);
+  if (!resolving) {
     result.status = StabilityStatus::too_few_harmonics;
     return result;
   }
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (!determinant.resolved()) {
-    result.status = StabilityStatus::too_few_harmonics;
-    return result;
-  }
+  FloquetDeterminant& determinant = *resolving;
+  result.harmonics = determinant.harmonics();
   CharacteristicPolynomial characteristic(determinant);
   const double period = characteristic.period();
   find_exponents(characteristic, options);

@@ -5,6 +5,8 @@
 #include <functional>
 #include <utility>
 
+#include "linalg/root.hpp"
+
 namespace wavebalance::solvers {
 namespace {
 
@@ -58,19 +60,10 @@ class FrictionCurve {
 
 // The root of a function between two times, or the end at which it is smaller where it has one sign.
 double root_between(double low, double high, const std::function<double(double)>& value) {
-  constexpr int halvings = 60;
-  double at_low = value(low), at_high = value(high);
-  if (at_low * at_high > 0.0) return std::abs(at_low) < std::abs(at_high) ? low : high;
-  for (int i = 0; i < halvings && high - low > 1e-15; ++i) {
-    const double middle = 0.5 * (low + high), now = value(middle);
-    if ((now > 0.0) == (at_low > 0.0)) {
-      low = middle;
-      at_low = now;
-    } else {
-      high = middle;
-    }
-  }
-  return 0.5 * (low + high);
+  constexpr double rounding = 1e-11;
+  const double at_low = value(low), at_high = value(high);
+  return detail::root(value, {low, at_low}, {high, at_high}, rounding)
+      .value_or(std::abs(at_low) < std::abs(at_high) ? low : high);
 }
 
 // The instant between two samples at which one state gives way to another. `slider` is that of a stick.

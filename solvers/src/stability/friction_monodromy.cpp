@@ -8,6 +8,7 @@
 #include "linalg/multipliers.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/pole_states.hpp"
+#include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -15,9 +16,8 @@ namespace {
 using State = FrictionPart::State;
 
 bool acts(const PeriodicStiffness& stiffness, int contact, double time) {
-  return std::any_of(stiffness.intervals.begin(), stiffness.intervals.end(), [&](const ContactInterval& one) {
-    return one.contact == contact && (one.always() || (time >= one.begin && time < one.end) ||
-                                      (time + 1.0 >= one.begin && time + 1.0 < one.end));
+  return std::ranges::any_of(stiffness.intervals, [&](const ContactInterval& one) {
+    return one.contact == contact && lies_in(one, time);
   });
 }
 
@@ -58,8 +58,7 @@ class FrictionPropagator {
     const std::vector<double> cuts = cuts_of(stiffness_);
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       const double before = i > 0 ? 0.5 * (cuts[i - 1] + cuts[i]) : 0.5 * (cuts[cuts.size() - 2] + 1.0);
-      take_sliders(cuts[i], law_at(before), map);
-      release_sliders(cuts[i], map);
+      set_sliders(cuts[i], law_at(before), map);
       map = detail::product(over(cuts[i], cuts[i + 1]), map);
     }
     return map;
@@ -150,37 +149,28 @@ class FrictionPropagator {
     return Eigen::MatrixXd::Constant(before.rows(), before.cols(), missing);
   }
 
-  // Sliders of contacts that begin to stick at `time`, from the displacements just before.
-  void take_sliders(double time, const LocalLaw& before, Eigen::MatrixXd& map) const {
+  // The sliders from `time` on: of contacts that begin to stick from the displacements just before. Those
+  // that are not stuck, or always, have no part in the perturbation.
+  void set_sliders(double time, const LocalLaw& before, Eigen::MatrixXd& map) const {
+    Eigen::MatrixXd sliders = Eigen::MatrixXd::Zero(contacts(), map.cols());
     for (const FrictionAlong& contact : stiffness_.friction) {
       const FrictionPart& part = contact.part_at(time);
-      if (part.state != State::stick || part.begin != time || contact.always_sticks()) continue;
+      if (part.state != State::stick || contact.always_sticks()) continue;
       const FrictionConstants& constants = contact.constants;
+      const Index tangent = contact.row + constants.normal_rows;
+      sliders.middleRows(tangent, constants.tangents) =
+          map.middleRows(states_.size() + tangent, constants.tangents);
+      if (part.begin != time) continue;
       const Eigen::MatrixXd moved = detail::product(displacements(before), map);
-      for (Index i = 0; i < constants.tangents; ++i) {
-        const Index row = contact.row + constants.normal_rows + i;
-        Eigen::RowVectorXd slider = moved.row(row);
-        if (constants.normal_rows > 0)
-          slider -= (part.sign != 0.0 ? part.sign * constants.friction * constants.normal_stiffness /
-                                            constants.tangential_stiffness
-                                      : part.ratio) *
-                    moved.row(contact.row);
-        map.row(states_.size() + row) = slider;
+      const double ratio = part.sign != 0.0 ? part.sign * constants.friction * constants.normal_stiffness /
+                                                  constants.tangential_stiffness
+                                            : part.ratio;
+      for (Index row = tangent; row < tangent + constants.tangents; ++row) {
+        sliders.row(row) = moved.row(row);
+        if (constants.normal_rows > 0) sliders.row(row) -= ratio * moved.row(contact.row);
       }
     }
-  }
-
-  // Sliders that are not stuck from `time` on, or always, have no part in the perturbation.
-  void release_sliders(double time, Eigen::MatrixXd& map) const {
-    std::vector<bool> stuck(static_cast<std::size_t>(contacts()), false);
-    for (const FrictionAlong& contact : stiffness_.friction) {
-      const FrictionPart& part = contact.part_at(time);
-      if (contact.always_sticks() || part.state != State::stick) continue;
-      for (int i = 0; i < contact.constants.tangents; ++i)
-        stuck[static_cast<std::size_t>(contact.row + contact.constants.normal_rows + i)] = true;
-    }
-    for (Index row = 0; row < contacts(); ++row)
-      if (!stuck[static_cast<std::size_t>(row)]) map.row(states_.size() + row).setZero();
+    map.bottomRows(contacts()) = sliders;
   }
 
   const ContactDynamics& dynamics_;

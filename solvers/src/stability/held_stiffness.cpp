@@ -3,14 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "wavebalance/solvers/stability/contact_stiffness.hpp"
+#include "stability/smooth_pieces.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-bool lies_in(const ContactInterval& interval, double time) {
-  return time - interval.begin - std::floor(time - interval.begin) < interval.length();
-}
 
 // The intervals of one contact and those between them, by begin.
 std::vector<ContactInterval> whole_period(int contact, std::vector<ContactInterval> own) {

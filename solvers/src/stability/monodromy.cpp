@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -48,6 +49,13 @@ class Propagator {
 
   const PoleStates& states() const { return states_; }
 
+  // The states of all columns after the pieces.
+  Eigen::MatrixXd passed(const std::vector<Piece>& pieces, Eigen::MatrixXd states) const {
+    for (const Piece& piece : pieces) pass(piece, states);
+    return states;
+  }
+
+ private:
   void pass(const Piece& piece, Eigen::MatrixXd& states) const {
     if (stiffness_.impulse) strike(piece.begin, states);
     if (piece.closed.empty()) return states_.advance(piece.end - piece.begin, states);
@@ -60,14 +68,13 @@ class Propagator {
     }
   }
 
- private:
   // What all parts of one length share. Rows and columns are those of the closed contacts at the nodes, node
   // after node.
   struct PartMaps {
     Eigen::MatrixXd memory;                  // displacements from the forces in the part, m/N
     Eigen::MatrixXd free;                    // displacements from the states at its begin
     Eigen::MatrixXd impulses;                // states at its end from the forces
-    Eigen::MatrixXd memory_rate, free_rate;  // the same of velocities; empty where no law depends on them
+    Eigen::MatrixXd memory_rate, free_rate;  // the same of velocities; no rows where no law depends on them
   };
 
   // The forces that jump at `time`, where an interval begins or ends.
@@ -82,110 +89,80 @@ class Propagator {
       }
   }
 
+  // The displacements after an impulse rise from h(0), so that the velocities under a force f have h(0) f.
   PartMaps maps_of(const std::vector<int>& contacts, double length) const {
     const auto closed = Index(contacts.size());
     const Index nodes = rule_.points.size(), size = nodes * closed;
-    PartMaps maps{Eigen::MatrixXd::Zero(size, size),
-                  Eigen::MatrixXd(size, states_.size()),
-                  Eigen::MatrixXd(states_.size(), size),
-                  {},
-                  {}};
+    const bool rates = bool(stiffness_.damping);
+    PartMaps maps{Eigen::MatrixXd::Zero(size, size), Eigen::MatrixXd(size, states_.size()),
+                  Eigen::MatrixXd(states_.size(), size), Eigen::MatrixXd(rates ? size : 0, size),
+                  Eigen::MatrixXd(rates ? size : 0, states_.size())};
+    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(contacts, Eigen::all),
+                          moved = states_.free_velocity(0.0)(contacts, Eigen::all),
+                          struck = states_.after_impulse(0.0)(Eigen::all, contacts);
     for (Index i = 0; i < nodes; ++i) {
       const double point = rule_.points[i];
-      maps.free.middleRows(i * closed, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
-      maps.impulses.middleCols(i * closed, closed) =
+      const Index row = i * closed;
+      maps.free.middleRows(row, closed) = states_.free_motion(length * point)(contacts, Eigen::all);
+      maps.impulses.middleCols(row, closed) =
           length * period_ * rule_.weights[i] *
           states_.after_impulses(states_.growth(length * (1.0 - point)), contacts);
+      const Eigen::MatrixXd up_to_node = states_up_to_node(contacts, length, i);
+      maps.memory.middleRows(row, closed) = detail::product(displaced, up_to_node);
+      maps.memory.block(row, row, closed, closed) += dynamics_.constant()(contacts, contacts);
+      if (!rates) continue;
+      maps.free_rate.middleRows(row, closed) = states_.free_velocity(length * point)(contacts, Eigen::all);
+      maps.memory_rate.middleRows(row, closed) = detail::product(moved, up_to_node);
+      maps.memory_rate.block(row, row, closed, closed) += detail::product(displaced, struck);
     }
-    const Eigen::MatrixXd displaced = states_.free_motion(0.0)(contacts, Eigen::all);
-    for (Index i = 0; i < nodes; ++i) {
-      maps.memory.middleRows(i * closed, closed) =
-          detail::product(displaced, states_up_to_node(contacts, length, i));
-      maps.memory.block(i * closed, i * closed, closed, closed) += dynamics_.constant()(contacts, contacts);
-    }
-    if (stiffness_.damping) add_rates(contacts, length, maps);
     return maps;
   }
 
-  // The displacements after an impulse rise from h(0), so that the velocities under a force f have h(0) f.
-  void add_rates(const std::vector<int>& contacts, double length, PartMaps& maps) const {
-    const auto closed = Index(contacts.size());
-    const Index nodes = rule_.points.size(), size = nodes * closed;
-    maps.memory_rate.resize(size, size);
-    maps.free_rate.resize(size, states_.size());
-    const Eigen::MatrixXd at_once = detail::product(states_.free_motion(0.0)(contacts, Eigen::all),
-                                                    states_.after_impulse(0.0)(Eigen::all, contacts));
-    const Eigen::MatrixXd moved = states_.free_velocity(0.0)(contacts, Eigen::all);
-    for (Index i = 0; i < nodes; ++i) {
-      maps.free_rate.middleRows(i * closed, closed) =
-          states_.free_velocity(length * rule_.points[i])(contacts, Eigen::all);
-      maps.memory_rate.middleRows(i * closed, closed) =
-          detail::product(moved, states_up_to_node(contacts, length, i));
-      maps.memory_rate.block(i * closed, i * closed, closed, closed) += at_once;
-    }
-  }
-
-  // The same where laws depend on the velocity: f + D_u h * f + D_v h' * f = D_u u + D_v u' of free motion.
-  Eigen::MatrixXd damped_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
-                                const Eigen::VectorXd& tangent, const Eigen::MatrixXd& states) const {
-    Eigen::VectorXd damping(tangent.size());
+  // A slope of the closed contacts at the nodes of a part.
+  Eigen::VectorXd at_nodes(const std::function<double(int, double)>& slope, const Piece& piece, double begin,
+                           double length) const {
+    Eigen::VectorXd values(rule_.points.size() * Index(piece.closed.size()));
     Index row = 0;
     for (const double point : rule_.points)
-      for (const int contact : piece.closed)
-        damping[row++] = stiffness_.damping(contact, begin + length * point);
-    Eigen::MatrixXd matrix = tangent.asDiagonal() * maps.memory;
-    matrix += damping.asDiagonal() * maps.memory_rate;
-    matrix.diagonal().array() += 1.0;
-    Eigen::MatrixXd right = tangent.asDiagonal() * detail::product(maps.free, states);
-    right += damping.asDiagonal() * detail::product(maps.free_rate, states);
+      for (const int contact : piece.closed) values[row++] = slope(contact, begin + length * point);
+    return values;
+  }
+
+  // Forces f of the closed contacts at the nodes, one column per state: f + D_u h * f + D_v h' * f = D_u u +
+  // D_v u' of the free motion. A rigid contact, whose tangent is infinite, holds the displacement: h * f = u.
+  Eigen::MatrixXd contact_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
+                                 const Eigen::MatrixXd& states) const {
+    const Eigen::VectorXd tangent = at_nodes(stiffness_.tangent, piece, begin, length);
+    const auto rigid = tangent.array().isInf();
+    const Eigen::VectorXd slope = rigid.select(1.0, tangent);
+    Eigen::MatrixXd matrix = slope.asDiagonal() * maps.memory;
+    matrix.diagonal() += rigid.select(0.0, Eigen::VectorXd::Ones(tangent.size()));
+    const Eigen::MatrixXd free = detail::product(maps.free, states);
+    Eigen::MatrixXd right = slope.asDiagonal() * free;
+    if (stiffness_.coupling) {
+      const Eigen::MatrixXd coupling = coupling_at_nodes(piece, begin, length);
+      matrix += detail::product(coupling, maps.memory);
+      right += detail::product(coupling, free);
+    }
+    if (stiffness_.damping) {
+      const Eigen::VectorXd damping = at_nodes(stiffness_.damping, piece, begin, length);
+      matrix += damping.asDiagonal() * maps.memory_rate;
+      right += damping.asDiagonal() * detail::product(maps.free_rate, states);
+    }
     return detail::Lu<double>(matrix).solve(right);
   }
 
-  // Forces of the closed contacts at the nodes, one column per state: u + h * D u = free motion with f = D u.
-  Eigen::MatrixXd contact_forces(const Piece& piece, double begin, double length, const PartMaps& maps,
-                                 const Eigen::MatrixXd& states) const {
-    Eigen::VectorXd tangent(maps.memory.rows());
-    Index row = 0;
-    for (const double point : rule_.points)
-      for (const int contact : piece.closed)
-        tangent[row++] = stiffness_.tangent(contact, begin + length * point);
-    if (stiffness_.damping) return damped_forces(piece, begin, length, maps, tangent, states);
-    const Eigen::MatrixXd free = detail::product(maps.free, states);
-    if (!tangent.allFinite()) return forces_of_rigid(tangent, maps.memory, free);
-    if (stiffness_.coupling) return coupled_forces(piece, begin, length, maps.memory, tangent, free);
-    Eigen::MatrixXd matrix = maps.memory * tangent.asDiagonal();
-    matrix.diagonal().array() += 1.0;
-    return tangent.asDiagonal() * detail::Lu<double>(matrix).solve(free);
-  }
-
-  // The same where laws have several rows.
-  Eigen::MatrixXd coupled_forces(const Piece& piece, double begin, double length,
-                                 const Eigen::MatrixXd& memory, const Eigen::VectorXd& tangent,
-                                 const Eigen::MatrixXd& free) const {
-    Eigen::MatrixXd slopes = tangent.asDiagonal();
-    const auto closed = Index(piece.closed.size());
+  // The slopes of forces by displacements of other rows of their laws.
+  Eigen::MatrixXd coupling_at_nodes(const Piece& piece, double begin, double length) const {
+    const auto closed = Index(piece.closed.size()), size = rule_.points.size() * closed;
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, size);
     for (Index i = 0; i < rule_.points.size(); ++i)
       for (Index a = 0; a < closed; ++a)
         for (Index b = 0; b < closed; ++b)
           if (a != b)
             slopes(i * closed + a, i * closed + b) = stiffness_.coupling(
                 piece.closed[std::size_t(a)], piece.closed[std::size_t(b)], begin + length * rule_.points[i]);
-    Eigen::MatrixXd matrix = detail::product(memory, slopes);
-    matrix.diagonal().array() += 1.0;
-    return detail::product(slopes, detail::Lu<double>(matrix).solve(free));
-  }
-
-  // The same with rigid contacts, infinite tangents, which hold the displacement: f / D + h * f = free
-  // motion.
-  static Eigen::MatrixXd forces_of_rigid(const Eigen::VectorXd& tangent, Eigen::MatrixXd matrix,
-                                         Eigen::MatrixXd free) {
-    for (Index row = 0; row < tangent.size(); ++row) {
-      if (std::isinf(tangent[row])) continue;
-      matrix.row(row) *= tangent[row];
-      matrix(row, row) += 1.0;
-      free.row(row) *= tangent[row];
-    }
-    return detail::Lu<double>(matrix).solve(free);
+    return slopes;
   }
 
   // The states at node i by forces from the begin of a part on that are the polynomials of the nodes, n x
@@ -233,22 +210,16 @@ bool hold(const PoleStates& states, const std::vector<int>& closed, double lengt
 
 // Pieces in the order in which the longest free flight comes first, and its length in periods.
 double begin_with_free_flight(std::vector<Piece>& pieces) {
-  const auto length_from = [&](std::size_t first) {
-    double length = 0.0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const Piece& piece = pieces[(first + i) % pieces.size()];
-      if (!piece.closed.empty()) break;
-      length += piece.end - piece.begin;
-    }
-    return length;
-  };
-  std::size_t first = 0;
   double longest = 0.0;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (const double length = length_from(i); length > longest) {
-      first = i;
-      longest = length;
-    }
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    double length = 0.0;
+    for (std::size_t k = i; k < i + pieces.size() && pieces[k % pieces.size()].closed.empty(); ++k)
+      length += pieces[k % pieces.size()].end - pieces[k % pieces.size()].begin;
+    if (!(length > longest)) continue;
+    first = i;
+    longest = length;
+  }
   std::rotate(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end());
   return longest;
 }
@@ -292,9 +263,7 @@ Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicSti
   const Index size = propagator.states().size();
   const auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
   if (!resolving) return Eigen::MatrixXd::Constant(size, size, missing);
-  Eigen::MatrixXd map = Eigen::MatrixXd::Identity(size, size);
-  for (const Piece& piece : *resolving) propagator.pass(piece, map);
-  return map;
+  return propagator.passed(*resolving, Eigen::MatrixXd::Identity(size, size));
 }
 
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
@@ -314,44 +283,29 @@ double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiff
   return operations;
 }
 
-namespace {
-
-// The map of the states that a free flight leaves, with which it begins: what it leaves nothing of has
-// columns of zeros, and so multipliers of zero. Nothing where contact is too stiff.
-struct LastingMap {
-  Index states;  // all of them
-  std::optional<Eigen::MatrixXd> map;
-};
-
-LastingMap lasting_map(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
-                       double frequency, const MonodromyOptions& options) {
+// What a free flight leaves nothing of has columns of zeros.
+std::optional<Eigen::MatrixXd> lasting_map(const ContactDynamics& dynamics,
+                                           const PeriodicStiffness& of_contacts, double frequency,
+                                           const MonodromyOptions& options) {
   const PeriodicStiffness stiffness = checked_stiffness(dynamics, of_contacts, frequency, options);
   const Propagator propagator(dynamics, stiffness, 1.0 / frequency, options.nodes);
-  LastingMap result{propagator.states().size(), std::nullopt};
   auto resolving = resolving_pieces(dynamics, stiffness, frequency, options);
-  if (!resolving) return result;
+  if (!resolving) return std::nullopt;
+  const Index size = propagator.states().size();
   const auto left = propagator.states().left_after(begin_with_free_flight(*resolving));
-  Eigen::MatrixXd states = Eigen::MatrixXd::Identity(result.states, result.states)(Eigen::all, left);
-  for (const Piece& piece : *resolving) propagator.pass(piece, states);
-  if (states.allFinite()) result.map = states(left, Eigen::all);
-  return result;
+  const Eigen::MatrixXd states =
+      propagator.passed(*resolving, Eigen::MatrixXd::Identity(size, size)(Eigen::all, left));
+  return states.allFinite() ? std::optional<Eigen::MatrixXd>(states(left, Eigen::all)) : std::nullopt;
 }
-
-}  // namespace
 
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                            double frequency, const MonodromyOptions& options) {
-  const LastingMap lasting = lasting_map(dynamics, stiffness, frequency, options);
-  if (!lasting.map) return Eigen::VectorXcd::Constant(lasting.states, missing);
-  Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(lasting.states);
-  multipliers.head(lasting.map->rows()) = detail::map_multipliers(*lasting.map);
+  const auto map = lasting_map(dynamics, stiffness, frequency, options);
+  const Index states = PoleStates(dynamics, 1.0 / frequency).size();
+  if (!map) return Eigen::VectorXcd::Constant(states, missing);
+  Eigen::VectorXcd multipliers = Eigen::VectorXcd::Zero(states);
+  multipliers.head(map->rows()) = detail::map_multipliers(*map);
   return multipliers;
-}
-
-int monodromy_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                    const MonodromyOptions& options) {
-  const LastingMap lasting = lasting_map(dynamics, stiffness, frequency, options);
-  return lasting.map ? detail::count_outside_circle(*lasting.map) : -1;
 }
 
 Eigen::VectorXcd rigid_monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& contact,

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -12,13 +14,14 @@ namespace wavebalance::solvers {
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options);
 
-/// How many values of monodromy() lie outside the unit circle; -1 where these are NaN. Less work where none
-/// do.
-int monodromy_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                    const MonodromyOptions& options = {});
+/// The part of such a map that has all multipliers but zeros: of the states that the longest free flight
+/// leaves, with which it begins. Nothing where contact is too stiff.
+std::optional<Eigen::MatrixXd> lasting_map(const ContactDynamics& dynamics,
+                                           const PeriodicStiffness& stiffness, double frequency,
+                                           const MonodromyOptions& options = {});
 
-/// Real operations that monodromy() takes, or monodromy_count() of a stable motion, estimated: factorizations
-/// and substitutions of the parts, and the eigenvalues or powers.
+/// Real operations that monodromy() takes, or lasting_map() and its powers of a stable motion, estimated:
+/// factorizations and substitutions of the parts, and the eigenvalues or powers.
 double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                             double frequency, bool eigenvalues, const MonodromyOptions& options);
 

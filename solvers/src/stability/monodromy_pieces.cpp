@@ -10,11 +10,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-bool is_closed(const ContactInterval& interval, double time) {
-  const double since = time - interval.begin - std::floor(time - interval.begin);
-  return since < interval.length();
-}
-
 double largest_exponent(const ContactDynamics& dynamics) {
   double largest = 0.0;
   for (const ContactPole& pole : dynamics.poles()) largest = std::max(largest, std::abs(pole.exponent));
@@ -33,55 +28,16 @@ double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& st
     jump += squares.real();
     rise += (pole.exponent * squares).real();
   }
-  constexpr int samples = 8;
   double fastest = 0.0;
-  for (const ContactInterval& interval : intervals)
-    for (int i = 0; i <= samples; ++i) {
-      const double time = interval.begin + interval.length() * i / samples;
-      const double stop = std::abs(stiffness.tangent(interval.contact, time));
-      const double yielding = dynamics.constant()(interval.contact, interval.contact);
-      const double tangent = std::isinf(stop) ? 1.0 / yielding : stop / (1.0 + yielding * stop);
-      fastest = std::max({fastest, std::abs(jump[interval.contact]) * tangent,
-                          std::sqrt(std::abs(rise[interval.contact]) * tangent)});
-      if (stiffness.damping)
-        fastest =
-            std::max(fastest, std::abs(rise[interval.contact] * stiffness.damping(interval.contact, time)));
-    }
-  return fastest;
-}
-
-// A piece whose parts resolve the stiffness of its closed contacts, or what it is halved into where they do
-// not; nothing of more than `most` parts.
-std::optional<std::vector<Piece>> halved(const PeriodicStiffness& stiffness, const Piece& whole, int nodes,
-                                         const std::vector<double>& allowed, int most) {
-  const auto resolves = [&](const Piece& piece) {
-    const double length = (piece.end - piece.begin) / piece.parts;
-    for (const int contact : piece.closed)
-      for (int part = 0; part < piece.parts; ++part) {
-        const double begin = piece.begin + part * length;
-        if (!is_resolved(stiffness, {contact, begin, begin + length}, nodes,
-                         allowed[static_cast<std::size_t>(contact)]))
-          return false;
-      }
-    return true;
-  };
-  std::vector<Piece> waiting{whole}, result;
-  int count = whole.parts;
-  while (!waiting.empty()) {
-    const Piece piece = waiting.back();
-    waiting.pop_back();
-    if (resolves(piece)) {
-      result.push_back(piece);
-      continue;
-    }
-    const int parts = (piece.parts + 1) / 2;
-    count += 2 * parts - piece.parts;
-    if (count > most) return std::nullopt;
-    const double middle = 0.5 * (piece.begin + piece.end);
-    waiting.push_back({middle, piece.end, piece.closed, parts});
-    waiting.push_back({piece.begin, middle, piece.closed, parts});
+  for (const ContactInterval& interval : intervals) {
+    const int c = interval.contact;
+    const double stop = largest_slope(stiffness.tangent, interval), yielding = dynamics.constant()(c, c);
+    const double tangent = std::isinf(stop) ? 1.0 / yielding : stop / (1.0 + yielding * stop);
+    fastest = std::max({fastest, std::abs(jump[c]) * tangent, std::sqrt(std::abs(rise[c]) * tangent)});
+    if (stiffness.damping)
+      fastest = std::max(fastest, std::abs(rise[c]) * largest_slope(stiffness.damping, interval));
   }
-  return result;
+  return fastest;
 }
 
 // The pieces as intervals of each of their closed contacts.
@@ -105,7 +61,7 @@ std::vector<Piece> pieces(const PeriodicStiffness& stiffness, double longest) {
     if (!(length > 0.0)) continue;
     std::vector<int> closed;
     for (const ContactInterval& interval : stiffness.intervals)
-      if (is_closed(interval, middle)) closed.push_back(interval.contact);
+      if (lies_in(interval, middle)) closed.push_back(interval.contact);
     const int parts = closed.empty() ? 1 : std::max(1, int(std::ceil(length / longest)));
     result.push_back({ends[i - 1], ends[i], std::move(closed), parts});
   }
@@ -122,7 +78,8 @@ std::optional<std::vector<Piece>> resolving_pieces(const ContactDynamics& dynami
   std::vector<Piece> result;
   for (const Piece& piece :
        pieces(stiffness, phase / std::clamp(largest_exponent(dynamics), contact, resolved))) {
-    const auto parts = halved(stiffness, piece, options.nodes, allowed, options.max_pieces + piece.parts);
+    const auto parts = resolved_halves(
+        stiffness, piece, [&](double) { return options.nodes; }, allowed, options.max_pieces + piece.parts);
     if (!parts) return std::nullopt;
     result.insert(result.end(), parts->begin(), parts->end());
   }

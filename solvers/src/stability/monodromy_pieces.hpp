@@ -2,16 +2,10 @@
 #include <optional>
 #include <vector>
 
+#include "stability/smooth_pieces.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
-
-/// A piece of the period in which the same contacts are closed, in periods.
-struct Piece {
-  double begin, end;
-  std::vector<int> closed;
-  int parts;  // equal ones, each short enough
-};
 
 /// Pieces between all instants of opening and closing, no part longer than `longest` while a contact is
 /// closed.

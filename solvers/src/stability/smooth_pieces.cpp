@@ -55,8 +55,10 @@ bool is_close(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& fitted, doub
   return errors.size() < 2 || errors[1] <= 1e-4 * slopes.row(1).cwiseAbs().maxCoeff();
 }
 
-}  // namespace
-
+// Whether `nodes` Gauss nodes between two times (in periods) resolve the stiffness of a contact, and its
+// damping: two thirds of the Legendre polynomials that they determine differ from it by at most `allowed`
+// N/m times periods (N s/m times periods), in the mean square over points between the nodes. O(nodes^3), and
+// O(1) where it is constant.
 bool is_resolved(const PeriodicStiffness& stiffness, const ContactInterval& interval, int nodes,
                  double allowed) {
   const QuadratureRule rule = gauss_rule(nodes);
@@ -70,6 +72,8 @@ bool is_resolved(const PeriodicStiffness& stiffness, const ContactInterval& inte
   const Eigen::MatrixXd fitted = coefficients * legendre(between, degrees).transpose();
   return is_close(at_points, fitted, allowed / interval.length());
 }
+
+}  // namespace
 
 bool is_resolved_periodically(const PeriodicStiffness& stiffness, int contact, int nodes, double allowed) {
   const ContactInterval period{contact, 0.0, 1.0};
@@ -123,24 +127,48 @@ std::vector<ContactInterval> cut_intervals(const PeriodicStiffness& stiffness) {
   return pieces;
 }
 
-std::optional<std::vector<ContactInterval>> resolved_halves(const PeriodicStiffness& stiffness,
-                                                            const ContactInterval& interval,
-                                                            const std::function<int(double length)>& nodes,
-                                                            double allowed, int most) {
-  std::vector<ContactInterval> waiting{interval}, pieces;
+double largest_slope(const std::function<double(int contact, double time)>& slope,
+                     const ContactInterval& interval) {
+  constexpr int samples = 8;
+  double largest = 0.0;
+  for (int i = 0; i <= samples; ++i) {
+    const double time = interval.begin + interval.length() * i / samples;
+    largest = std::max(largest, std::abs(slope(interval.contact, time)));
+  }
+  return largest;
+}
+
+std::optional<std::vector<Piece>> resolved_halves(const PeriodicStiffness& stiffness, const Piece& whole,
+                                                  const std::function<int(double length)>& nodes,
+                                                  const std::vector<double>& allowed, int most) {
+  const auto resolves = [&](const Piece& piece) {
+    const double length = (piece.end - piece.begin) / piece.parts;
+    for (const int contact : piece.closed)
+      for (int part = 0; part < piece.parts; ++part) {
+        const double begin = piece.begin + part * length;
+        if (!is_resolved(stiffness, {contact, begin, begin + length}, nodes(length),
+                         allowed[static_cast<std::size_t>(contact)]))
+          return false;
+      }
+    return true;
+  };
+  std::vector<Piece> waiting{whole}, result;
+  int count = whole.parts;
   while (!waiting.empty()) {
-    const ContactInterval piece = waiting.back();
+    const Piece piece = waiting.back();
     waiting.pop_back();
-    if (is_resolved(stiffness, piece, nodes(piece.length()), allowed)) {
-      pieces.push_back(piece);
+    if (resolves(piece)) {
+      result.push_back(piece);
       continue;
     }
-    if (int(pieces.size() + waiting.size()) + 2 > most) return std::nullopt;
+    const int parts = (piece.parts + 1) / 2;
+    count += 2 * parts - piece.parts;
+    if (count > most) return std::nullopt;
     const double middle = 0.5 * (piece.begin + piece.end);
-    waiting.push_back({piece.contact, middle, piece.end});
-    waiting.push_back({piece.contact, piece.begin, middle});
+    waiting.push_back({middle, piece.end, piece.closed, parts});
+    waiting.push_back({piece.begin, middle, piece.closed, parts});
   }
-  return pieces;
+  return result;
 }
 
 }  // namespace wavebalance::solvers

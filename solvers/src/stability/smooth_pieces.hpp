@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -7,15 +8,14 @@
 
 namespace wavebalance::solvers {
 
-/// Whether `nodes` Gauss nodes between two times (in periods) resolve the stiffness of a contact, and its
-/// damping: two thirds of the Legendre polynomials that they determine differ from it by at most `allowed`
-/// N/m times periods (N s/m times periods), in the mean square over points between the nodes.
-/// O(nodes^3), and O(1) where it is constant.
-bool is_resolved(const PeriodicStiffness& stiffness, const ContactInterval& interval, int nodes,
-                 double allowed);
+/// Whether a time, in periods, lies in an interval or a whole number of periods away from such a one.
+inline bool lies_in(const ContactInterval& interval, double time) {
+  return time - interval.begin - std::floor(time - interval.begin) < interval.length();
+}
 
-/// The same of equal weights at `nodes` equidistant times of a period, and of its harmonics below a third of
-/// these. O(nodes^2).
+/// Whether equal weights at `nodes` equidistant times of a period resolve the stiffness of a contact, and its
+/// damping: the harmonics below a third of these differ from it by at most `allowed` N/m (N s/m) in the mean
+/// square over points between the nodes. O(nodes^2), and O(1) where it is constant.
 bool is_resolved_periodically(const PeriodicStiffness& stiffness, int contact, int nodes, double allowed);
 
 /// What a rule of a piece may leave out of the stiffness of each contact: 1e-4 of the integral of its modulus
@@ -25,11 +25,21 @@ std::vector<double> allowed_errors(const PeriodicStiffness& stiffness);
 /// The intervals of contact cut at `stiffness.cuts`.
 std::vector<ContactInterval> cut_intervals(const PeriodicStiffness& stiffness);
 
-/// An interval halved until is_resolved() with `nodes(length)` Gauss nodes; nothing where more than `most`
-/// pieces are needed.
-std::optional<std::vector<ContactInterval>> resolved_halves(const PeriodicStiffness& stiffness,
-                                                            const ContactInterval& interval,
-                                                            const std::function<int(double length)>& nodes,
-                                                            double allowed, int most);
+/// The largest modulus of a slope of a contact at nine times of an interval.
+double largest_slope(const std::function<double(int contact, double time)>& slope,
+                     const ContactInterval& interval);
+
+/// A piece of the period in which the same contacts are closed, in periods.
+struct Piece {
+  double begin, end;
+  std::vector<int> closed;
+  int parts;  // equal ones, each short enough
+};
+
+/// A piece whose parts are resolved for all closed contacts with `nodes(length)` Gauss nodes and
+/// allowed_errors(), or what it is halved into where they are not; nothing of more than `most` parts.
+std::optional<std::vector<Piece>> resolved_halves(const PeriodicStiffness& stiffness, const Piece& whole,
+                                                  const std::function<int(double length)>& nodes,
+                                                  const std::vector<double>& allowed, int most);
 
 }  // namespace wavebalance::solvers

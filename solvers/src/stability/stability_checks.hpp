@@ -19,12 +19,12 @@ std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dyn
                                                       const PeriodicStiffness& stiffness, double frequency,
                                                       const StabilityOptions& options);
 
-/// Signs and count of a motion with friction, by one map of a period.
-struct FrictionVerdict {
+/// Signs and, where they are known, count of one motion.
+struct SignsAndCount {
   StabilitySigns signs;
   UnstableMultipliers count;
 };
-FrictionVerdict friction_verdict(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                 double frequency, const StabilityOptions& options);
+SignsAndCount signs_and_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                              double frequency, const StabilityOptions& options);
 
 }  // namespace wavebalance::solvers

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linalg/option_checks.hpp"
+#include "stability/branch_arrival.hpp"
 #include "stability/perturbation.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
@@ -82,41 +83,25 @@ class Search {
     const int before = periods(response);
     const Eigen::VectorXd direction = way.unknown(response.series_flexibility);
     const double rms = response.unknown.norm() / std::sqrt(double(response.unknown.size()));
+    const int load = problem_.periods();
+    const CurvePoint here = curve_point(response.unknown, wanted * load);
     std::optional<PeriodicResponse> found;
     for (const double size : {0.03, 0.1, -0.03, -0.1}) {
-      const auto start = beside(response, size * rms * direction, rms);
+      ContactSystem system(problem_, laws_, response.series_flexibility);
+      const auto start = motion_beside(system, here, size * rms * direction, {rms, 0.1 * here.parameter});
       if (!start || start->response.frequency == wanted) continue;
-      const int load = problem_.periods();
       const FrequencySweep curve = frequency_sweep(
           problem_, laws_, towards(load * start->response.frequency, load * wanted, rms), *start);
       if (curve.status != SweepStatus::reached_end) continue;
       problem_.set_frequency(wanted);
-      ContactSystem system(problem_, laws_, response.series_flexibility);
-      PeriodicResponse last = response_at(system, curve.points.back().unknown);
+      ContactSystem at_wanted(problem_, laws_, response.series_flexibility);
+      PeriodicResponse last = response_at(at_wanted, curve.points.back().unknown);
       last.strategy = Strategy::perturbation;
       if (periods(last) > before) found = std::move(last);
       if (found) break;
     }
     problem_.set_frequency(wanted);
     return found;
-  }
-
-  // The solution in the plane perpendicular to `change` through its end, at whatever frequency.
-  std::optional<SweepStart> beside(const PeriodicResponse& response, const Eigen::VectorXd& change,
-                                   double rms) {
-    ContactSystem system(problem_, laws_, response.series_flexibility);
-    const FrequencyParameter frequency;
-    ArcLengthOptions lengths;
-    lengths.displacement_scale = rms;
-    lengths.parameter_scale = 0.1 * response.frequency * problem_.periods();
-    lengths.max_corrections = 32;
-    CurvePoint here, beyond, first;
-    here.displacement = response.unknown;
-    beyond.displacement = response.unknown + 2.0 * change;
-    here.parameter = beyond.parameter = response.frequency * problem_.periods();
-    if (!ArcLength(system, frequency, lengths).between(here, beyond, 0.5, first)) return std::nullopt;
-    problem_.set_load_frequency(first.parameter);
-    return SweepStart{response_at(system, first.displacement), change, {}};
   }
 
   FrequencySweepOptions towards(double from, double to, double rms) const {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "linalg/dense.hpp"
 #include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
@@ -42,13 +43,6 @@ int affordable_evaluations(const FloquetDeterminant& determinant, const Stabilit
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
 }
 
-// Without harmonics where those of the options do not represent perturbations in contact.
-Truncation truncation_of(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                         double frequency, const StabilityOptions& options) {
-  return resolving_truncation(dynamics, stiffness, 2.0 * pi * frequency, options.harmonics, options.harmonics,
-                              options.max_omitted);
-}
-
 bool has_monodromy(const ContactDynamics& dynamics, int max_states) {
   return !dynamics.reduced() && 2 * int(dynamics.poles().size()) <= max_states;
 }
@@ -67,6 +61,7 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
 // contact that deflects at once would need the rate of its force.
 StabilityStatus status_of_damped(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                  const StabilityOptions& options) {
+  if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
   if (stiffness.damping && dynamics.constant().diagonal().cwiseAbs().maxCoeff() > 0.0)
     return StabilityStatus::coupled_massless;
@@ -78,63 +73,6 @@ UnstableMultipliers without_count(StabilityStatus status) {
   UnstableMultipliers result;
   result.status = status;
   return result;
-}
-
-// Where multipliers on the unit circle leave the count open.
-StabilityStatus status_on_circle(const ContactDynamics& dynamics, double frequency) {
-  return has_undamped_pole(dynamics, 2.0 * pi * frequency) ? StabilityStatus::undamped
-                                                           : StabilityStatus::on_unit_circle;
-}
-
-UnstableMultipliers count_of(const Eigen::VectorXcd& multipliers, const ContactDynamics& dynamics,
-                             double frequency) {
-  UnstableMultipliers result;
-  result.count = detail::count_outside(multipliers);
-  if (result.count < 0) result.status = status_on_circle(dynamics, frequency);
-  result.winding = result.count;
-  if (multipliers.size() > 0) result.leading = {multipliers[0].real(), std::abs(multipliers[0].imag())};
-  return result;
-}
-
-std::optional<UnstableMultipliers> counted_by_monodromy(const ContactDynamics& dynamics,
-                                                        const PeriodicStiffness& stiffness, double frequency,
-                                                        const StabilityOptions& options) {
-  if (options.leading) {
-    const auto multipliers = by_monodromy(dynamics, stiffness, frequency, options);
-    return multipliers ? std::optional(count_of(*multipliers, dynamics, frequency)) : std::nullopt;
-  }
-  UnstableMultipliers result;
-  if (has_monodromy(dynamics, options.max_states))
-    result.count = monodromy_count(dynamics, stiffness, frequency);
-  if (result.count < 0) return std::nullopt;
-  result.winding = result.count;
-  return result;
-}
-
-// The multipliers of a motion with friction; nothing and the reason where they are not known.
-std::optional<Eigen::VectorXcd> by_friction(const ContactDynamics& dynamics,
-                                            const PeriodicStiffness& stiffness, double frequency,
-                                            const StabilityOptions& options, StabilityStatus& status) {
-  status = stiffness.status;
-  if (dynamics.structurally_damped()) status = StabilityStatus::structural_damping;
-  if (!has_monodromy(dynamics, options.max_states_with_friction)) status = StabilityStatus::too_many_states;
-  if (status != StabilityStatus::converged) return std::nullopt;
-  Eigen::VectorXcd multipliers = friction_monodromy(dynamics, stiffness, frequency);
-  if (!multipliers.allFinite()) status = StabilityStatus::too_few_harmonics;
-  return status == StabilityStatus::converged ? std::optional(std::move(multipliers)) : std::nullopt;
-}
-
-// The count for rigid contact, where it has a limit.
-UnstableMultipliers rigid_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& contact,
-                                      double frequency, const StabilityOptions& options) {
-  UnstableMultipliers result = without_count(contact.status);
-  if (dynamics.structurally_damped()) result.status = StabilityStatus::structural_damping;
-  if (dynamics.structurally_damped() || dynamics.holding() > 0.0 || contact.intervals.empty() ||
-      !has_monodromy(dynamics, options.max_states))
-    return result;
-  const Eigen::VectorXcd multipliers = rigid_monodromy(dynamics, contact, frequency);
-  if (!multipliers.allFinite()) return result;
-  return count_of(multipliers, dynamics, frequency);
 }
 
 int unstable_poles(const ContactDynamics& dynamics) {
@@ -173,62 +111,92 @@ void require_stability_arguments(const char* who, const ContactDynamics& dynamic
 
 namespace {
 
-// What is known before anything is computed.
-StabilityStatus status_before(const char* who, const ContactDynamics& dynamics,
-                              const PeriodicStiffness& stiffness, double frequency,
-                              const StabilityOptions& options) {
-  options.validate();
-  if (stiffness.status != StabilityStatus::converged) return stiffness.status;
-  require_stability_arguments(who, dynamics, stiffness, frequency, options.harmonics);
-  return require_countable(dynamics, stiffness, 2.0 * pi * frequency);
+// By what the multipliers of a motion are known: a determinant, or without one a map of the period; or why
+// they are not.
+struct Way {
+  StabilityStatus status = StabilityStatus::converged;
+  PeriodicStiffness stiffness = {};  // of the structure as it is held
+  std::optional<FloquetDeterminant> determinant = std::nullopt;
+  std::optional<Eigen::VectorXcd> multipliers = std::nullopt;  // with friction and of rigid contact
+};
+
+Way way_of_friction(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                    const StabilityOptions& options) {
+  Way way{stiffness.status};
+  if (dynamics.structurally_damped()) way.status = StabilityStatus::structural_damping;
+  if (!has_monodromy(dynamics, options.max_states_with_friction))
+    way.status = StabilityStatus::too_many_states;
+  if (way.status != StabilityStatus::converged) return way;
+  way.multipliers = friction_monodromy(dynamics, stiffness, frequency);
+  if (!way.multipliers->allFinite()) way.status = StabilityStatus::too_few_harmonics;
+  return way;
 }
 
-}  // namespace
-
-std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
-                                                      const PeriodicStiffness& of_contacts, double frequency,
-                                                      const StabilityOptions& options) {
-  StabilityStatus status;
-  if (!of_contacts.friction.empty()) return by_friction(dynamics, of_contacts, frequency, options, status);
-  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  if (stiffness.needs_map() ||
-      status_before("multipliers", dynamics, stiffness, frequency, options) != StabilityStatus::converged)
-    return std::nullopt;
-  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0) return std::nullopt;
-  const FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (!determinant.resolved() || !is_costly(determinant, stiffness, frequency, true)) return std::nullopt;
-  return by_monodromy(dynamics, stiffness, frequency, options);
+// Rigid contact has a limit without mass.
+Way way_of_rigid(const ContactDynamics& dynamics, const PeriodicStiffness& contact, double frequency,
+                 const StabilityOptions& options) {
+  if (dynamics.structurally_damped()) return {StabilityStatus::structural_damping};
+  Way way{contact.status};
+  if (dynamics.holding() > 0.0 || contact.intervals.empty() || !has_monodromy(dynamics, options.max_states))
+    return way;
+  way.multipliers = rigid_monodromy(dynamics, contact, frequency);
+  if (way.multipliers->allFinite()) way.status = StabilityStatus::converged;
+  return way;
 }
 
-UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
-                                         const PeriodicStiffness& of_contacts, double frequency,
-                                         const StabilityOptions& options) {
-  if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).count;
-  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  if (stiffness.needs_map() && dynamics.structurally_damped())
-    return without_count(StabilityStatus::structural_damping);
-  if (stiffness.needs_map()) {
-    const StabilityStatus status = status_of_damped(dynamics, stiffness, options);
-    if (status != StabilityStatus::converged) return without_count(status);
-    return counted_by_monodromy(dynamics, stiffness, frequency, options)
-        .value_or(without_count(StabilityStatus::too_few_harmonics));
+Way way_of(const char* who, const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
+           double frequency, const StabilityOptions& options) {
+  if (!of_contacts.friction.empty()) return way_of_friction(dynamics, of_contacts, frequency, options);
+  Way way{{}, held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding())};
+  if (way.stiffness.needs_map()) {
+    way.status = status_of_damped(dynamics, way.stiffness, options);
+    return way;
   }
+  options.validate();
+  way.status = way.stiffness.status;
+  if (way.status != StabilityStatus::converged) return way;
+  require_stability_arguments(who, dynamics, way.stiffness, frequency, options.harmonics);
+  way.status = require_countable(dynamics, way.stiffness, 2.0 * pi * frequency);
+  if (way.status != StabilityStatus::converged) return way;
+  // Where these harmonics do not represent perturbations in contact, the map does.
+  if (auto found = resolving_determinant(dynamics, way.stiffness, frequency, options.harmonics,
+                                         options.harmonics, options.max_omitted))
+    way.determinant.emplace(*std::move(found));
+  return way;
+}
+
+// All multipliers by a map; nothing where contact is too stiff for it, too.
+std::optional<Eigen::VectorXcd> multipliers_of(const Way& way, const ContactDynamics& dynamics,
+                                               double frequency, const StabilityOptions& options) {
+  return way.multipliers ? way.multipliers : by_monodromy(dynamics, way.stiffness, frequency, options);
+}
+
+std::optional<UnstableMultipliers> counted_by_map(const Way& way, const ContactDynamics& dynamics,
+                                                  double frequency, const StabilityOptions& options) {
   UnstableMultipliers result;
-  result.status = status_before("unstable_multipliers", dynamics, stiffness, frequency, options);
-  if (result.status != StabilityStatus::converged) return result;
-  const Truncation truncation = truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0)
-    return counted_by_monodromy(dynamics, stiffness, frequency, options)
-        .value_or(without_count(StabilityStatus::too_few_harmonics));
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (!determinant.resolved())
-    return counted_by_monodromy(dynamics, stiffness, frequency, options)
-        .value_or(without_count(StabilityStatus::too_few_harmonics));
-  if (is_costly(determinant, stiffness, frequency, options.leading))
-    if (const auto counted = counted_by_monodromy(dynamics, stiffness, frequency, options)) return *counted;
+  if (options.leading || way.multipliers) {
+    const auto multipliers = multipliers_of(way, dynamics, frequency, options);
+    if (!multipliers) return std::nullopt;
+    result.count = detail::count_outside(*multipliers);
+    if (result.count < 0)
+      result.status = has_undamped_pole(dynamics, 2.0 * pi * frequency) ? StabilityStatus::undamped
+                                                                        : StabilityStatus::on_unit_circle;
+    if (multipliers->size() > 0)
+      result.leading = {(*multipliers)[0].real(), std::abs((*multipliers)[0].imag())};
+  } else {
+    if (!has_monodromy(dynamics, options.max_states)) return std::nullopt;
+    const auto map = lasting_map(dynamics, way.stiffness, frequency);
+    if (map) result.count = detail::count_outside_circle(*map);
+    if (result.count < 0) return std::nullopt;
+  }
+  result.winding = result.count;
+  return result;
+}
+
+UnstableMultipliers counted_by_determinant(FloquetDeterminant& determinant, const StabilityOptions& options) {
+  UnstableMultipliers result;
   result.harmonics = options.harmonics;
-  const int own = unstable_poles(dynamics);
+  const int own = unstable_poles(determinant.dynamics());
   if (determinant.nodes() == 0) {
     result.count = own;
     return result;
@@ -251,12 +219,58 @@ UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics,
   return result;
 }
 
+UnstableMultipliers count_of(Way& way, const ContactDynamics& dynamics, double frequency,
+                             const StabilityOptions& options) {
+  if (way.status != StabilityStatus::converged) return without_count(way.status);
+  if (!way.determinant || is_costly(*way.determinant, way.stiffness, frequency, options.leading))
+    if (const auto counted = counted_by_map(way, dynamics, frequency, options)) return *counted;
+  return way.determinant ? counted_by_determinant(*way.determinant, options)
+                         : without_count(StabilityStatus::too_few_harmonics);
+}
+
+StabilitySigns signs_of(Way& way, const ContactDynamics& dynamics, double frequency,
+                        const StabilityOptions& options) {
+  StabilitySigns signs{way.status};
+  if (way.status != StabilityStatus::converged) return signs;
+  if (way.determinant) {
+    signs.fold = way.determinant->sign_at_zero();
+    signs.flip = way.determinant->sign_at_half();
+    return signs;
+  }
+  const auto multipliers = multipliers_of(way, dynamics, frequency, options);
+  if (!multipliers) return {StabilityStatus::too_few_harmonics};
+  const auto real = multipliers->imag().array() == 0.0;
+  signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
+  signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
+  return signs;
+}
+
+}  // namespace
+
+std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
+                                                      const PeriodicStiffness& stiffness, double frequency,
+                                                      const StabilityOptions& options) {
+  const Way way = way_of("multipliers", dynamics, stiffness, frequency, options);
+  if (way.status != StabilityStatus::converged) return std::nullopt;
+  if (way.determinant && is_costly(*way.determinant, way.stiffness, frequency, true))
+    return by_monodromy(dynamics, way.stiffness, frequency, options);
+  return way.multipliers;
+}
+
+UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                                         double frequency, const StabilityOptions& options) {
+  Way way = way_of("unstable_multipliers", dynamics, stiffness, frequency, options);
+  return count_of(way, dynamics, frequency, options);
+}
+
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
                                          const ContactLaws& laws, const PeriodicResponse& response,
                                          const StabilityOptions& options) {
   const PeriodicStiffness stiffness = contact_stiffness(problem, laws, response);
-  if (stiffness.status == StabilityStatus::no_finite_stiffness)
-    return rigid_multipliers(dynamics, stiffness, response.frequency, options);
+  if (stiffness.status == StabilityStatus::no_finite_stiffness) {
+    Way way = way_of_rigid(dynamics, stiffness, response.frequency, options);
+    return count_of(way, dynamics, response.frequency, options);
+  }
   return unstable_multipliers(dynamics, stiffness, response.frequency,
                               with_harmonics_of(problem.pair(), options));
 }
@@ -266,53 +280,18 @@ UnstableMultipliers unstable_multipliers(const CondensedProblem& problem, const 
   return unstable_multipliers(ContactDynamics(problem.structure()), problem, laws, response, options);
 }
 
-namespace {
-
-StabilitySigns signs_of(const std::optional<Eigen::VectorXcd>& multipliers, StabilityStatus otherwise) {
-  StabilitySigns signs;
-  signs.status = multipliers ? StabilityStatus::converged : otherwise;
-  if (!multipliers) return signs;
-  const auto real = multipliers->imag().array() == 0.0;
-  signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
-  signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
-  return signs;
-}
-
-}  // namespace
-
-FrictionVerdict friction_verdict(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
-                                 double frequency, const StabilityOptions& options) {
-  StabilityStatus status = StabilityStatus::converged;
-  const auto multipliers = by_friction(dynamics, stiffness, frequency, options, status);
-  return {signs_of(multipliers, status),
-          multipliers ? count_of(*multipliers, dynamics, frequency) : without_count(status)};
-}
-
-StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& of_contacts,
+StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                double frequency, const StabilityOptions& options) {
-  if (!of_contacts.friction.empty()) return friction_verdict(dynamics, of_contacts, frequency, options).signs;
-  const PeriodicStiffness stiffness = held_stiffness(of_contacts, dynamics.contacts(), dynamics.holding());
-  StabilitySigns signs;
-  if (stiffness.needs_map() && dynamics.structurally_damped()) {
-    signs.status = StabilityStatus::structural_damping;
-    return signs;
-  }
-  signs.status = stiffness.needs_map()
-                     ? status_of_damped(dynamics, stiffness, options)
-                     : status_before("stability_signs", dynamics, stiffness, frequency, options);
-  if (signs.status != StabilityStatus::converged) return signs;
-  const Truncation truncation =
-      stiffness.needs_map() ? Truncation{} : truncation_of(dynamics, stiffness, frequency, options);
-  if (truncation.harmonics == 0)
-    return signs_of(by_monodromy(dynamics, stiffness, frequency, options),
-                    StabilityStatus::too_few_harmonics);
-  FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
-  if (!determinant.resolved())
-    return signs_of(by_monodromy(dynamics, stiffness, frequency, options),
-                    StabilityStatus::too_few_harmonics);
-  signs.fold = determinant.sign_at_zero();
-  signs.flip = determinant.sign_at_half();
-  return signs;
+  Way way = way_of("stability_signs", dynamics, stiffness, frequency, options);
+  return signs_of(way, dynamics, frequency, options);
+}
+
+SignsAndCount signs_and_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
+                              double frequency, const StabilityOptions& options) {
+  Way way = way_of("stability_signs", dynamics, stiffness, frequency, options);
+  // In this order the values of the determinant from which multipliers are counted have the signs.
+  const UnstableMultipliers count = count_of(way, dynamics, frequency, options);
+  return {signs_of(way, dynamics, frequency, options), count};
 }
 
 StabilitySigns stability_signs(const ContactDynamics& dynamics, const CondensedProblem& problem,

@@ -75,7 +75,7 @@ TEST(FloquetDeterminant, IsTheQuotientOfTheCharacteristicPolynomialsForOneToSixC
         const auto error = [&](int harmonics) {
           FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency,
                                          Truncation{harmonics, {}});
-          return mismatch(determinant.log(sigma) +
+          return mismatch(determinant(sigma).log +
                               omitted_trace(dynamics, random.stiffness, two_pi / period, sigma, harmonics),
                           exact);
         };
@@ -93,11 +93,11 @@ TEST(FloquetDeterminant, HasTheDerivativeOfItsLogarithm) {
   FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, Truncation{20, {}});
   const Complex sigma(0.03, 0.2);
   const double step = 1e-5;
-  const Complex along = (determinant.log(sigma + step) - determinant.log(sigma - step)) / (2.0 * step);
+  const Complex along = (determinant(sigma + step).log - determinant(sigma - step).log) / (2.0 * step);
   EXPECT_LT(std::abs(determinant(sigma).derivative - along), 1e-6 * std::abs(along));
 }
 
-TEST(FloquetDeterminant, HasRealSignsEqualToTheComplexDeterminant) {
+TEST(FloquetDeterminant, IsRealAtBothEndsOfTheHalfCircleWithTheSignsOfItsSmoothOne) {
   std::mt19937 generator(13);
   for (int trial = 0; trial < 20; ++trial) {
     const testing::RandomStiffness random(generator, 1 + trial % 4);
@@ -105,7 +105,7 @@ TEST(FloquetDeterminant, HasRealSignsEqualToTheComplexDeterminant) {
     FloquetDeterminant determinant(dynamics, random.stiffness, random.frequency, Truncation{20, {}});
     const double half = 0.5 * determinant.angular_frequency();
     for (const Complex sigma : {Complex(0.0), Complex(0.0, half)}) {
-      const Complex direction = std::polar(1.0, determinant.log(sigma).imag());
+      const Complex direction = std::polar(1.0, determinant(sigma).log.imag());
       EXPECT_NEAR(direction.imag(), 0.0, 1e-9);
       EXPECT_EQ(sigma == 0.0 ? determinant.sign_at_zero() : determinant.sign_at_half(),
                 direction.real() > 0.0 ? 1 : -1);
