@@ -7,16 +7,14 @@
 #include <cstdio>
 #include <cstring>
 #include <span>
-#include <utility>
 
-#include "command/interrupt_guard.hpp"
+#include "command/command_parts.hpp"
 #include "command/next_steps.hpp"
-#include "command/progress_bar.hpp"
+#include "files/contains.hpp"
 #include "report/run_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
 
@@ -59,40 +57,14 @@ void report(const RunArguments& arguments, const Scene& scene, const Record& rec
             const std::vector<ResultFile>& files) {
   if (!arguments.quiet) {
     std::fputs(summary_text(record.summary).c_str(), stdout);
-    std::string list = "summary.json";
-    for (const ResultFile& file : files)
-      if (!file.name.ends_with(".vtu")) list += ", " + file.name;
-    std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
+    std::printf("written to %s: %s\n", arguments.output.c_str(), names_of(files).c_str());
   }
-  for (const auto& warning : record.warnings)
-    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  say_warnings(record.warnings);
   if (record.interrupted)
     std::fputs("wavebalance: interrupted; the record holds what was found so far\n", stderr);
   else if (!record.converged)
     say_not_converged(scene, record.status);
 }
-
-/// Solves with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
-/// was before anything was solved.
-Record solve(const Scene& scene, StartMotion start, const InterruptGuard& guard,
-             const RunArguments& arguments) {
-  ProgressBar bar;
-  AnalysisOptions options{.start = std::move(start), .threads = arguments.threads};
-  options.observer = [&](const Progress& progress) {
-    if (!arguments.quiet) bar.show(progress);
-    return guard.signal() == 0;
-  };
-  try {
-    return analyse(scene, options);
-  } catch (const ReductionCancelled&) {
-    bar.finish();
-    guard.end_program();
-  }
-}
-
-}  // namespace
-
-namespace {
 
 void require_file(const std::filesystem::path& scene) {
   std::error_code ignored;
@@ -108,9 +80,7 @@ void take_analysis(RunArguments& arguments) {
   require_file(arguments.scene);
   std::vector<std::string> names =
       keys_beside_analysis(arguments.scene, arguments.analysis, arguments.overrides);
-  std::erase_if(names, [&](const std::string& name) {
-    return std::find(arguments.removed.begin(), arguments.removed.end(), name) != arguments.removed.end();
-  });
+  std::erase_if(names, [&](const std::string& name) { return contains(arguments.removed, name); });
   if (!names.empty() && !arguments.quiet)
     std::fprintf(stderr, "wavebalance: left out for analysis.type = \"%s\": %s\n", arguments.analysis.c_str(),
                  fmt::format("{}", fmt::join(names, ", ")).c_str());
@@ -124,9 +94,7 @@ Scene given_scene(const RunArguments& arguments) {
 }
 
 int run_scene(const RunArguments& arguments) {
-  if (arguments.output.empty())
-    throw std::invalid_argument(
-        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  require_output(arguments.output);
   const Scene scene = given_scene(arguments);
   check_memory(scene, arguments.max_memory);
   const StartMotion start =
@@ -136,14 +104,13 @@ int run_scene(const RunArguments& arguments) {
   if (!advice.empty() && !arguments.quiet) std::fprintf(stderr, "wavebalance: %s\n", advice.c_str());
   check_run_output(arguments, scene);
   OutputFiles files(arguments.output);
-  InterruptGuard guard(scene.analysis.type == AnalysisType::frequency_sweep ||
-                       scene.analysis.type == AnalysisType::amplitude_sweep ||
-                       scene.analysis.type == AnalysisType::motions);
-  const Record record = solve(scene, start, guard, arguments);
+  InterruptGuard guard(is_sweep(scene.analysis.type) || scene.analysis.type == AnalysisType::motions);
+  const Record record = until_signal(guard, arguments.quiet, [&](const Observer& observer) {
+    return analyse(scene, {.start = start, .observer = observer, .threads = arguments.threads});
+  });
   if (record.interrupted && record.sweep.empty() && record.files.empty()) guard.end_program();
   const RunFiles results = run_files(arguments, scene, record);
-  if (!results.no_picture.empty())
-    std::fprintf(stderr, "wavebalance: no picture: %s\n", results.no_picture.c_str());
+  say_no_picture(results.no_picture);
   guard.defer();
   write_run_files(files, results, inputs_of(arguments.scene, scene, arguments.start_from));
   report(arguments, scene, record, results.files);
@@ -157,6 +124,33 @@ int print(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
     throw IoError("standard output", std::string("cannot be written: ") + std::strerror(errno));
   return solved;
+}
+
+void require_output(const std::filesystem::path& output) {
+  if (output.empty())
+    throw std::invalid_argument(
+        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+}
+
+std::string names_of(const std::vector<ResultFile>& files) {
+  std::string list = "summary.json";
+  for (const ResultFile& file : files)
+    if (!file.name.ends_with(".vtu")) list += ", " + file.name;
+  return list;
+}
+
+Table table_of(const std::vector<ResultFile>& files) {
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  return list;
+}
+
+void say_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& one : warnings) std::fprintf(stderr, "wavebalance: warning: %s\n", one.c_str());
+}
+
+void say_no_picture(const std::string& reason) {
+  if (!reason.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", reason.c_str());
 }
 
 Scene example_scene() {

@@ -1,5 +1,7 @@
 #pragma once
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "report/arguments.hpp"
 #include "wavebalance/app/scene/scene.hpp"
@@ -29,5 +31,47 @@ int print(const std::string& text);
 
 /// Case 1 of Jones & Legrand 2014, which the help shows.
 Scene example_scene();
+
+/// Compares pairs of bases on a scene and writes the results. Returns as run_scene(): solved, not_converged
+/// without a reference or a curve, interrupted + signal with what was measured so far. Throws as run_scene().
+int compare_scene(const CompareArguments& arguments);
+
+/// Solves a scene over values of its keys, from where an earlier start stopped, and writes the results. Below
+/// mpirun this is the part of one process. Returns solved, not_converged if a run did not, or interrupted +
+/// signal with the runs so far. Throws SceneError, IoError, std::invalid_argument and std::runtime_error.
+int solve_study(const StudyArguments& arguments);
+
+struct OverlayArguments {
+  std::vector<std::filesystem::path> folders;  ///< results of earlier runs
+  std::filesystem::path output;
+  std::string quantity = "max";  ///< see overlay_quantity()
+  bool quiet = false;
+};
+
+/// Draws the curves of earlier results over each other and writes picture, page and data. Returns solved.
+/// Throws SceneError, IoError and std::invalid_argument.
+int overlay_results(const OverlayArguments& arguments);
+
+/// The keys that every one of `filters` selects, as describe_scene_keys() writes them. A filter is a section
+/// ("contact"), a key ("gap" or "contact.gap"), or a choice ("structure.type=matrices"), which leaves out the
+/// keys that a scene of this choice may not hold. Throws std::invalid_argument for any other filter, and if
+/// no key is left.
+std::string selected_keys_text(const std::vector<std::string>& filters);
+
+/// A line per key: "section.key" and the texts that it may be, for the completion of a shell.
+std::string key_names_text();
+
+struct InitArguments {
+  std::string kind = "bar";      ///< one of starter_kinds()
+  std::filesystem::path output;  ///< the scene; empty: <kind>.toml in the current folder
+};
+
+/// "bar", "matrices", "blade", "study".
+std::vector<std::string> starter_kinds();
+
+/// Writes a commented scene, or a study, to start from, with the files that it reads, whose names begin with
+/// the stem of the output, and says what to do next. Returns solved. Throws std::invalid_argument, also if
+/// one of the files exists, and IoError.
+int init_scene(const InitArguments& arguments);
 
 }  // namespace wavebalance::app

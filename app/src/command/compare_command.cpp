@@ -1,19 +1,15 @@
-#include "command/compare_command.hpp"
+#include "command/commands.hpp"
 
 #include <cstdint>
 #include <cstdio>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "command/interrupt_guard.hpp"
-#include "command/progress_bar.hpp"
+#include "command/command_parts.hpp"
 #include "report/compare_report.hpp"
 #include "report/run_record.hpp"
-#include "report/run_report.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
@@ -44,8 +40,7 @@ std::vector<ResultFile> files_of(const RunArguments& arguments, const Scene& sce
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
   files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
-  const std::string no_picture = append_pictures(files, record.pictures, report);
-  if (!no_picture.empty()) std::fprintf(stderr, "wavebalance: no picture: %s\n", no_picture.c_str());
+  say_no_picture(append_pictures(files, record.pictures, report));
   return files;
 }
 
@@ -71,9 +66,7 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
   if (!arguments.run.start_from.empty())
     summary.emplace_back("start_from", arguments.run.start_from.string());
   summary.emplace_back("version", std::string(version()));
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  summary.emplace_back("files", std::move(list));
+  summary.emplace_back("files", table_of(files));
   return summary;
 }
 
@@ -81,12 +74,9 @@ void say(const CompareArguments& arguments, const ComparisonRecord& record,
          const std::vector<ResultFile>& files) {
   if (!arguments.run.quiet) {
     std::fputs(record.text.c_str(), stdout);
-    std::string list = "summary.json";
-    for (const ResultFile& file : files) list += ", " + file.name;
-    std::printf("\nwritten to %s: %s\n", arguments.run.output.c_str(), list.c_str());
+    std::printf("\nwritten to %s: %s\n", arguments.run.output.c_str(), names_of(files).c_str());
   }
-  for (const std::string& warning : record.warnings)
-    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  say_warnings(record.warnings);
   if (record.interrupted)
     std::fputs("wavebalance: interrupted; the record holds what was measured so far\n", stderr);
   else if (!record.converged)
@@ -94,28 +84,10 @@ void say(const CompareArguments& arguments, const ComparisonRecord& record,
                  record.status.c_str());
 }
 
-/// Compares with a progress bar, unless `quiet`, until the guard has noted a signal. Ends the program if that
-/// was before anything was solved.
-ComparisonRecord compare_until_signal(const Scene& scene, const ComparisonOptions& options,
-                                      const InterruptGuard& guard, bool quiet) {
-  ProgressBar bar;
-  try {
-    return compare_bases(scene, options, [&](const Progress& progress) {
-      if (!quiet) bar.show(progress);
-      return guard.signal() == 0;
-    });
-  } catch (const ReductionCancelled&) {
-    bar.finish();
-    guard.end_program();
-  }
-}
-
 }  // namespace
 
 int compare_scene(const CompareArguments& arguments) {
-  if (arguments.run.output.empty())
-    throw std::invalid_argument(
-        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  require_output(arguments.run.output);
   const ComparisonOptions options = options_of(arguments);
   const Scene scene = given_scene(arguments.run);
   check_comparison(scene, options);
@@ -124,7 +96,9 @@ int compare_scene(const CompareArguments& arguments) {
       arguments.run.output, [&](const std::string& name) { return may_write(arguments.run, name); }, inputs);
   OutputFiles output(arguments.run.output);
   InterruptGuard guard(true);
-  const ComparisonRecord record = compare_until_signal(scene, options, guard, arguments.run.quiet);
+  const ComparisonRecord record = until_signal(guard, arguments.run.quiet, [&](const Observer& observer) {
+    return compare_bases(scene, options, observer);
+  });
   if (record.interrupted && record.table.empty()) guard.end_program();
   std::vector<ResultFile> files = files_of(arguments.run, scene, record);
   const Summary summary = whole_summary(arguments, record, files);

@@ -1,18 +1,16 @@
-#include "command/init_command.hpp"
+#include "command/commands.hpp"
 
-#include <array>
 #include <sstream>
 #include <stdexcept>
 
 #include "command/starter_texts.hpp"
+#include "report/run_report.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-constexpr std::array<const char*, 4> starters{"bar", "matrices", "blade", "study"};
 
 /// Mass and stiffness of a clamped beam of Euler and Bernoulli in elements with cubic displacements.
 struct Cantilever {
@@ -71,25 +69,31 @@ void require_new(const std::filesystem::path& file) {
                                 " exists and is not overwritten; --output names another file");
 }
 
-}  // namespace
-
-std::vector<std::string> starter_kinds() { return {starters.begin(), starters.end()}; }
-
+/// A commented scene of this kind, or a study, first, and the files that it reads.
 std::vector<ResultFile> starter_scene(const std::string& kind, const std::string& stem) {
-  const std::string name = stem + ".toml";
-  if (kind == "bar") return {{name, bar_starter, ""}};
-  if (kind == "blade") return {{name, blade_starter, ""}};
-  if (kind == "study")
-    return {{name, with_stem(study_starter, stem), ""}, {stem + "_scene.toml", bar_starter, ""}};
+  const auto text_of = [](const std::string& wanted) {
+    const auto found =
+        std::ranges::find(starter_texts(), wanted, &std::pair<std::string, std::string>::first);
+    if (found != starter_texts().end()) return found->second;
+    throw std::invalid_argument("init " + wanted + ": there are " + joined(starter_kinds()) +
+                                suggestion(wanted, starter_kinds()));
+  };
+  std::vector<ResultFile> files{{stem + ".toml", with_stem(text_of(kind), stem), ""}};
+  if (kind == "study") files.push_back({stem + "_scene.toml", text_of("bar"), ""});
   if (kind == "matrices") {
     const Cantilever beam = cantilever();
-    return {{name, with_stem(matrices_starter, stem), ""},
-            {stem + "_mass.mtx", matrix_text(beam.mass), ""},
-            {stem + "_stiffness.mtx", matrix_text(beam.stiffness), ""}};
+    files.push_back({stem + "_mass.mtx", matrix_text(beam.mass), ""});
+    files.push_back({stem + "_stiffness.mtx", matrix_text(beam.stiffness), ""});
   }
-  const std::string nearest = closest(kind, starter_kinds());
-  throw std::invalid_argument("init " + kind + ": there are " + joined(starter_kinds()) +
-                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> starter_kinds() {
+  std::vector<std::string> kinds;
+  for (const auto& [kind, text] : starter_texts()) kinds.push_back(kind);
+  return kinds;
 }
 
 int init_scene(const InitArguments& arguments) {

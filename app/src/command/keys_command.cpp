@@ -1,10 +1,11 @@
-#include "command/keys_command.hpp"
+#include "command/commands.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "scene/spelling.hpp"
 
@@ -26,8 +27,7 @@ std::vector<SceneKey> all_keys() {
 std::vector<std::string> sections_of(const std::vector<SceneKey>& keys) {
   std::vector<std::string> sections;
   for (const SceneKey& key : keys)
-    if (std::find(sections.begin(), sections.end(), key.section) == sections.end())
-      sections.emplace_back(key.section);
+    if (!contains(sections, key.section)) sections.emplace_back(key.section);
   return sections;
 }
 
@@ -54,28 +54,26 @@ bool can_hold(const Condition& condition, Scene scene, std::vector<std::string> 
   });
 }
 
-[[noreturn]] void reject(const std::string& filter, const std::string& allowed, const std::string& nearest) {
-  throw std::invalid_argument("keys " + filter + ": " + allowed +
-                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+[[noreturn]] void reject(const std::string& filter, const std::string& allowed, const std::string& word,
+                         const std::vector<std::string>& names) {
+  throw std::invalid_argument("keys " + filter + ": " + allowed + suggestion(word, names));
 }
 
 KeyFilter choice_filter(const std::string& filter, const std::vector<SceneKey>& keys) {
   const auto place = filter.find('=');
   const std::string name = filter.substr(0, place), value = filter.substr(place + 1);
   std::vector<std::string> deciding = deciding_keys(keys);
-  if (std::find(deciding.begin(), deciding.end(), name) == deciding.end())
-    reject(filter, "expected one of " + joined(deciding) + " before the sign =", closest(name, deciding));
+  if (!contains(deciding, name))
+    reject(filter, "expected one of " + joined(deciding) + " before the sign =", name, deciding);
   const SceneKey& key = *find_scene_key(name);
-  if (std::find(key.choices.begin(), key.choices.end(), value) == key.choices.end())
-    reject(filter, name + " may be " + key.expected(),
-           closest(value, {key.choices.begin(), key.choices.end()}));
+  if (!contains(key.choices, value))
+    reject(filter, name + " may be " + key.expected(), value, {key.choices.begin(), key.choices.end()});
   Scene scene;
   key.set(scene, value);
   std::erase(deciding, name);
   const bool by_law = name == law_key;
   return [=](const SceneKey& one) {
-    if (by_law && !one.laws.empty() && std::find(one.laws.begin(), one.laws.end(), value) == one.laws.end())
-      return false;  // of a pair, too
+    if (by_law && !one.laws.empty() && !contains(one.laws, value)) return false;  // of a pair, too
     return can_hold(one.belongs, scene, deciding);
   };
 }
@@ -91,7 +89,7 @@ std::string chosen_law(const std::vector<std::string>& filters) {
 KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys) {
   if (filter.find('=') != std::string::npos) return choice_filter(filter, keys);
   const std::vector<std::string> sections = sections_of(keys);
-  if (std::find(sections.begin(), sections.end(), filter) != sections.end())
+  if (contains(sections, filter))
     return [filter](const SceneKey& key) {
       return key.section == filter || key.section.starts_with(filter + ".");
     };
@@ -106,7 +104,7 @@ KeyFilter filter_of(const std::string& filter, const std::vector<SceneKey>& keys
   }
   reject(filter,
          "expected a section (" + joined(sections) + "), a key or a choice such as structure.type=matrices",
-         closest(filter, names));
+         filter, names);
 }
 
 }  // namespace

@@ -10,11 +10,7 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
-#include "command/compare_command.hpp"
-#include "command/init_command.hpp"
-#include "command/keys_command.hpp"
-#include "command/overlay_command.hpp"
-#include "command/study_command.hpp"
+#include "files/contains.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -106,11 +102,23 @@ void add_copy_inputs(CLI::App& command, RunArguments& arguments) {
       "copy matrices and other files that the scene names into the results, which can then be moved");
 }
 
+void add_output(CLI::App& command, std::filesystem::path& output,
+                const std::string& help = "folder of the results, made if missing") {
+  command.add_option("--output,-o", output, help)->required();
+}
+
+void add_quiet(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet,-q", quiet, "say nothing unless something is wrong");
+}
+
+void add_report(CLI::App& command, bool& report) {
+  command.add_flag("!--no-report", report, "write no report.html");
+}
+
 void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_scene(command, arguments.run);
   add_start(command, arguments.run);
-  command.add_option("--output,-o", arguments.run.output, "folder of the results, made if missing")
-      ->required();
+  add_output(command, arguments.run.output);
   command
       .add_option("--pairs", arguments.pairs,
                   "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
@@ -124,31 +132,29 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
   command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
   add_threads(command, arguments.run.threads, "pairs that are solved side by side; one per core without it");
   add_copy_inputs(command, arguments.run);
-  command.add_flag("!--no-report", arguments.run.report, "write no report.html");
-  command.add_flag("--quiet,-q", arguments.run.quiet, "say nothing unless something is wrong");
+  add_report(command, arguments.run.report);
+  add_quiet(command, arguments.run.quiet);
 }
 
 void add_study(CLI::App& command, StudyArguments& arguments) {
   command.add_option("STUDY", arguments.study, "study file (TOML), see app/STUDIES.md")->required();
-  command
-      .add_option("--output,-o", arguments.output,
-                  "folder of the results, made if missing; a study that was begun there goes on")
-      ->required();
+  add_output(command, arguments.output,
+             "folder of the results, made if missing; a study that was begun there goes on");
   add_threads(command, arguments.threads,
               "runs that are solved side by side; without it one per core, below mpirun one per process");
-  command.add_flag("!--no-report", arguments.report, "write no report.html");
-  command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
+  add_report(command, arguments.report);
+  add_quiet(command, arguments.quiet);
 }
 
 void add_overlay(CLI::App& command, OverlayArguments& arguments) {
   command.add_option("DIR", arguments.folders, "folders of results of `wavebalance run`, of one structure")
       ->required();
-  command.add_option("--output,-o", arguments.output, "folder of the picture, made if missing")->required();
+  add_output(command, arguments.output, "folder of the picture, made if missing");
   command
       .add_option("--quantity", arguments.quantity,
                   "max, min, max_abs or rms of the displacement; max without it")
       ->type_name("NAME");
-  command.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
+  add_quiet(command, arguments.quiet);
 }
 
 void add_init(CLI::App& command, InitArguments& arguments) {
@@ -182,7 +188,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
         "; `wavebalance init` writes a scene to start from, `wavebalance --help` explains");
   if (argv[1][0] == '-') return;
   const std::string name = argv[1];
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  if (contains(names, name)) return;
   const std::string nearest = name.ends_with(".toml") ? "run " + name
                               : name == "help"        ? "--help"
                                                       : closest(name, names);
@@ -199,8 +205,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, int ar
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   std::string nearest, misspelt;
   for (int i = 1; i < argc; ++i)
-    if (const std::string word = argv[i];
-        word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+    if (const std::string word = argv[i]; word.starts_with("--") && !contains(options, word))
       misspelt = word, nearest = closest(word, options);
   const std::string name = parsed.empty() ? "wavebalance" : "wavebalance " + command.get_name();
   const std::string what = nearest.empty()
@@ -217,7 +222,7 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   CLI::App& run = *app.add_subcommand("run", "solve a scene and write its results");
   add_scene(run, arguments);
-  run.add_option("--output,-o", arguments.output, "folder of the results, made if missing")->required();
+  add_output(run, arguments.output);
   add_start(run, arguments);
   run.add_option("--max-memory", arguments.max_memory,
                  "refuse a scene that is expected to take more; without it, more than the machine has")
@@ -226,8 +231,8 @@ int dispatch(int argc, char** argv) {
   add_threads(run, arguments.threads,
               "harmonics that are condensed side by side, with the same digits; one per core without it");
   add_copy_inputs(run, arguments);
-  run.add_flag("!--no-report", arguments.report, "write no report.html");
-  run.add_flag("--quiet,-q", arguments.quiet, "say nothing unless something is wrong");
+  add_report(run, arguments.report);
+  add_quiet(run, arguments.quiet);
   CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
   add_scene(check, arguments);
   CompareArguments comparison;

@@ -1,7 +1,6 @@
 #include "command/next_steps.hpp"
 
 #include <map>
-#include <optional>
 
 #include "command/scene_moves.hpp"
 
@@ -11,6 +10,23 @@ namespace {
 using namespace moves;
 
 using Remedies = std::map<std::string, std::vector<Move>>;
+
+const Move integrate = always("analysis.type = \"time_stepping\"", {.analysis = "time_stepping"});
+const Move all_motions = always("analysis.type = \"motions\"", {.analysis = "motions"});
+const Move static_load = always("a static load that presses the structure against a contact (forcing.terms)",
+                                {.added = "[[forcing.terms]]\nharmonic = 0\namplitude = 1.0"});
+const Move moved_contact = always("a contact that the load moves");
+const Move softer_contact = always("a softer contact");
+const Move larger_tolerance = scaled("a larger", "time.tolerance", 10.0, 0.5);
+const Move larger_step_tolerance = scaled("a larger", "analysis.tolerance", 10.0, 0.5);
+const Move other_frequency = scaled("another", "forcing.frequency", 1.01);
+const Move other_gap = scaled("another", "contact.gap", 1.01);
+const Move less_rebound = scaled("a smaller", "contact.restitution", 0.5);
+const Move more_curve_points = scaled("a larger", "analysis.max_points", 4);
+const Move more_mode_points = scaled("more", "analysis.points", 2);
+const Move higher_ratio = scaled("a higher", "analysis.last_frequency_ratio", 2.0);
+const Move more_periods = scaled("more", "analysis.max_periods", 2);
+const Move longer_period = scaled("a larger", "analysis.longest_period", 2);
 
 const Remedies& of_responses() {
   static const std::vector<Move> sizes{more_functions, odd_functions, more_points, tolerance_in_place};
@@ -102,22 +118,11 @@ const Remedies& of_motions() {
 }
 
 const Remedies& of_analysis(const Analysis& analysis) {
-  switch (analysis.type) {
-    case AnalysisType::forced_response:
-      return of_responses();
-    case AnalysisType::nonlinear_mode:
-      return of_modes();
-    case AnalysisType::time_stepping:
-      return of_time_stepping();
-    case AnalysisType::shooting:
-      return of_shooting();
-    case AnalysisType::motions:
-      return of_motions();
-    case AnalysisType::frequency_sweep:
-    case AnalysisType::amplitude_sweep:
-      break;
-  }
-  return analysis.exact ? of_exact_sweeps() : of_sweeps();
+  if (is_sweep(analysis.type)) return analysis.exact ? of_exact_sweeps() : of_sweeps();
+  if (analysis.type == AnalysisType::nonlinear_mode) return of_modes();
+  if (analysis.type == AnalysisType::time_stepping) return of_time_stepping();
+  if (analysis.type == AnalysisType::shooting) return of_shooting();
+  return analysis.type == AnalysisType::motions ? of_motions() : of_responses();
 }
 
 /// The status without its numbers.

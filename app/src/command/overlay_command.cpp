@@ -1,12 +1,11 @@
-#include "command/overlay_command.hpp"
+#include "command/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
-#include "command/commands.hpp"
+#include "command/command_parts.hpp"
 #include "report/overlay.hpp"
 #include "report/report_parts.hpp"
 #include "report/run_report.hpp"
@@ -22,9 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void check(const OverlayArguments& arguments) {
-  if (arguments.output.empty())
-    throw std::invalid_argument(
-        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  require_output(arguments.output);
   std::error_code ignored;
   for (const fs::path& folder : arguments.folders)
     if (fs::equivalent(folder, arguments.output, ignored))
@@ -70,7 +67,7 @@ std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overla
     files.push_back({"overlay.png", render(figure, PictureFormat::png), "the picture"});
     files.push_back({"overlay.figure.js", figure_script(figure, "overlay"), "the curves of overlay.html"});
   } catch (const PlotError& error) {
-    std::fprintf(stderr, "wavebalance: no picture: %s\n", error.what());
+    say_no_picture(error.what());
   }
   files.push_back(
       {"overlay.html", page_text(arguments, overlay, files), "the picture, with curves that zoom"});
@@ -87,9 +84,7 @@ std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay
                   {"curves", static_cast<std::int64_t>(overlay.curves.size())},
                   {"warnings", overlay.warnings},
                   {"version", std::string(version())}};
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  summary.emplace_back("files", std::move(list));
+  summary.emplace_back("files", table_of(files));
   return json_text(summary);
 }
 
@@ -108,13 +103,11 @@ int overlay_results(const OverlayArguments& arguments) {
   for (const ResultFile& file : files) output.add(file.name, file.contents);
   output.add("summary.json", summary_of(arguments, overlay, files));
   output.commit();
-  for (const std::string& warning : overlay.warnings)
-    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  say_warnings(overlay.warnings);
   if (arguments.quiet) return solved;
-  std::string list = "summary.json";
-  for (const ResultFile& file : files) list += ", " + file.name;
   return print(fmt::format("{} curve{} written to {}: {}\n", overlay.curves.size(),
-                           overlay.curves.size() == 1 ? "" : "s", arguments.output.string(), list));
+                           overlay.curves.size() == 1 ? "" : "s", arguments.output.string(),
+                           names_of(files)));
 }
 
 }  // namespace wavebalance::app

@@ -1,10 +1,9 @@
 #include "command/scene_moves.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "files/number_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -48,18 +47,13 @@ std::string name_of_interval(const Scene& scene, const char* end) {
          (scene.analysis.type == AnalysisType::amplitude_sweep ? "amplitude_" : "frequency_") + end;
 }
 
-std::pair<double, double> interval_of(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::amplitude_sweep) return {analysis.amplitude_from, analysis.amplitude_to};
-  return {analysis.frequency_from, analysis.frequency_to};
-}
-
 constexpr std::string_view depth_name = "damping_depth";
 
 /// The contact whose damper sets in at once, or nullptr.
 const SceneContact* sudden_damper(const std::vector<SceneContact>& contacts) {
   const std::vector<std::string_view>& laws = find_scene_key("contact.damping_depth")->laws;
   const auto found = std::find_if(contacts.begin(), contacts.end(), [&](const SceneContact& one) {
-    if (std::find(laws.begin(), laws.end(), one.law) == laws.end()) return false;
+    if (!contains(laws, one.law)) return false;
     const auto given = one.values.find(depth_name);
     return given == one.values.end() || std::get<double>(given->second) == 0.0;
   });
@@ -72,6 +66,21 @@ double restitution_of(const Contact& contact) {
 }
 
 }  // namespace
+
+Move always(const std::string& words, const SceneChange& change) {
+  return [=](const Scene&) -> Step { return NextStep{words, change}; };
+}
+
+Move scaled(const std::string& words, const std::string& key, double factor, double most) {
+  return [=](const Scene& scene) -> Step {
+    const SceneValue now = find_scene_key(key)->get(scene);
+    if (const auto* integer = std::get_if<std::int64_t>(&now))
+      return changed(words, key, static_cast<std::int64_t>(factor) * *integer);
+    const auto* number = std::get_if<double>(&now);
+    if (number == nullptr || *number == 0.0) return std::nullopt;
+    return changed(words, key, std::min(factor * *number, most));
+  };
+}
 
 Step more_functions(const Scene& scene) {
   const int now = scene.time.functions;
@@ -103,10 +112,6 @@ Step sizes_in_place(const Scene& scene) {
                    .unset = {"time.tolerance"}}};
 }
 
-Step larger_tolerance(const Scene& scene) {
-  return changed("a larger", "time.tolerance", std::min(10.0 * scene.time.tolerance, 0.5));
-}
-
 Step dropped_nyquist(const Scene& scene) {
   if (scene.time.functions % 2 == 1) return std::nullopt;
   return set_to("time.nyquist", std::string("drop"));
@@ -118,10 +123,6 @@ Step balance(const Scene& scene) {
                   {.set = {"time.method=\"balance\"", "time.trial=\"fourier\"", "time.weight=\"fourier\"",
                            "time.functions=127"},
                    .unset = {"time.tolerance"}}};
-}
-
-Step integrate(const Scene&) {
-  return NextStep{"analysis.type = \"time_stepping\"", {.analysis = "time_stepping"}};
 }
 
 Step response(const Scene& scene) {
@@ -137,8 +138,6 @@ Step response_of_periods(const Scene& scene) {
   return step;
 }
 
-Step all_motions(const Scene&) { return NextStep{"analysis.type = \"motions\"", {.analysis = "motions"}}; }
-
 Step more_damping(const Scene& scene) {
   const Structure& structure = scene.structure;
   if (structure.modal_damping > 0.0)
@@ -153,24 +152,6 @@ Step fewer_modes(const Scene& scene) {
   if (scene.structure.kept_modes >= 0) return std::nullopt;
   return set_to("structure.kept_modes", std::int64_t{8});
 }
-
-Step other_frequency(const Scene& scene) {
-  return changed("another", "forcing.frequency", 1.01 * scene.forcing.frequency);
-}
-
-Step static_load(const Scene&) {
-  return NextStep{"a static load that presses the structure against a contact (forcing.terms)",
-                  {.added = "[[forcing.terms]]\nharmonic = 0\namplitude = 1.0"}};
-}
-
-Step other_gap(const Scene& scene) {
-  if (!scene.contact.gaps.empty()) return std::nullopt;
-  return changed("another", "contact.gap", 1.01 * scene.contact.gap);
-}
-
-Step moved_contact(const Scene&) { return in_words("a contact that the load moves"); }
-
-Step softer_contact(const Scene&) { return in_words("a softer contact"); }
 
 Step damping_depth(const Scene& scene) {
   constexpr double of_gap = 0.01;
@@ -211,11 +192,6 @@ Step more_rebound(const Scene& scene) {
   return changed("a larger", "contact.restitution", 0.5 * (1.0 + restitution_of(scene.contact)));
 }
 
-Step less_rebound(const Scene& scene) {
-  if (restitution_of(scene.contact) == 0.0) return std::nullopt;
-  return changed("a smaller", "contact.restitution", 0.5 * restitution_of(scene.contact));
-}
-
 Step stiff_law(const Scene& scene) {
   if (!has_impacts(scene.contact)) return std::nullopt;
   NextStep step{
@@ -230,7 +206,7 @@ Step stiff_law(const Scene& scene) {
 }
 
 Step reversed(const Scene& scene) {
-  const auto [from, to] = interval_of(scene.analysis);
+  const auto [from, to] = sweep_interval(scene.analysis);
   return NextStep{
       "both ends of the interval exchanged",
       {.set = {setting(name_of_interval(scene, "from"), to), setting(name_of_interval(scene, "to"), from)}}};
@@ -238,7 +214,7 @@ Step reversed(const Scene& scene) {
 
 Step other_start(const Scene& scene) {
   constexpr double part = 0.1;
-  const auto [from, to] = interval_of(scene.analysis);
+  const auto [from, to] = sweep_interval(scene.analysis);
   const double outward = from - part * (to - from),
                start = outward > 0.0 ? outward : from + part * (to - from);
   Step step = changed("another", name_of_interval(scene, "from"), start);
@@ -268,10 +244,6 @@ Step smaller_step(const Scene& scene) {
   return step;
 }
 
-Step more_curve_points(const Scene& scene) {
-  return changed("a larger", "analysis.max_points", std::int64_t{4} * scene.analysis.max_points);
-}
-
 Step samples_of_harmonics(const Scene& scene) {
   const std::int64_t samples = std::int64_t{2} * scene.analysis.harmonics;
   if (scene.analysis.samples == samples) return std::nullopt;
@@ -285,27 +257,6 @@ Step more_harmonics(const Scene& scene) {
   step->text += " and analysis.samples";
   step->change.set.push_back(setting("analysis.samples", std::int64_t{2} * analysis.samples));
   return step;
-}
-
-Step more_mode_points(const Scene& scene) {
-  return changed("more", "analysis.points", std::int64_t{2} * scene.analysis.points);
-}
-
-Step higher_ratio(const Scene& scene) {
-  if (!(scene.analysis.last_frequency_ratio > 0.0)) return std::nullopt;
-  return changed("a higher", "analysis.last_frequency_ratio", 2.0 * scene.analysis.last_frequency_ratio);
-}
-
-Step more_periods(const Scene& scene) {
-  return changed("more", "analysis.max_periods", std::int64_t{2} * scene.analysis.max_periods);
-}
-
-Step larger_step_tolerance(const Scene& scene) {
-  return changed("a larger", "analysis.tolerance", std::min(10.0 * scene.analysis.tolerance, 0.5));
-}
-
-Step longer_period(const Scene& scene) {
-  return changed("a larger", "analysis.longest_period", std::int64_t{2} * scene.analysis.longest_period);
 }
 
 Step more_starts(const Scene& scene) {

@@ -1,5 +1,8 @@
 #pragma once
+#include <functional>
+#include <limits>
 #include <optional>
+#include <string>
 
 #include "command/next_steps.hpp"
 
@@ -7,7 +10,15 @@
 /// is none where it cannot help there; whether the rules of scenes accept it is asked by next_steps().
 namespace wavebalance::app::moves {
 
-using Move = std::optional<NextStep> (*)(const Scene&);
+using Move = std::function<std::optional<NextStep>(const Scene&)>;
+
+/// The same for every scene.
+Move always(const std::string& words, const SceneChange& change = {});
+
+/// "`words` key": a number of the scene times `factor`, `most` at most. None where the scene has no such
+/// number, a list of them, or 0.0.
+Move scaled(const std::string& words, const std::string& key, double factor,
+            double most = std::numeric_limits<double>::infinity());
 
 // Of the balance in a pair of bases.
 std::optional<NextStep> more_functions(const Scene& scene);
@@ -15,29 +26,20 @@ std::optional<NextStep> odd_functions(const Scene& scene);
 std::optional<NextStep> more_points(const Scene& scene);
 std::optional<NextStep> tolerance_in_place(const Scene& scene);
 std::optional<NextStep> sizes_in_place(const Scene& scene);
-std::optional<NextStep> larger_tolerance(const Scene& scene);
 std::optional<NextStep> dropped_nyquist(const Scene& scene);
 
 // Of the analysis and its method.
 std::optional<NextStep> balance(const Scene& scene);
-std::optional<NextStep> integrate(const Scene& scene);
 std::optional<NextStep> response(const Scene& scene);
 std::optional<NextStep> response_of_periods(const Scene& scene);
-std::optional<NextStep> all_motions(const Scene& scene);
 
 // Of structure, load and contact.
 std::optional<NextStep> more_damping(const Scene& scene);
 std::optional<NextStep> fewer_modes(const Scene& scene);
-std::optional<NextStep> other_frequency(const Scene& scene);
-std::optional<NextStep> static_load(const Scene& scene);
-std::optional<NextStep> other_gap(const Scene& scene);
 std::optional<NextStep> elastic_friction(const Scene& scene);
-std::optional<NextStep> moved_contact(const Scene& scene);
-std::optional<NextStep> softer_contact(const Scene& scene);
 std::optional<NextStep> damping_depth(const Scene& scene);
 std::optional<NextStep> no_rebound(const Scene& scene);
 std::optional<NextStep> more_rebound(const Scene& scene);
-std::optional<NextStep> less_rebound(const Scene& scene);
 std::optional<NextStep> stiff_law(const Scene& scene);
 
 // Of a curve.
@@ -46,16 +48,10 @@ std::optional<NextStep> other_start(const Scene& scene);
 std::optional<NextStep> exact_curve(const Scene& scene);
 std::optional<NextStep> curve_of_balance(const Scene& scene);
 std::optional<NextStep> smaller_step(const Scene& scene);
-std::optional<NextStep> more_curve_points(const Scene& scene);
 
 // Of modes, time stepping and the search for motions.
 std::optional<NextStep> samples_of_harmonics(const Scene& scene);
 std::optional<NextStep> more_harmonics(const Scene& scene);
-std::optional<NextStep> more_mode_points(const Scene& scene);
-std::optional<NextStep> higher_ratio(const Scene& scene);
-std::optional<NextStep> more_periods(const Scene& scene);
-std::optional<NextStep> larger_step_tolerance(const Scene& scene);
-std::optional<NextStep> longer_period(const Scene& scene);
 std::optional<NextStep> more_starts(const Scene& scene);
 
 }  // namespace wavebalance::app::moves

@@ -1,12 +1,12 @@
 #pragma once
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wavebalance::app {
 
-/// Scenes to start from; STEM stands for the stem of their files.
-extern const char* const bar_starter;
-extern const char* const matrices_starter;
-extern const char* const blade_starter;
-/// A study of STEM_scene.toml.
-extern const char* const study_starter;
+/// Scenes to start from by their kind, and a study of STEM_scene.toml, as CMake finds them in starters/. STEM
+/// stands for the stem of their files.
+const std::vector<std::pair<std::string, std::string>>& starter_texts();
 
 }  // namespace wavebalance::app

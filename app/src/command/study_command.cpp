@@ -1,4 +1,4 @@
-#include "command/study_command.hpp"
+#include "command/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,9 @@
 
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 #include <utility>
 
-#include "command/commands.hpp"
-#include "command/interrupt_guard.hpp"
-#include "command/progress_bar.hpp"
+#include "command/command_parts.hpp"
 #include "report/run_record.hpp"
 #include "report/study_report.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -26,12 +23,9 @@ void say_outcome(const StudyArguments& arguments, const StudyRecord& record, con
                  const std::vector<ResultFile>& files) {
   if (!arguments.quiet) {
     std::fputs(study_outcome(record).c_str(), stdout);
-    std::string list = "summary.json";
-    for (const ResultFile& file : files) list += ", " + file.name;
-    std::printf("written to %s: %s\n", arguments.output.c_str(), list.c_str());
+    std::printf("written to %s: %s\n", arguments.output.c_str(), names_of(files).c_str());
   }
-  for (const std::string& warning : record.warnings)
-    std::fprintf(stderr, "wavebalance: warning: %s\n", warning.c_str());
+  say_warnings(record.warnings);
   if (outcome.lost > 0)
     std::fprintf(stderr, "wavebalance: warning: %d of the processes fell silent; others solved their runs\n",
                  outcome.lost);
@@ -67,26 +61,20 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
   if (journal.unreadable_lines() > 0)
     std::fprintf(stderr, "wavebalance: warning: %s\n", unreadable_text(journal.unreadable_lines()).c_str());
   InterruptGuard guard(true);
-  ProgressBar bar;
   StudyOptions options;
   options.threads = arguments.threads;
   options.messenger = messenger;
-  const StudyOutcome outcome = run_study(
-      study, runs, todo, options,
-      [&](const StudyRow& row) {
-        journal.append(row);
-        rows.push_back(row);
-      },
-      [&](const solvers::Progress& progress) {
-        if (!arguments.quiet) bar.show(progress);
-        return guard.signal() == 0;
-      });
-  bar.finish();
+  const RowSink keep = [&](const StudyRow& row) {
+    journal.append(row);
+    rows.push_back(row);
+  };
+  const StudyOutcome outcome = until_signal(guard, arguments.quiet, [&](const solvers::Observer& observer) {
+    return run_study(study, runs, todo, options, keep, observer);
+  });
   const StudyRecord record = study_record(study, runs, std::move(rows), outcome, journal.unreadable_lines());
   guard.defer();
   const RunFiles files = study_files(arguments, study, record);
-  if (!files.no_picture.empty())
-    std::fprintf(stderr, "wavebalance: no picture: %s\n", files.no_picture.c_str());
+  say_no_picture(files.no_picture);
   write_run_files(output, files, inputs);
   say_outcome(arguments, record, outcome, files.files);
   if (outcome.stopped) return interrupted + guard.signal();
@@ -96,9 +84,7 @@ int lead_study(const StudyArguments& arguments, const Study& study, const StudyR
 }  // namespace
 
 int solve_study(const StudyArguments& arguments) {
-  if (arguments.output.empty())
-    throw std::invalid_argument(
-        "--output is \"\"; expected the name of a folder, which is made if it is missing");
+  require_output(arguments.output);
   keep_freed_memory();
   const Study study = load_study(arguments.study);
   const StudyRuns runs(study);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
@@ -19,30 +20,25 @@ std::string basis_label(const std::string& basis) {
   return "DB" + std::to_string(daubechies_coefficients(basis));
 }
 
-/// The pairs of JL14's Table 2, solid.
+/// The pairs of JL14's Table 2, which are solid, and trial functions of other pairs. Those have the colour of
+/// the first with their trial functions, and dashes.
 struct NamedStyle {
-  const char *trial, *weight;
-  PairStyle style;
+  BasisPair pair;
+  Colour colour;
+  int marker;
 };
-constexpr std::array<NamedStyle, 6> pairs_of_table_2{{{"fourier", "fourier", {Colour::blue, 1}},
-                                                      {"bspline", "bspline", {Colour::vermillion, 2}},
-                                                      {"daubechies6", "daubechies6", {Colour::green, 3}},
-                                                      {"haar", "fourier", {Colour::purple, 4}},
-                                                      {"daubechies6", "fourier", {Colour::orange, 5}},
-                                                      {"haar", "bspline", {Colour::sky_blue, 6}}}};
-
-/// Those of other pairs by their trial functions, never solid.
-struct BasisStyle {
-  const char* trial;
-  PairStyle style;
-};
-constexpr std::array<BasisStyle, 7> other_pairs{{{"fourier", {Colour::blue, 1}},
-                                                 {"bspline", {Colour::vermillion, 2}},
-                                                 {"daubechies6", {Colour::green, 3}},
-                                                 {"haar", {Colour::purple, 4}},
-                                                 {"daubechies8", {Colour::sky_blue, 5}},
-                                                 {"daubechies10", {Colour::black, 6}},
-                                                 {"daubechies20", {Colour::grey, 7}}}};
+const std::array<NamedStyle, 9>& named_styles() {
+  static const std::array<NamedStyle, 9> all{{{{"fourier", "fourier"}, Colour::blue, 1},
+                                              {{"bspline", "bspline"}, Colour::vermillion, 2},
+                                              {{"daubechies6", "daubechies6"}, Colour::green, 3},
+                                              {{"haar", "fourier"}, Colour::purple, 4},
+                                              {{"daubechies6", "fourier"}, Colour::orange, 5},
+                                              {{"haar", "bspline"}, Colour::sky_blue, 6},
+                                              {{"daubechies8", ""}, Colour::sky_blue, 5},
+                                              {{"daubechies10", ""}, Colour::black, 6},
+                                              {{"daubechies20", ""}, Colour::grey, 7}}};
+  return all;
+}
 
 Dash dash_of(const BasisPair& pair) {
   return pair.weight == "fourier"   ? Dash::dash_dotted
@@ -91,8 +87,7 @@ std::vector<BasisPair> parse_pairs(std::string_view text) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     BasisPair pair = parse_pair(text, std::string(text.substr(begin, end - begin)));
-    if (std::find(pairs.begin(), pairs.end(), pair) != pairs.end())
-      refuse(text, name_of(pair) + " is there twice; expected each pair once");
+    if (contains(pairs, pair)) refuse(text, name_of(pair) + " is there twice; expected each pair once");
     pairs.push_back(std::move(pair));
     begin = end + 1;
   }
@@ -124,12 +119,12 @@ solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scen
 
 PairStyle style_of(const BasisPair& pair) {
   if (pair.is_phases()) return {Colour::black, 7};
-  for (const NamedStyle& one : pairs_of_table_2)
-    if (pair == BasisPair{one.trial, one.weight}) return one.style;
-  PairStyle style{Colour::grey, 8, dash_of(pair)};
-  for (const BasisStyle& one : other_pairs)
-    if (pair.trial == one.trial) style = {one.style.colour, one.style.marker, dash_of(pair)};
-  return style;
+  const auto& styles = named_styles();
+  auto found = std::ranges::find(styles, pair, &NamedStyle::pair);
+  if (found != styles.end()) return {found->colour, found->marker};
+  found = std::ranges::find_if(styles, [&](const NamedStyle& one) { return one.pair.trial == pair.trial; });
+  if (found != styles.end()) return {found->colour, found->marker, dash_of(pair)};
+  return {Colour::grey, 8, dash_of(pair)};
 }
 
 Series styled(Series series, const BasisPair& pair) {

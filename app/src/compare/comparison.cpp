@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -16,8 +15,6 @@
 namespace wavebalance::app {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 constexpr int error_points = 1024;        // at which motions are compared
 constexpr double reference_share = 0.3;   // of the budget; a third of it for contact phases
 constexpr double phases_share = 0.1;      // of the budget: contact phases beside the pairs
@@ -25,36 +22,10 @@ constexpr double longest_share = 0.1;     // of the budget: a single solve
 constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
 constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended
 
-double seconds_of(WallClock::time_point start) {
-  return std::chrono::duration<double>(WallClock::now() - start).count();
-}
-
 std::vector<int> doubled_sizes(int first, int largest) {
   std::vector<int> sizes;
   for (int size = first; size <= largest; size *= 2) sizes.push_back(size);
   return sizes;
-}
-
-struct SplitPairs {
-  std::vector<BasisPair> admissible;
-  std::vector<PairResult> others;
-};
-
-SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
-  SplitPairs split;
-  if (!options.pairs.empty()) return {options.pairs, {}};
-  for (const BasisPair& pair : common_pairs()) {
-    const auto found = admissibility_of(pair, scene);
-    if (found.admissible) {
-      split.admissible.push_back(pair);
-    } else {
-      PairResult other;
-      other.pair = pair;
-      other.inadmissible = found.reason;
-      split.others.push_back(std::move(other));
-    }
-  }
-  return split;
 }
 
 class ResponseComparison {
@@ -84,7 +55,7 @@ class ResponseComparison {
     found_.pairs = pair_results(pairs.admissible, found_.points, reference_error());
     add_phases_result();
     for (PairResult& other : pairs.others) found_.pairs.push_back(std::move(other));
-    found_.wall_seconds = seconds_of(start_);
+    found_.wall_seconds = clock_.seconds();
     return std::move(found_);
   }
 
@@ -93,7 +64,7 @@ class ResponseComparison {
   bool goes_on(std::string_view phase) {
     if (!found_.interrupted)
       found_.interrupted = !solvers::goes_on(
-          observer_, {phase, 0, solvers::missing, {}, std::min(1.0, seconds_of(start_) / options_.budget)});
+          observer_, {phase, 0, solvers::missing, {}, std::min(1.0, clock_.seconds() / options_.budget)});
     return !found_.interrupted;
   }
 
@@ -126,9 +97,9 @@ class ResponseComparison {
     PhaseStudyOptions study;
     study.max_seconds = longest_share * phases_share * options_.budget;
     study.solve = timed_solves();
-    const double end = seconds_of(start_) + phases_share * options_.budget;
+    const double end = clock_.seconds() + phases_share * options_.budget;
     study.observer = [this, end](const solvers::Progress& progress) {
-      return goes_on(progress.phase) && seconds_of(start_) < end;
+      return goes_on(progress.phase) && clock_.seconds() < end;
     };
     return phase_study(measured_, found_.reference, study);
   }
@@ -159,7 +130,7 @@ class ResponseComparison {
     sizes.construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
     sizes.threads = options_.threads;
     sizes.observer = [this](const solvers::Progress& progress) {
-      return goes_on(progress.phase) && seconds_of(start_) < (1.0 - stability_share) * options_.budget;
+      return goes_on(progress.phase) && clock_.seconds() < (1.0 - stability_share) * options_.budget;
     };
     return sizes;
   }
@@ -192,7 +163,7 @@ class ResponseComparison {
     return response.stability ? response.stability->status : "";
   }
 
-  WallClock::time_point start_ = WallClock::now();
+  WallClock clock_;
   MeasuredScene measured_;
   const ComparisonOptions& options_;
   const solvers::Observer& observer_;
@@ -201,8 +172,7 @@ class ResponseComparison {
 
 void check_scene_type(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (type != AnalysisType::forced_response && type != AnalysisType::frequency_sweep &&
-      type != AnalysisType::amplitude_sweep)
+  if (type != AnalysisType::forced_response && !is_sweep(type))
     throw std::invalid_argument("analysis.type = \"" + name_of(type) +
                                 "\": pairs of bases are compared in a \"forced_response\", a "
                                 "\"frequency_sweep\" or an \"amplitude_sweep\"");

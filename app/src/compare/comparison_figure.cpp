@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -13,12 +12,9 @@ namespace wavebalance::app {
 namespace {
 
 Series time_series(const std::string& label, const std::vector<SolvePoint>& points, SeriesStyle style) {
-  std::vector<double> x, y;
-  for (const SolvePoint& point : points) {
-    x.push_back(point.seconds);
-    y.push_back(point.error);
-  }
-  return {label, x, y, style};
+  Series series(label, style);
+  for (const SolvePoint& point : points) series.append(point.seconds, point.error);
+  return series;
 }
 
 Series least_errors(const BasisPair& pair, const std::vector<SolvePoint>& points) {
@@ -28,12 +24,9 @@ Series least_errors(const BasisPair& pair, const std::vector<SolvePoint>& points
       const auto found = least.try_emplace(point.functions, point.error).first;
       found->second = std::min(found->second, point.error);
     }
-  std::vector<double> x, y;
-  for (const auto& [functions, error] : least) {
-    x.push_back(functions);
-    y.push_back(error);
-  }
-  return styled({label_of(pair), x, y, SeriesStyle::line_points}, pair);
+  Series series(label_of(pair), SeriesStyle::line_points);
+  for (const auto& [functions, error] : least) series.append(functions, error);
+  return styled(std::move(series), pair);
 }
 
 Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure measure) {
@@ -57,10 +50,8 @@ void add_distances(Figure& figure, const SweepComparison& comparison) {
   for (const ComparedCurve& curve : comparison.curves) {
     const double distance = exact ? curve.distance_from_exact : curve.distance;
     if (!(distance > 0.0)) continue;
-    const Series empty("", std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
-    Series& series = pairs.try_emplace(name_of(curve.pair), styled(empty, curve.pair)).first->second;
-    series.x.push_back(curve.functions);
-    series.y.push_back(distance);
+    const Series empty = styled({"", SeriesStyle::line_points}, curve.pair);
+    pairs.try_emplace(name_of(curve.pair), empty).first->second.append(curve.functions, distance);
   }
   for (auto& [name, series] : pairs) panel.add(std::move(series));
   if (pairs.empty()) figure.panels.pop_back();

@@ -96,11 +96,6 @@ std::string start_sentence(const Comparison& comparison) {
                "without contact finds none with few functions.\n";
 }
 
-/// A number of what was not chosen is missing.
-Cell count_cell(const std::optional<SolvePoint>& point, int SolvePoint::*number) {
-  return point ? Cell(std::int64_t{(*point).*number}) : Cell(solvers::missing);
-}
-
 std::vector<std::string> warnings_of(const Comparison& comparison) {
   std::vector<std::string> warnings;
   if (comparison.force_asked && !comparison.without_force.empty())
@@ -146,12 +141,6 @@ void add_reference(Summary& summary, const Reference& reference) {
   summary.emplace_back("reference_unstable_multipliers", std::int64_t{reference.stability.unstable});
 }
 
-void append_inadmissible(Table& table, const PairResult& pair) {
-  table.append_row({pair.pair.trial, pair.pair.weight, false, std::int64_t{0}, std::int64_t{0},
-                    std::int64_t{0}, solvers::missing, solvers::missing, solvers::missing, std::int64_t{0},
-                    pair.inadmissible});
-}
-
 std::string inadmissible_text(const std::vector<PairResult>& pairs) {
   std::string text;
   for (const PairResult& pair : pairs)
@@ -183,48 +172,51 @@ Table pairs_table(const Comparison& comparison) {
   Table table({"trial", "weight", "admissible", "solves", "converged", "largest_functions", "smallest_error",
                "order", "force_order", "order_points_per_function", "failures"});
   for (const PairResult& pair : comparison.pairs) {
-    if (!pair.inadmissible.empty()) {
-      append_inadmissible(table, pair);
-      continue;
-    }
-    table.append_row({pair.pair.trial, pair.pair.weight, true, std::int64_t{pair.solves},
+    const bool admissible = pair.inadmissible.empty();
+    table.append_row({pair.pair.trial, pair.pair.weight, admissible, std::int64_t{pair.solves},
                       std::int64_t{pair.converged}, std::int64_t{pair.largest_functions}, pair.smallest_error,
                       pair.order, pair.force_order, std::int64_t{pair.order_points_per_function},
-                      pair.failures});
+                      admissible ? pair.failures : pair.inadmissible});
   }
   return table;
 }
 
 Table recommendations_table(const std::vector<Recommendation>& recommendations) {
-  Table table({"error",         "error_of",          "trial",           "weight",
-               "functions",     "quadrature_points", "seconds",         "displacement_error",
-               "force_error",   "fourier_functions", "fourier_seconds", "fourier_time_ratio",
-               "basis_matters", "phases_functions",  "phases_points",   "phases_seconds",
-               "phases_error",  "stability",         "sentences",       "time_table"});
+  using Cells = std::vector<std::pair<std::string, Cell>>;
+  const auto cells_of = [](const Recommendation& one) -> Cells {
+    const SolvePoint none, &choice = one.choice ? *one.choice : none,
+                           &fourier = one.fourier ? *one.fourier : none,
+                           &phases = one.phases ? *one.phases : none;
+    // A number of what was not chosen is missing.
+    const auto count = [](int number) { return number > 0 ? Cell(std::int64_t{number}) : solvers::missing; };
+    return {{"error", one.error},
+            {"error_of", std::string(to_string(one.measure))},
+            {"trial", choice.pair.trial},
+            {"weight", choice.pair.weight},
+            {"functions", count(choice.functions)},
+            {"quadrature_points", count(choice.points)},
+            {"seconds", choice.seconds},
+            {"displacement_error", choice.displacement_error},
+            {"force_error", choice.force_error},
+            {"fourier_functions", count(fourier.functions)},
+            {"fourier_seconds", fourier.seconds},
+            {"fourier_time_ratio", one.fourier_time_ratio()},
+            {"basis_matters", std::string(to_string(one.matters))},
+            {"phases_functions", count(phases.functions)},
+            {"phases_points", count(phases.points)},
+            {"phases_seconds", phases.seconds},
+            {"phases_error", phases.error},
+            {"stability", one.stability},
+            {"sentences", one.sentences},
+            {"time_table", one.time_table}};
+  };
+  std::vector<std::string> names;
+  for (const auto& [name, cell] : cells_of({})) names.push_back(name);
+  Table table(names);
   for (const Recommendation& one : recommendations) {
-    const SolvePoint choice = one.choice.value_or(SolvePoint{});
-    const SolvePoint fourier = one.fourier.value_or(SolvePoint{});
-    const SolvePoint phases = one.phases.value_or(SolvePoint{});
-    table.append_row({one.error,
-                      std::string(to_string(one.measure)),
-                      choice.pair.trial,
-                      choice.pair.weight,
-                      count_cell(one.choice, &SolvePoint::functions),
-                      count_cell(one.choice, &SolvePoint::points),
-                      choice.seconds,
-                      choice.displacement_error,
-                      choice.force_error,
-                      count_cell(one.fourier, &SolvePoint::functions),
-                      fourier.seconds,
-                      one.fourier_time_ratio(),
-                      std::string(to_string(one.matters)),
-                      count_cell(one.phases, &SolvePoint::functions),
-                      count_cell(one.phases, &SolvePoint::points),
-                      phases.seconds,
-                      phases.error,
-                      one.stability,
-                      one.sentences,
-                      one.time_table});
+    std::vector<Cell> row;
+    for (const auto& [name, cell] : cells_of(one)) row.push_back(cell);
+    table.append_row(std::move(row));
   }
   return table;
 }
@@ -310,17 +302,8 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
     record.pictures.push_back(
         {"sweeps", curves_figure(comparison), "the finest curve of each pair, and distances over functions"});
   }
-  const std::vector<std::string> shown{"trial",
-                                       "weight",
-                                       "functions",
-                                       "seconds",
-                                       "curve_points",
-                                       "max_displacement_m",
-                                       comparison.peak_column,
-                                       "turning_points",
-                                       "distance_from_finest",
-                                       "distance_from_exact",
-                                       "status"};
+  std::vector<std::string> shown = record.table.columns();
+  std::erase(shown, "points");
   const std::string table = markdown_table(shown, record.table);
   record.markdown = title + record.text + "\n" + table + inadmissible_text(comparison.inadmissible);
   record.text += "\n" + table;
@@ -329,8 +312,7 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
 
 ComparisonRecord compare_bases(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer) {
-  if (scene.analysis.type == AnalysisType::frequency_sweep ||
-      scene.analysis.type == AnalysisType::amplitude_sweep)
+  if (is_sweep(scene.analysis.type))
     return comparison_record(scene, compare_sweeps(scene, options, observer));
   return comparison_record(scene, compare_responses(scene, options, observer));
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <span>
-#include <utility>
 
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/comparison.hpp"
@@ -83,6 +82,19 @@ PairResult result_of(const BasisPair& pair, const std::vector<SolvePoint>& own, 
 }
 
 }  // namespace
+
+SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options) {
+  if (!options.pairs.empty()) return {options.pairs, {}};
+  SplitPairs split;
+  for (const BasisPair& pair : common_pairs()) {
+    const auto found = admissibility_of(pair, scene);
+    if (found.admissible)
+      split.admissible.push_back(pair);
+    else
+      split.others.push_back({.pair = pair, .inadmissible = found.reason});
+  }
+  return split;
+}
 
 std::vector<PairResult> pair_results(const std::vector<BasisPair>& pairs,
                                      const std::vector<SolvePoint>& points, double reference_error) {

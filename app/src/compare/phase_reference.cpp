@@ -4,7 +4,9 @@
 #include <array>
 #include <utility>
 
+#include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -22,42 +24,66 @@ constexpr double least_error = 1e-14;        // rounding
 constexpr const char* unchecked = "no time was left to check them with more nodes";
 constexpr int most_divided = 64;  // panels: rounding may keep the estimate above the tolerance
 
-bool is_refusal(solvers::PhasesStatus status) {
+struct NamedStatus {
+  solvers::PhasesStatus status;
+  bool refusal;  // wherever the search starts
+  const char* phrase;
+};
+
+/// Statuses that are not named are those of curves and of impacts.
+NamedStatus named(solvers::PhasesStatus status) {
   using enum solvers::PhasesStatus;
-  return status == rigid_contact || status == velocity_and_no_mass || status == resonant ||
-         status == structural_damping || status == slip_in_a_plane || status == law_over_period;
+  static constexpr std::array<NamedStatus, 10> statuses{
+      {{rigid_contact, true, "the contact is rigid and has mass"},
+       {velocity_and_no_mass, true, "a force of the velocity acts at a contact without mass"},
+       {resonant, true, "the structure has a motion of this period without contact"},
+       {structural_damping, true, "a loss factor has no equation in time"},
+       {slip_in_a_plane, true, "a contact has rigid friction along two tangents"},
+       {law_over_period, true, "a law acts over the period and has no states"},
+       {tolerance_missed, false, "their error stays above 1e-6"},
+       {too_many_phases, false, "they have too many unknowns"},
+       {not_found, false, "no motion of the structure is found near the balance"},
+       {cancelled, false, "no time was left for them"}}};
+  const auto found = std::ranges::find(statuses, status, &NamedStatus::status);
+  return found == statuses.end() ? NamedStatus{status, false, ""} : *found;
 }
 
 }  // namespace
 
-std::string phrase_of(solvers::PhasesStatus status) {
-  using enum solvers::PhasesStatus;
-  switch (status) {
-    case rigid_contact:
-      return "the contact is rigid and has mass";
-    case velocity_and_no_mass:
-      return "a force of the velocity acts at a contact without mass";
-    case resonant:
-      return "the structure has a motion of this period without contact";
-    case structural_damping:
-      return "a loss factor has no equation in time";
-    case slip_in_a_plane:
-      return "a contact has rigid friction along two tangents";
-    case law_over_period:
-      return "a law acts over the period and has no states";
-    case tolerance_missed:
-      return "their error stays above 1e-6";
-    case too_many_phases:
-      return "they have too many unknowns";
-    case not_found:
-      return "no motion of the structure is found near the balance";
-    case cancelled:
-      return "no time was left for them";
-    default:  // of curves and of impacts
-      break;
-  }
-  return "";
+std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& model, double tolerance,
+                                   const solvers::Observer& observer) {
+  Scene refined = discretised(scene, {"fourier", "fourier"}, 0, 0);
+  refined.time.tolerance = tolerance;
+  ResponseOptions options;
+  options.observer = observer;
+  const solvers::ContactLaws laws = make_laws(scene);
+  Response outcome;
+  auto found = solve_to_tolerance(refined, model, laws, options, outcome);
+  if (!outcome.converged || outcome.rounding_error > largest_rounding_error) return std::nullopt;
+  const auto& last = found.levels.back();
+  Guide guide{{std::move(*found.problem), laws, model.dynamics},
+              std::move(found.response),
+              {},
+              found.estimated_error,
+              last.functions,
+              last.points};
+  guide.contacts = guide.problem.motion(guide.response, scene.analysis.output_points);
+  return guide;
 }
+
+std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
+                                 const solvers::Observer& observer, const StartMotion& start) {
+  const int points = 4 * (functions + 1);
+  const Scene sized = discretised(scene, {"fourier", "fourier"}, functions, points);
+  solvers::ContactProblem problem = uncondensed_problem(sized, model);
+  solvers::PeriodicResponse response = response_near(scene, problem, response_start(start, sized), observer);
+  if (!response.converged()) return std::nullopt;
+  Guide guide{std::move(problem), std::move(response), {}, solvers::missing, functions, points};
+  guide.contacts = guide.problem.motion(guide.response, scene.analysis.output_points);
+  return guide;
+}
+
+std::string phrase_of(solvers::PhasesStatus status) { return named(status).phrase; }
 
 std::string phases_refusal(const StructureModel& model) {
   const solvers::ContactDynamics* dynamics = model.contact_dynamics();
@@ -87,7 +113,7 @@ PhaseReference phase_reference(Guide& guide, const solvers::Observer& observer) 
         motion.parts != nullptr && (motion.converged() || motion.estimated_error <= best.error);
     if (!better && first) {
       best.missing_because = phrase_of(motion.status);
-      best.refused = is_refusal(motion.status);
+      best.refused = named(motion.status).refusal;
     }
     if (!better) break;
     solvers::Motion contacts = sampled(motion, guide.contacts.points());

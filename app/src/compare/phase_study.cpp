@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -60,15 +59,10 @@ class PhaseStudy {
 
   PhaseSolve solve(solvers::ContactProblem& problem, const solvers::ResponseStart& start,
                    double tolerance) const {
-    problem.condensed().forget_condensation();
     const solvers::Observer observer = [this](const solvers::Progress& progress) {
       return solvers::goes_on(options_.observer, progress);
     };
-    solvers::ForcedResponseOptions options;
-    options.form = measured_.scene.contact.form;
-    options.observer = observer;
-    options.stay_near_guess = start.displacement.size() > 0;
-    PhaseSolve found{problem.respond(measured_.scene.forcing.frequency, options, start), std::nullopt};
+    PhaseSolve found{response_near(measured_.scene, problem, start, observer), std::nullopt};
     if (!found.balance.converged()) return found;
     const solvers::ContactDynamics dynamics(problem.structure());
     const int nodes = tolerance > 1e-3 ? 4 : tolerance > 1e-5 ? 6 : 8;
@@ -80,36 +74,25 @@ class PhaseStudy {
 
   SolvePoint point_of(int functions, double tolerance) const {
     const Scene scene = discretised(measured_.scene, {"fourier", "fourier"}, functions, 4 * (functions + 1));
-    SolvePoint point;
+    SolvePoint point = unsolved_point(scene);
     point.method = "phases";
     point.pair = BasisPair::phases();
-    point.inner_products = name_of(effective_inner_products(scene.time));
-    point.functions = functions;
-    point.points = scene.time.quadrature_points;
     point.tolerance = tolerance;
-    point.construction_seconds =
-        least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
-    solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
+    auto problem = timed_problem(measured_, scene, options_.construction, point);
+    if (!problem) return point;
     const solvers::ResponseStart start = response_start(measured_.start, scene);
     PhaseSolve found;
-    try {
-      point.seconds = least_seconds([&] { found = solve(problem, start, tolerance); }, options_.solve);
-    } catch (const solvers::SingularSystem&) {
-      point.status = "singular";
-      return point;
-    }
-    note(found, point);
+    if (time_solve([&] { found = solve(*problem, start, tolerance); }, options_.solve, point))
+      note(found, point);
     return point;
   }
 
   void note(const PhaseSolve& found, SolvePoint& point) const {
     point.status = found.phases ? to_string(found.phases->motion.status) : to_string(found.balance.status);
     point.converged = found.phases && found.phases->motion.converged();
-    if (!point.converged) return;
-    const solvers::Motion motion = sampled(found.phases->motion, measured_.reference.points());
-    point.displacement_error = std::max(displacement_error(motion, measured_.reference), reference_.error);
-    point.force_error = std::max(force_error(motion, measured_.reference), reference_.force_error);
-    point.error = weighed_error(measured_.measure, point.displacement_error, point.force_error);
+    if (point.converged)
+      set_errors(measured_, sampled(found.phases->motion, measured_.reference.points()), point,
+                 reference_.error, reference_.force_error);
   }
 
   const MeasuredScene& measured_;

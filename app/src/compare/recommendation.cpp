@@ -47,6 +47,11 @@ std::string error_text(double error, int digits = 1) {
   return text;
 }
 
+/// "1.2e-2 in 110 µs"
+std::string outcome_of(const SolvePoint& point) {
+  return error_text(point.error) + " in " + duration_text(point.seconds);
+}
+
 std::string errors_of(const SolvePoint& point) {
   std::string text = "error " + error_text(point.displacement_error) + " of the displacement";
   if (!std::isnan(point.force_error)) text += ", " + error_text(point.force_error) + " of the force";
@@ -63,9 +68,7 @@ std::string first_sentence(const Recommendation& found, bool steady) {
       fmt::format("For an error of {} the cheapest is {}: {} per solve ({})", asked_text(found),
                   choice_text(*found.choice), duration_text(found.choice->seconds), errors_of(*found.choice));
   if (!steady) text += ", but the next size does not keep to it";
-  if (found.near_miss)
-    text += fmt::format("; {} has {} in {}", choice_text(*found.near_miss),
-                        error_text(found.near_miss->error), duration_text(found.near_miss->seconds));
+  if (found.near_miss) text += "; " + choice_text(*found.near_miss) + " has " + outcome_of(*found.near_miss);
   return text + ".";
 }
 
@@ -80,8 +83,8 @@ std::string runner_up_sentence(const Recommendation& found) {
   if (!found.runner_up) return "No other pair reaches it within the budget.";
   const double ratio = found.runner_up->seconds / found.choice->seconds;
   if (found.runner_up->error > found.error)
-    return fmt::format("The basis matters little: the next, {}, has {} in {}.", choice_text(*found.runner_up),
-                       error_text(found.runner_up->error), duration_text(found.runner_up->seconds));
+    return fmt::format("The basis matters little: the next, {}, has {}.", choice_text(*found.runner_up),
+                       outcome_of(*found.runner_up));
   const char* opening = ratio <= little_ratio ? "The basis matters little" : "The basis matters";
   return fmt::format("{}: the next, {}, {} ({}).", opening, choice_text(*found.runner_up), ratio_text(ratio),
                      duration_text(found.runner_up->seconds));
@@ -94,33 +97,25 @@ std::string near_fourier_sentence(const Recommendation& found) {
       found.fourier ? fmt::format(", and reaches it with {} and {} in {}", found.fourier->functions,
                                   found.fourier->points, duration_text(found.fourier->seconds))
                     : std::string();
-  return fmt::format("The basis matters little: {} has {} in {}{}.", choice_text(near),
-                     error_text(near.error), duration_text(near.seconds), later);
+  return fmt::format("The basis matters little: {} has {}{}.", choice_text(near), outcome_of(near), later);
 }
 
 std::string second_sentence(const Recommendation& found, const std::vector<SolvePoint>& points) {
-  const double ratio = found.fourier_time_ratio();
-  switch (found.matters) {
-    case BasisMatters::little:
-      if (found.choice->pair.is_fourier()) return runner_up_sentence(found);
-      if (found.fourier_near_miss) return near_fourier_sentence(found);
-      return fmt::format("The basis matters little: {} {} ({}).", choice_text(*found.fourier),
-                         ratio_text(ratio), duration_text(found.fourier->seconds));
-    case BasisMatters::much:
-      return fmt::format("The basis matters: {} {} ({}).", choice_text(*found.fourier), ratio_text(ratio),
-                         duration_text(found.fourier->seconds));
-    case BasisMatters::fourier_fails: {
-      double least = std::numeric_limits<double>::infinity();
-      for (const SolvePoint& point : points)
-        if (point.pair.is_fourier() && reaches(point, least)) least = point.error;
-      if (least <= found.error) least = std::numeric_limits<double>::infinity();
-      return "The basis matters: Fourier:Fourier does not reach it within the budget" +
-             (std::isfinite(least) ? ", its smallest error is " + error_text(least) + "." : std::string("."));
-    }
-    case BasisMatters::no_choice:
-    case BasisMatters::not_compared:
-      break;
+  if (found.matters == BasisMatters::fourier_fails) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SolvePoint& point : points)
+      if (point.pair.is_fourier() && reaches(point, least)) least = point.error;
+    const bool known = std::isfinite(least) && least > found.error;
+    return "The basis matters: Fourier:Fourier does not reach it within the budget" +
+           (known ? ", its smallest error is " + error_text(least) + "." : std::string("."));
   }
+  if (found.matters == BasisMatters::little && found.choice->pair.is_fourier())
+    return runner_up_sentence(found);
+  if (found.matters == BasisMatters::little && found.fourier_near_miss) return near_fourier_sentence(found);
+  if (found.matters == BasisMatters::little || found.matters == BasisMatters::much)
+    return fmt::format("The basis matters{}: {} {} ({}).",
+                       found.matters == BasisMatters::little ? " little" : "", choice_text(*found.fourier),
+                       ratio_text(found.fourier_time_ratio()), duration_text(found.fourier->seconds));
   return "Fourier:Fourier was not among the pairs.";
 }
 
@@ -147,8 +142,7 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
   if (best == points.end() || !reaches(*best, std::numeric_limits<double>::infinity()))
     return "No pair reaches an error of " + which +
            " within the budget. None of the solves has converged with a known error.";
-  const std::string nearest = choice_text(*best) + " comes nearest, with " + error_text(best->error) +
-                              " in " + duration_text(best->seconds) + ".";
+  const std::string nearest = choice_text(*best) + " comes nearest, with " + outcome_of(*best) + ".";
   const auto below = cheapest(points, reference_error);  // how far below is not known
   if (reference_error > known_share * found.error)
     return fmt::format(

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "compare/guide.hpp"
 #include "compare/phase_reference.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
@@ -19,8 +16,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
 
 Reference found_reference(const std::string& kind, const std::string& text, double error,
                           solvers::Motion motion) {
@@ -45,7 +40,7 @@ class ReferenceSearch {
         seconds_(seconds),
         observer_([this, &observer](const solvers::Progress& progress) {
           interrupted_ = interrupted_ || !goes_on(observer, {"reference"});
-          return !interrupted_ && elapsed() < allowed_ && next_level_fits(progress);
+          return !interrupted_ && clock_.seconds() < allowed_ && next_level_fits(progress);
         }) {
     scene_.analysis.output_points = points;
     scene_.time.sample_offset = 0.0;  // the levels of a refinement share their points at the left ends
@@ -68,18 +63,16 @@ class ReferenceSearch {
     } catch (const solvers::SingularSystem&) {
       reference = missing_reference("singular");
     }
-    reference.wall_seconds = elapsed();
+    reference.wall_seconds = clock_.seconds();
     return reference;
   }
 
  private:
-  double elapsed() const { return std::chrono::duration<double>(SteadyClock::now() - start_).count(); }
-
   /// After a level of a refinement: whether the next one is expected to end within the time allowed. A level
   /// cannot be stopped while its Newton matrix is factorized. The first motion is sought in any case.
   bool next_level_fits(const solvers::Progress& progress) {
     if (progress.phase != "refinement" || tolerance_ >= coarse_guide) return true;
-    const double now = elapsed(), seconds = now - std::exchange(level_began_, now);
+    const double now = clock_.seconds(), seconds = now - std::exchange(level_began_, now);
     const double growth = seconds / std::exchange(level_seconds_, std::max(seconds, 1e-9));
     const bool is_last = progress.value <= tolerance_;
     return is_last || now + std::clamp(growth, least_growth, largest_growth) * seconds < allowed_;
@@ -151,7 +144,7 @@ class ReferenceSearch {
   std::optional<Guide> balance(double tolerance, double share = 1.0) {
     allowed_ = share * seconds_;
     tolerance_ = tolerance;
-    level_began_ = elapsed();
+    level_began_ = clock_.seconds();
     level_seconds_ = std::numeric_limits<double>::infinity();  // the first level takes next to no time
     return refined_guide(scene_, model_, tolerance, observer_);
   }
@@ -205,7 +198,7 @@ class ReferenceSearch {
 
   /// In a part of the time that is left for them.
   std::optional<Reference> phases_from(Guide& start, double part) {
-    allowed_ = elapsed() + part * std::max(0.0, phases_share * seconds_ - elapsed());
+    allowed_ = clock_.seconds() + part * std::max(0.0, phases_share * seconds_ - clock_.seconds());
     PhaseReference found = phase_reference(start, observer_);
     const bool known = found.missing_because.empty();
     if (known && is_of_guide(found.contacts)) return by_phases(std::move(found), start);
@@ -269,7 +262,7 @@ class ReferenceSearch {
   double allowed_ = 0.0;
   double tolerance_ = 0.0, level_began_ = 0.0, level_seconds_ = 0.0;  // of the refinement under way
   bool interrupted_ = false;
-  SteadyClock::time_point start_ = SteadyClock::now();
+  WallClock clock_;
   solvers::Observer observer_;
   std::vector<Guide> guides_;  // of falling errors
   std::string without_phases_;

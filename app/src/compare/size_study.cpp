@@ -93,7 +93,7 @@ class SizeSeries {
     if (ended_) return;
     const int number = functions + change_;
     const Scene scene = discretised(measured_.scene, pair_, number, functions * points_per_function_);
-    points_.push_back(blank(scene.time));
+    points_.push_back(unsolved_point(scene));
     phase_ = name_of(pair_) + ", " + std::to_string(number) + " functions";
     if (!limit_.allows() || !goes_on()) {
       points_.back().status = "not_run";
@@ -125,57 +125,28 @@ class SizeSeries {
     return dominated_ >= most_in_a_row;
   }
 
-  SolvePoint blank(const Time& time) const {
-    SolvePoint point;
-    point.pair = pair_;
-    point.inner_products = name_of(effective_inner_products(time));
-    point.functions = time.functions;
-    point.points = time.quadrature_points;
-    return point;
-  }
-
   bool goes_on() const { return solvers::goes_on(options_.observer, {phase_}); }
 
-  solvers::PeriodicResponse solve(solvers::ContactProblem& problem,
-                                  const solvers::ResponseStart& start) const {
-    problem.condensed().forget_condensation();
-    solvers::ForcedResponseOptions options;
-    options.form = measured_.scene.contact.form;
-    options.stay_near_guess = start.displacement.size() > 0;
-    // Ends a solve that takes too long; it has not converged then.
-    options.observer = [&, begin = processor_seconds()](const solvers::Progress&) {
-      return processor_seconds() - begin < max_seconds_ && goes_on();
-    };
-    return problem.respond(measured_.scene.forcing.frequency, options, start);
-  }
-
   void measure(const Scene& scene, SolvePoint& point) const {
-    try {
-      point.construction_seconds =
-          least_seconds([&] { uncondensed_problem(scene, measured_.model); }, options_.construction);
-    } catch (const std::invalid_argument&) {
-      point.status = "refused";  // as many Fourier functions as points at the middles
-      return;
-    }
-    solvers::ContactProblem problem = uncondensed_problem(scene, measured_.model);
+    auto problem = timed_problem(measured_, scene, options_.construction, point);
+    if (!problem) return;
     const solvers::ResponseStart start = response_start(measured_.start, scene);
     solvers::PeriodicResponse response;
-    try {
-      point.seconds = least_seconds([&] { response = solve(problem, start); }, options_.solve);
-    } catch (const solvers::SingularSystem&) {
-      point.status = "singular";
-      return;
-    }
+    const auto solve = [&] {
+      // Ends a solve that takes too long; it has not converged then.
+      response =
+          response_near(scene, *problem, start, [&, begin = processor_seconds()](const solvers::Progress&) {
+            return processor_seconds() - begin < max_seconds_ && goes_on();
+          });
+    };
+    if (!time_solve(solve, options_.solve, point)) return;
     point.status = to_string(response.status);
     if (response.status == solvers::SolveStatus::cancelled && !goes_on()) {
       point.status = "not_run";
       return;
     }
     point.converged = response.converged();
-    const auto motion = problem.motion(response, static_cast<int>(measured_.reference.displacement.cols()));
-    point.displacement_error = displacement_error(motion, measured_.reference);
-    point.force_error = force_error(motion, measured_.reference);
-    point.error = weighed_error(measured_.measure, point.displacement_error, point.force_error);
+    set_errors(measured_, problem->motion(response, measured_.reference.points()), point);
   }
 
   const MeasuredScene& measured_;
@@ -237,6 +208,50 @@ solvers::ResponseStart response_start(const StartMotion& start, const Scene& sce
   if (start.contacts.empty()) return {};
   StartSamples samples = start_samples(start, scene);
   return {std::move(samples.displacement), std::move(samples.force)};
+}
+
+solvers::PeriodicResponse response_near(const Scene& scene, solvers::ContactProblem& problem,
+                                        const solvers::ResponseStart& start,
+                                        const solvers::Observer& observer) {
+  problem.condensed().forget_condensation();
+  solvers::ForcedResponseOptions options;
+  options.form = scene.contact.form;
+  options.observer = observer;
+  options.stay_near_guess = start.displacement.size() > 0;
+  return problem.respond(scene.forcing.frequency, options, start);
+}
+
+SolvePoint unsolved_point(const Scene& scene) {
+  SolvePoint point;
+  point.pair = {scene.time.trial, scene.time.weight};
+  point.inner_products = name_of(effective_inner_products(scene.time));
+  point.functions = scene.time.functions;
+  point.points = scene.time.quadrature_points;
+  return point;
+}
+
+std::optional<solvers::ContactProblem> timed_problem(const MeasuredScene& measured, const Scene& scene,
+                                                     const Repetition& repetition, SolvePoint& point) try {
+  point.construction_seconds = least_seconds([&] { uncondensed_problem(scene, measured.model); }, repetition);
+  return uncondensed_problem(scene, measured.model);
+} catch (const std::invalid_argument&) {
+  point.status = "refused";
+  return std::nullopt;
+}
+
+bool time_solve(const std::function<void()>& solve, const Repetition& repetition, SolvePoint& point) try {
+  point.seconds = least_seconds(solve, repetition);
+  return true;
+} catch (const solvers::SingularSystem&) {
+  point.status = "singular";
+  return false;
+}
+
+void set_errors(const MeasuredScene& measured, const solvers::Motion& motion, SolvePoint& point,
+                double least_displacement, double least_force) {
+  point.displacement_error = std::max(displacement_error(motion, measured.reference), least_displacement);
+  point.force_error = std::max(force_error(motion, measured.reference), least_force);
+  point.error = weighed_error(measured.measure, point.displacement_error, point.force_error);
 }
 
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference) {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -107,7 +105,7 @@ class CurveComparison {
     found_.interrupted = observer_.stopped();
     gather_curves();
     compare_with_finest();
-    found_.wall_seconds = elapsed();
+    found_.wall_seconds = clock_.seconds();
     return std::move(found_);
   }
 
@@ -146,7 +144,7 @@ class CurveComparison {
     exact.analysis.largest_step *= shorter;
     const double start = processor_seconds();
     const auto in_time = [&](const solvers::Progress&) {
-      return goes_on("exact curve") && elapsed() < exact_share * options_.budget;
+      return goes_on("exact curve") && clock_.seconds() < exact_share * options_.budget;
     };
     try {
       ComparedCurve curve = curve_of(exact, {}, exact_sweep(exact, model_, in_time, options_.start), 0.0);
@@ -157,32 +155,19 @@ class CurveComparison {
     }
   }
 
-  double elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
   void make_chains() {
-    std::vector<BasisPair> pairs = options_.pairs;
-    if (pairs.empty())
-      for (const BasisPair& pair : common_pairs()) admit(pair, pairs);
+    SplitPairs pairs = split_pairs(scene_, options_);
+    found_.inadmissible = std::move(pairs.others);
     const TimeLimit limit(longest_share * options_.budget);
-    for (const BasisPair& pair : pairs)
+    for (const BasisPair& pair : pairs.admissible)
       chains_.push_back({pair, limit, std::min(last_size, options_.largest_functions)});
-  }
-
-  void admit(const BasisPair& pair, std::vector<BasisPair>& pairs) {
-    const auto admissible = admissibility_of(pair, scene_);
-    if (admissible.admissible) return pairs.push_back(pair);
-    PairResult other;
-    other.pair = pair;
-    other.inadmissible = admissible.reason;
-    found_.inadmissible.push_back(std::move(other));
   }
 
   /// Until the observer stops it, or time is up. May be called by several threads.
   bool goes_on(std::string_view phase) {
-    const double share = std::min(1.0, elapsed() / options_.budget);
-    return observer_.goes_on({phase, finished_, solvers::missing, {}, share}) && elapsed() < options_.budget;
+    const double share = std::min(1.0, clock_.seconds() / options_.budget);
+    return observer_.goes_on({phase, finished_, solvers::missing, {}, share}) &&
+           clock_.seconds() < options_.budget;
   }
 
   /// The loop of a thread: it solves the smallest pending size.
@@ -251,9 +236,8 @@ class CurveComparison {
     }
     if (!found_.finest) return;
     const ComparedCurve& finest = found_.curves[*found_.finest];
-    const Analysis& analysis = scene_.analysis;
-    const double interval = over_amplitude() ? std::abs(analysis.amplitude_to - analysis.amplitude_from)
-                                             : std::abs(analysis.frequency_to - analysis.frequency_from);
+    const auto [from, to] = sweep_interval(scene_.analysis);
+    const double interval = std::abs(to - from);
     for (ComparedCurve& one : found_.curves) {
       if (!one.converged()) continue;
       one.distance = curve_distance(one, finest, interval);
@@ -266,7 +250,7 @@ class CurveComparison {
     return functions + functions % 2;
   }
 
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  WallClock clock_;
   Scene scene_;
   StructureModel model_;
   const ComparisonOptions& options_;

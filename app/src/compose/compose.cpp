@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "compose/equal_modes.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
@@ -163,6 +162,39 @@ StructureModes modes_beside_springs(const solvers::LinearStructure& structure, c
   result.shapes(moving, Eigen::seqN(0, count)) = modes.shapes;
   result.shapes(massless, Eigen::all) = at_massless;
   return result;
+}
+
+/// Turns the modes from `begin` to `end` by the eigenvectors of G = (S Phi)^T S Phi, the largest first: the
+/// modes of v = omega^2 (G + d) v in ascending order, for any d that makes G + d definite.
+void turn(StructureModes& modes, Eigen::Index begin, Eigen::Index end) {
+  const Eigen::Index count = end - begin;
+  const Eigen::MatrixXd contacts = modes.model.contact_shapes.middleCols(begin, count);
+  Eigen::MatrixXd squares = contacts.transpose() * contacts;
+  const double largest = squares.trace();
+  if (!(largest > 0.0)) return;
+  squares.diagonal().array() += largest;
+  Eigen::SparseMatrix<double> identity(count, count);
+  identity.setIdentity();
+  const auto found = fem::eigenmodes(identity, squares.sparseView(), static_cast<int>(count));
+  if (found.status != fem::EigenmodesStatus::converged) return;
+  const Eigen::MatrixXd turned = found.shapes * found.omega.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd frequencies = modes.model.omega_squared.segment(begin, count);
+  modes.shapes.middleCols(begin, count) *= turned;
+  modes.model.contact_shapes.middleCols(begin, count) = contacts * turned;
+  modes.model.omega_squared.segment(begin, count) = turned.cwiseAbs2().transpose() * frequencies;
+}
+
+/// Turns modes of equal frequency into those combinations that move the contacts most, in descending order.
+/// Their frequencies become those of the combinations, which differ by less than equal_frequencies.
+void separate_equal_modes(StructureModes& modes) {
+  const Eigen::VectorXd omega = modes.model.omega_squared.cwiseSqrt();
+  const Eigen::Index last = omega.size() - modes.model.springs;
+  for (Eigen::Index begin = 0; begin < last;) {
+    Eigen::Index end = begin + 1;
+    while (end < last && omega[end] - omega[begin] <= equal_frequencies * omega[end]) ++end;
+    if (end > begin + 1) turn(modes, begin, end);
+    begin = end;
+  }
 }
 
 }  // namespace

@@ -67,13 +67,13 @@ class RowsOfNames {
  public:
   explicit RowsOfNames(const Document& document) : document_(document) {}
 
-  std::vector<std::int64_t> rows(const DocumentEntry& entry, const std::vector<std::string>& texts) {
-    std::vector<std::int64_t> result;
-    for (const std::string& text : texts) {
-      const auto integer = integer_of<std::int64_t>(text);
-      result.push_back(integer ? *integer : row(entry, text));
-    }
-    return result;
+  DocumentList rows(const DocumentEntry& entry, DocumentList list) {
+    for (DocumentScalar& one : list)
+      if (const auto* text = std::get_if<std::string>(&one)) {
+        const auto integer = integer_of<std::int64_t>(*text);
+        one = integer ? *integer : row(entry, *text);
+      }
+    return list;
   }
 
  private:
@@ -156,11 +156,13 @@ Document with_rows_for_names(Document document) {
   const DocumentEntry* type = document.find("structure", "type");
   if (type == nullptr || type->value != DocumentValue("matrices")) return document;
   RowsOfNames names(document);
-  std::vector<std::pair<std::size_t, std::vector<std::int64_t>>> found;
+  std::vector<std::pair<std::size_t, DocumentList>> found;
   for (std::size_t i = 0; i < document.entries.size(); ++i) {
     const DocumentEntry& entry = document.entries[i];
-    const auto* texts = std::get_if<std::vector<std::string>>(&entry.value);
-    if (texts != nullptr && is_list_of_dofs(entry)) found.emplace_back(i, names.rows(entry, *texts));
+    const auto* list = std::get_if<DocumentList>(&entry.value);
+    if (list == nullptr || !is_list_of_dofs(entry)) continue;
+    const auto is_number = [](const DocumentScalar& one) { return std::holds_alternative<double>(one); };
+    if (std::ranges::none_of(*list, is_number)) found.emplace_back(i, names.rows(entry, *list));
   }
   for (auto& [index, rows] : found) document.entries[index].value = std::move(rows);
   return document;

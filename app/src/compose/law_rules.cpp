@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -103,7 +102,7 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
                   ", static_friction above friction, tangential_damping or normal_damping; expected another "
                   "analysis");
   if (type == AnalysisType::nonlinear_mode) return;
-  const bool sweeps = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+  const bool sweeps = is_sweep(type);
   if (names_friction_of_states(scene.contact) && !sweeps && !scene.time.trial.empty())
     fail_rule(document, {"time.trial", "contact.law"},
               "not with friction of surface_speed, static_friction, tangential_damping or normal_damping, "
@@ -187,14 +186,12 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
         document, {section + ".normal_stiffness", "contact.normal_stiffness"},
         "the contact has no tangent beside the direction dofs, which is then the tangent itself; expected 0, or "
         "[[contact.pairs]] with tangent");
-  if (!has_normal && contact::number_of(values, "normal_gap") != 0.0)
-    fail_law(document, contact, "normal_gap",
-             "the contact has no normal direction, whose spring it would shift; expected 0, or "
-             "[[contact.pairs]] with tangent");
-  if (!has_normal && values.contains("normal_damping") && contact::number_of(values, "normal_damping") > 0.0)
-    fail_law(document, contact, "normal_damping",
-             "the contact has no normal direction, beside whose spring it would be; expected none, or "
-             "[[contact.pairs]] with tangent");
+  for (const auto& [key, expected] : {std::pair{"normal_gap", "whose spring it would shift; expected 0"},
+                                      {"normal_damping", "beside whose spring it would be; expected none"}})
+    if (!has_normal && contact::number_or(values, key, 0.0) != 0.0)
+      fail_law(document, contact, key,
+               "the contact has no normal direction, " + std::string(expected) +
+                   ", or [[contact.pairs]] with tangent");
   if (!has_normal && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
         document, {section + ".normal_load", "contact.normal_load"},

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "files/contains.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
@@ -89,13 +90,13 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
     const int row = std::abs(dof);
     if (row < 1 || row > size)
       throw StructureFault(
-          std::string(key),
+          key,
           fmt::format("there is no degree of freedom {}; expected 1..{}, or one of them with a minus sign",
                       dof, size));
-    if (std::find(rows.begin(), rows.end(), row) != rows.end()) {
-      const bool both = std::find(dofs.begin(), dofs.end(), -dof) != dofs.end();
+    if (contains(rows, row)) {
+      const bool both = contains(dofs, -dof);
       throw StructureFault(
-          std::string(key),
+          key,
           fmt::format("degree of freedom {} is there twice; expected each once{}", row,
                       both ? fmt::format("; [[contact.pairs]] with dofs = [{}] and side = \"both\" has an "
                                          "obstacle on either side",
@@ -110,9 +111,8 @@ void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, st
   for (const int dof : dofs)
     if (std::binary_search(files.moving.begin(), files.moving.end(), std::abs(dof) - 1))
       throw StructureFault(
-          std::string(key),
-          fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
-                      dof));
+          key, fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
+                           dof));
 }
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {

@@ -86,11 +86,6 @@ void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm
   add_force(forces, {-(coupling.mass * direction), harmonics, 2});
 }
 
-Eigen::VectorXd inertia_along(const ForcingTerm& term, const LoadPlaces& places) {
-  if (places.files == nullptr) return places.inertia;
-  return inertia_of(term, *places.files);
-}
-
 }  // namespace
 
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
@@ -108,19 +103,15 @@ std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& p
     add_force(forces, {weight_of(forcing, *places.files), Eigen::VectorXcd::Ones(1), 0});
   for (std::size_t i = 0; i < forcing.terms.size(); ++i) {
     const ForcingTerm& term = forcing.terms[i];
-    switch (term.kind) {
-      case LoadKind::force:
-        add_force(forces,
-                  {places.files == nullptr ? places.force : force_of(forcing, i, *places.files, places.force),
-                   harmonics_of(term), 0});
-        break;
-      case LoadKind::base_acceleration:
-        add_force(forces, {-inertia_along(term, places), harmonics_of(term), 0});
-        break;
-      case LoadKind::base_displacement:
-        add_base_displacement(forces, term, places);
-        break;
-    }
+    if (term.kind == LoadKind::base_displacement)
+      add_base_displacement(forces, term, places);
+    else if (term.kind == LoadKind::base_acceleration)
+      add_force(forces, {-(places.files == nullptr ? places.inertia : inertia_of(term, *places.files)),
+                         harmonics_of(term), 0});
+    else
+      add_force(forces,
+                {places.files == nullptr ? places.force : force_of(forcing, i, *places.files, places.force),
+                 harmonics_of(term), 0});
   }
   return forces;
 }

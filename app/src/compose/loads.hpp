@@ -2,7 +2,6 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "compose/structure_files.hpp"

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "files/contains.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/term_reader.hpp"
 #include "scene/toml_text.hpp"
@@ -23,12 +24,7 @@ void set_text(Scene& scene, const Document& document, const std::string& name) {
   const SceneKey* key = find_scene_key(name);
   if (entry == nullptr || key == nullptr) return;
   const auto* text = std::get_if<std::string>(&entry->value);
-  if (text != nullptr && std::find(key->choices.begin(), key->choices.end(), *text) != key->choices.end())
-    key->set(scene, *text);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+  if (text != nullptr && contains(key->choices, *text)) key->set(scene, *text);
 }
 
 /// Whether a change names a key, to set it or to leave it out.
@@ -50,8 +46,7 @@ bool has_friction_law(const Document& document) {
   const std::vector<std::string_view>& laws = find_scene_key("contact.law")->choices;
   return std::any_of(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
     const auto* text = std::get_if<std::string>(&entry.value);
-    return entry.key == "law" && text != nullptr &&
-           std::find(laws.begin(), laws.end(), *text) != laws.end() && has_friction(*text);
+    return entry.key == "law" && text != nullptr && contains(laws, *text) && has_friction(*text);
   });
 }
 
@@ -60,7 +55,7 @@ bool acts_on_free_motion(const DocumentEntry& entry) {
   constexpr std::array<std::string_view, 5> names{"structure.damping", "structure.modal_damping",
                                                   "structure.stiffness_damping", "structure.loss_factor",
                                                   "forcing.weight"};
-  return std::find(names.begin(), names.end(), entry.full_name()) != names.end();
+  return contains(names, entry.full_name());
 }
 
 }  // namespace
@@ -74,7 +69,7 @@ std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file,
   for (const char* name : {"structure.type", "contact.law", "contact.mass", "time.method"})
     set_text(scene, document, name);
   const SceneKey& analysis = *find_scene_key("analysis.type");
-  if (std::find(analysis.choices.begin(), analysis.choices.end(), type) == analysis.choices.end())
+  if (!contains(analysis.choices, type))
     throw SceneError({"", 0, "--analysis " + type, "", "", "expected " + analysis.expected()});
   analysis.set(scene, type);
   const bool free_motion = type == "nonlinear_mode" && !has_friction_law(document);

@@ -7,6 +7,7 @@
 #include "compose/scene_rules.hpp"
 #include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
+#include "files/contains.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -140,7 +141,7 @@ void check_peak(const Document& document, const Scene& scene) {
   if (wanted.empty()) return;
   std::vector<std::string> names;
   for (const Output& output : outputs_of(scene)) names.push_back(output.name);
-  if (std::find(names.begin(), names.end(), wanted) != names.end()) return;
+  if (contains(names, wanted)) return;
   fail_rule(document, {"analysis.peak_of"},
             names.empty() ? "there are no outputs; expected analysis.outputs or contact_outputs beside it"
                           : "expected one of the outputs, which are " + joined(names));

@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "compose/load_places.hpp"
 #include "compose/loads.hpp"

@@ -192,8 +192,8 @@ void check_branches(const Document& document, const Scene& scene) {
 void check_motions(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const bool over_amplitude = analysis.type == AnalysisType::amplitude_sweep;
-  const auto [low, high] = over_amplitude ? std::minmax(analysis.amplitude_from, analysis.amplitude_to)
-                                          : std::minmax(analysis.frequency_from, analysis.frequency_to);
+  const auto [from, to] = sweep_interval(analysis);
+  const auto [low, high] = std::minmax(from, to);
   const auto load = reference_load(scene.forcing);
   const std::string unit = !over_amplitude ? " Hz"
                            : load          ? " " + std::string(load->unit)
@@ -370,7 +370,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   check_laws(document, scene);
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
-  const bool sweep = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+  const bool sweep = is_sweep(type);
   const bool events = moves_by_events(scene), phases = solves_by_phases(scene);
   const bool balanced = !stepping && !mode && !phases && !events && !solves_by_impacts(scene);
   if (sweep && events) scene.analysis.exact = true;

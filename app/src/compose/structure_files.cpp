@@ -1,17 +1,16 @@
 #include "compose/structure_files.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <span>
 
 #include "compose/load_places.hpp"
 #include "compose/massless_rows.hpp"
 #include "compose/moved_mesh.hpp"
 #include "compose/symmetric_part.hpp"
+#include "files/contains.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"
@@ -33,12 +32,12 @@ auto read(const std::string& path, std::string_view key, Read reader) {
   try {
     return reader(std::filesystem::path(path));
   } catch (const fem::MatrixFileError& error) {
-    throw StructureFault(std::string(key), error.what());
+    throw StructureFault(key, error.what());
   }
 }
 
 Eigen::SparseMatrix<double> read_matrix(const std::string& path, std::string_view key) {
-  return read(path, key, [](const std::filesystem::path& file) { return fem::read_matrix(file); });
+  return read(path, key, [](const auto& file) { return fem::read_matrix(file); });
 }
 
 /// Names both files, as one of them may belong to another mesh.
@@ -49,17 +48,16 @@ void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view ke
       key == stiffness_key
           ? "a square one that is not empty"
           : fmt::format("{0} x {0}, the size of structure.stiffness in {1}", size, stiffness_path);
-  throw StructureFault(std::string(key), fmt::format("the matrix in {} is {} x {}; expected {}", path,
-                                                     matrix.rows(), matrix.cols(), expected));
+  throw StructureFault(key, fmt::format("the matrix in {} is {} x {}; expected {}", path, matrix.rows(),
+                                        matrix.cols(), expected));
 }
 
 fem::DofMap read_map(const std::string& path, Eigen::Index size, const std::string& stiffness_path) {
-  fem::DofMap map =
-      read(path, dof_map_key, [](const std::filesystem::path& file) { return fem::read_dof_map(file); });
+  fem::DofMap map = read(path, dof_map_key, [](const auto& file) { return fem::read_dof_map(file); });
   if (map.rows() == size) return map;
-  throw StructureFault(std::string(dof_map_key),
-                       fmt::format("{} names {} rows; expected {}, the rows of structure.stiffness in {}",
-                                   path, map.rows(), size, stiffness_path));
+  throw StructureFault(
+      dof_map_key, fmt::format("{} names {} rows; expected {}, the rows of structure.stiffness in {}", path,
+                               map.rows(), size, stiffness_path));
 }
 
 std::string_view key_of(fem::StructureMatrix matrix) {
@@ -95,15 +93,15 @@ void check_matrices(const StructureFiles& files) {
                                     .semidefinite_mass = files.reduced,
                                     .first_index = 1});
   } catch (const fem::StructureFault& fault) {
-    throw StructureFault(std::string(key_of(fault.matrix())),
+    throw StructureFault(key_of(fault.matrix()),
                          "the matrix " + fault.reason() + advice_on(fault, matrices, files));
   }
   if (!files.free) return;
   if (!solvers::is_symmetric(matrices.stiffness))
-    throw StructureFault(std::string(stiffness_key),
+    throw StructureFault(stiffness_key,
                          "the matrix is not symmetric; expected a symmetric one with structure.free = true");
   if (!fem::positive_semidefinite(matrices.stiffness))
-    throw StructureFault(std::string(stiffness_key), "the matrix is not positive semidefinite");
+    throw StructureFault(stiffness_key, "the matrix is not positive semidefinite");
 }
 
 /// The rows that base displacements move, from 0, ascending.
@@ -147,8 +145,7 @@ void hold_moving_rows(StructureFiles& files) {
 /// A vector with an entry per row of the stiffness.
 Eigen::VectorXd read_load(const std::string& path, std::string_view key, Eigen::Index size,
                           const std::string& stiffness_path) {
-  Eigen::VectorXd load =
-      read(path, key, [](const std::filesystem::path& file) { return fem::read_vector(file); });
+  Eigen::VectorXd load = read(path, key, [](const auto& file) { return fem::read_vector(file); });
   if (load.size() == size) return load;
   throw StructureFault(
       std::string(key),
@@ -214,13 +211,13 @@ StructureFiles read_files(StructureFiles files) {
   return files;
 }
 
-/// None of the rows in contact may have been condensed.
-void check_mass(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+/// Rows in contact neither move with a base nor have been condensed.
+void check_touched(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+  check_unknown(dofs, files, key);
   for (const int dof : dofs)
     if (std::binary_search(files.massless.begin(), files.massless.end(), std::abs(dof) - 1))
       throw StructureFault(
-          std::string(key),
-          fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
+          key, fmt::format("degree of freedom {} has no mass and is condensed; expected one with mass", dof));
 }
 
 /// The rows of the directions of a pair, by their keys.
@@ -245,8 +242,8 @@ void check_pairs(const std::vector<ContactPair>& pairs, Eigen::Index size) {
 
 }  // namespace
 
-StructureFault::StructureFault(std::string key, const std::string& reason)
-    : std::runtime_error(reason), key_(std::move(key)) {}
+StructureFault::StructureFault(std::string_view key, const std::string& reason)
+    : std::runtime_error(reason), key_(key) {}
 
 std::string StructureFiles::row_name(int row) const {
   return dof_map ? dof_map->name(row) : "row " + std::to_string(row + 1);
@@ -289,15 +286,11 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
 void check_against_files(const Scene& scene, const StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows(), all = files.file_rows();
   check_dofs(scene.structure.matrices.contact_dofs, all, "structure.contact_dofs");
-  check_unknown(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
-  check_mass(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
+  check_touched(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
   check_pairs(scene.contact.pairs, all);
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
-    for (const auto& [name, rows] : rows_of(scene.contact.pairs[i])) {
-      check_unknown(*rows, files, pair_section(i) + name);
-      check_mass(*rows, files, pair_section(i) + name);
-    }
-  }
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    for (const auto& [name, rows] : rows_of(scene.contact.pairs[i]))
+      check_touched(*rows, files, pair_section(i) + name);
   check_loads(scene, files);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
   if (scene.structure.kept_modes < 0) return;
@@ -332,7 +325,7 @@ solvers::ContactDirections contact_directions(const Scene& scene, const Structur
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files) {
   std::vector<int> rows = fem::touched_unknowns(contact_directions(scene, files));
   for (const int row : loaded_rows(scene, files))
-    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(row);
+    if (!contains(rows, row)) rows.push_back(row);
   return rows;
 }
 

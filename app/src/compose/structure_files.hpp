@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
@@ -57,7 +58,7 @@ std::vector<std::string> warnings_of(const StructureFiles& files);
 /// A key of a structure of matrices that does not fit its files, and why.
 class StructureFault : public std::runtime_error {
  public:
-  StructureFault(std::string key, const std::string& reason);
+  StructureFault(std::string_view key, const std::string& reason);
   const std::string& key() const { return key_; }
 
  private:

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -175,14 +173,8 @@ void add_modal_damping(solvers::LinearStructure& structure, double ratio, bool f
 std::vector<int> loaded_nodes(const fem::Blade& blade, TipPlace place) {
   const auto& nodes = blade.contact_nodes;  // in pairs from the leading edge on
   const auto pairs = static_cast<std::ptrdiff_t>(nodes.size() / 2);
-  switch (place) {
-    case TipPlace::leading_edge:
-      return {nodes.begin(), nodes.begin() + 2};
-    case TipPlace::trailing_edge:
-      return {nodes.end() - 2, nodes.end()};
-    case TipPlace::mid_chord:
-      break;
-  }
+  if (place == TipPlace::leading_edge) return {nodes.begin(), nodes.begin() + 2};
+  if (place == TipPlace::trailing_edge) return {nodes.end() - 2, nodes.end()};
   return {nodes.begin() + 2 * ((pairs - 1) / 2), nodes.begin() + 2 * (pairs / 2 + 1)};
 }
 
@@ -270,15 +262,9 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
 }
 
 StructureModel model_of_type(const Scene& scene, const solvers::Observer& observer) {
-  switch (scene.structure.type) {
-    case StructureType::blade:
-      return blade_model(scene, observer);
-    case StructureType::matrices:
-      return matrices_model(scene, observer);
-    case StructureType::bar:
-      break;
-  }
-  return bar_model(scene);
+  if (scene.structure.type == StructureType::bar) return bar_model(scene);
+  return scene.structure.type == StructureType::blade ? blade_model(scene, observer)
+                                                      : matrices_model(scene, observer);
 }
 
 /// The structure before the mass of its contacts is redistributed.
@@ -341,29 +327,18 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
 
 int reduced_size(const Scene& scene) {
   const Structure& structure = scene.structure;
-  switch (structure.type) {
-    case StructureType::bar:
-      return structure.elements;
-    case StructureType::blade:
-      return 3 * tip_corners(structure.blade) + structure.kept_modes;
-    case StructureType::matrices:
-      break;
-  }
+  if (structure.type == StructureType::bar) return structure.elements;
+  if (structure.type == StructureType::blade) return 3 * tip_corners(structure.blade) + structure.kept_modes;
   const auto files = structure_files(scene);
   if (structure.kept_modes < 0) return static_cast<int>(files->matrices.stiffness.rows());
   return static_cast<int>(boundary_rows(scene, *files).size()) + structure.kept_modes;
 }
 
 std::int64_t structure_dofs(const Scene& scene) {
-  switch (scene.structure.type) {
-    case StructureType::blade:
-      return blade_unknowns(scene.structure.blade);
-    case StructureType::matrices:
-      return structure_files(scene)->matrices.stiffness.rows();
-    case StructureType::bar:
-      break;
-  }
-  return scene.structure.elements;
+  const Structure& structure = scene.structure;
+  if (structure.type == StructureType::bar) return structure.elements;
+  if (structure.type == StructureType::blade) return blade_unknowns(structure.blade);
+  return structure_files(scene)->matrices.stiffness.rows();
 }
 
 std::int64_t blade_unknowns(const BladeStructure& blade) {

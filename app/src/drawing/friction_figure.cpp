@@ -1,4 +1,4 @@
-#include "drawing/friction_figure.hpp"
+#include "drawing/motion_panels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,6 @@ namespace {
 constexpr std::size_t most_loops = 4;
 // Those of the fifth and the sixth curve, which no loop has.
 constexpr Colour stick_colour = Colour::sky_blue, slip_colour = Colour::orange;
-
-// Closed once around.
-Eigen::VectorXd closed(const Eigen::MatrixXd& rows, int row, double factor) {
-  Eigen::VectorXd values(rows.cols() + 1);
-  values << factor * rows.row(row).transpose(), factor * rows(row, 0);
-  return values;
-}
 
 struct Loop {
   std::string label;
@@ -56,8 +49,8 @@ void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, co
   panel.x.label = "Tangential displacement (" + length.prefix + "m)";
   panel.y.label = "Friction force (" + force.prefix + "N)";
   for (const Loop& loop : loops)
-    panel.add({loops.size() > 1 ? loop.label : "", closed(motion.displacement, loop.row, length.factor),
-               closed(motion.force, loop.row, force.factor)});
+    panel.add({loops.size() > 1 ? loop.label : "", once_around(motion.displacement, loop.row, length.factor),
+               once_around(motion.force, loop.row, force.factor)});
 }
 
 /// An entry of the legend for rectangles of this colour.

@@ -1,4 +1,4 @@
-#include "drawing/impact_figure.hpp"
+#include "drawing/motion_panels.hpp"
 
 #include <algorithm>
 #include <string>
@@ -39,10 +39,7 @@ void add_velocity_with_jumps(Figure& figure, const PeriodWindow& window, const s
     times.push_back(samples.x[l]);
     values.push_back(samples.y[l]);
   }
-  double largest = 0.0;
-  for (const double one : values) largest = std::max(largest, std::abs(one));
-  const Scale scale = axis_scale(largest);
-  for (double& one : values) one *= scale.factor;
+  const Scale scale = take_to_scale(values);
   Panel& panel = figure.add_panel(title);
   panel.x = window.axis();
   panel.y.label = "Velocity (" + scale.prefix + "m/s)";
@@ -57,8 +54,7 @@ void add_impulses(Figure& figure, const PeriodWindow& window, const std::string&
     impulses.push_back(impact.impulse);
   }
   const double largest = impulses.empty() ? 0.0 : *std::max_element(impulses.begin(), impulses.end());
-  const Scale scale = axis_scale(largest);
-  for (double& one : impulses) one *= scale.factor;
+  const Scale scale = take_to_scale(impulses);
   Panel& panel = figure.add_panel(title);
   panel.x = window.axis();
   panel.y.label = "Impulse (" + scale.prefix + "N s)";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "drawing/period_window.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -11,13 +12,6 @@ namespace wavebalance::app {
 namespace {
 
 constexpr std::size_t most_motions = 8;
-
-/// A row of samples once around.
-Eigen::VectorXd once_around(const Eigen::MatrixXd& rows, int row, double factor) {
-  Eigen::VectorXd values(rows.cols() + 1);
-  values << factor * rows.row(row).transpose(), factor * rows(row, 0);
-  return values;
-}
 
 Series look(Series series, const FoundMotion& motion, std::size_t number) {
   const std::string periods =

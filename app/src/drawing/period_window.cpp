@@ -79,6 +79,12 @@ std::vector<std::pair<double, double>> PeriodWindow::spans(double begin, double 
   return {{from, last}, {start_, to - 1.0}};
 }
 
+Eigen::VectorXd once_around(const Eigen::MatrixXd& rows, int row, double factor) {
+  Eigen::VectorXd values(rows.cols() + 1);
+  values << factor * rows.row(row).transpose(), factor * rows(row, 0);
+  return values;
+}
+
 std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const Response& response,
                                                      const PeriodWindow& window) {
   std::vector<std::pair<double, double>> spans;

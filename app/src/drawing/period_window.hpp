@@ -30,6 +30,9 @@ class PeriodWindow {
   double start_ = 0.0;
 };
 
+/// A row of samples of a period, times `factor`, with the first one again at the end.
+Eigen::VectorXd once_around(const Eigen::MatrixXd& rows, int row, double factor);
+
 /// Where the contact that `response` leads with is closed, by the exact motion. Nothing of one that never
 /// opens.
 std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const Response& response,

@@ -10,16 +10,15 @@
 
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_axis.hpp"
-#include "drawing/friction_figure.hpp"
-#include "drawing/impact_figure.hpp"
+#include "drawing/motion_panels.hpp"
 #include "drawing/output_figure.hpp"
 #include "drawing/period_window.hpp"
+#include "drawing/sweep_lines.hpp"
 #include "plot/thin_curve.hpp"
 #include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
-#include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -39,11 +38,6 @@ std::string structure_title(const Scene& scene) {
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
 }
 
-bool is_curve(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::frequency_sweep ||
-         scene.analysis.type == AnalysisType::amplitude_sweep;
-}
-
 std::string method_title(const Scene& scene) {
   if (is_elastic_mode(scene) || is_damped_mode(scene)) {
     const Time time = mode_time(scene);
@@ -58,7 +52,7 @@ std::string method_title(const Scene& scene) {
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
   if (solves_by_phases(scene) || scene.analysis.exact)
-    return "exact periodic solution" + std::string(is_curve(scene) ? "s" : "");
+    return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";
 }
@@ -120,11 +114,10 @@ double top_before_the_end(const std::vector<double>& place, const std::vector<do
 
 using PointValue = double solvers::SweepPoint::*;
 
-/// One quantity along a curve, times a factor.
-std::vector<double> values_along(const solvers::FrequencySweep& curve, PointValue value,
-                                 double factor = 1.0) {
+/// One quantity along a curve.
+std::vector<double> values_along(const solvers::FrequencySweep& curve, PointValue value) {
   std::vector<double> values;
-  for (const auto& point : curve.points) values.push_back(factor * (point.*value));
+  for (const auto& point : curve.points) values.push_back(point.*value);
   return values;
 }
 
@@ -136,13 +129,10 @@ std::vector<double> places_along(const solvers::FrequencySweep& curve) {
 }
 
 /// All displacements that a picture of the sweep shows.
-std::vector<double> displacements_of(const Sweep& sweep) {
-  std::vector<double> values = values_along(sweep.curve, &solvers::SweepPoint::max_displacement);
-  for (const auto& point : sweep.curve.points) values.push_back(point.rms_displacement);
-  for (const solvers::Branch& branch : sweep.branches)
-    for (const auto& point : branch.curve.points) values.push_back(point.max_displacement);
-  for (const Sweep& isola : sweep.isolas)
-    for (const auto& point : isola.curve.points) values.push_back(point.max_displacement);
+std::vector<double> displacements_of(const std::vector<SweepLine>& lines) {
+  std::vector<double> values = values_along(lines.front().curve, &solvers::SweepPoint::rms_displacement);
+  for (const SweepLine& line : lines)
+    for (const auto& point : line.curve.points) values.push_back(point.max_displacement);
   return values;
 }
 
@@ -155,15 +145,6 @@ double shown_top(const Sweep& sweep, const std::vector<double>& values) {
     return top_before_the_end(place, values_along(sweep.curve, value));
   };
   return std::max(top(&solvers::SweepPoint::max_displacement), top(&solvers::SweepPoint::rms_displacement));
-}
-
-/// Special points at their largest displacement.
-std::vector<PlacedPoint> placed(const std::vector<solvers::SpecialPoint>& points, double factor,
-                                solvers::SweepParameter parameter) {
-  std::vector<PlacedPoint> marks;
-  for (const auto& point : points)
-    marks.push_back({point.type, parameter_of(point, parameter), factor * point.max_displacement});
-  return marks;
 }
 
 /// A stable curve of many points is thinned.
@@ -182,8 +163,7 @@ void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::
                        const std::string& title, const std::string& unit) {
   std::vector<double> values;
   for (const PointImpacts& point : sweep.impacts.front()) values.push_back(point.*value);
-  const Scale scale = axis_scale(*std::max_element(values.begin(), values.end()));
-  for (double& one : values) one *= scale.factor;
+  const Scale scale = take_to_scale(values);
   Panel& panel = figure.add_panel(title);
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label = "Largest (" + scale.prefix + unit + ")";
@@ -312,42 +292,56 @@ bool has_gaps(const Scene& scene) {
                      [](const SceneContact& one) { return has_gap(one.law) && !has_friction(one.law); });
 }
 
-void mark_all_special_points(Panel& panel, const Sweep& sweep, double factor) {
-  std::vector<PlacedPoint> marks = placed(sweep.stability.special_points, factor, sweep.curve.parameter);
-  const auto append = [&](const std::vector<PlacedPoint>& points) {
-    marks.insert(marks.end(), points.begin(), points.end());
-  };
-  for (const solvers::Branch& branch : sweep.branches)
-    append(placed(branch.stability.special_points, factor, branch.curve.parameter));
-  for (const Sweep& isola : sweep.isolas)
-    append(placed(isola.stability.special_points, factor, isola.curve.parameter));
-  draw_special_points(panel, marks);
+/// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
+/// all.
+void label_once(Panel& panel, std::size_t first) {
+  if (panel.series.size() < first + 2) return;
+  Series &stable = panel.series[first], &unstable = panel.series[first + 1];
+  unstable.label = "";
+  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
+  unstable.label = std::move(stable.label);
+  panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+/// The largest displacements along one of the curves of a sweep, and the rms ones of the first.
+void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector<PlacedPoint>& special,
+                          double factor) {
+  const bool main = line.name.empty();
+  if (line.curve.points.empty()) return;
+  const Series largest =
+      line.series(main ? "largest" : line.long_name,
+                  values_along(line.curve, &solvers::SweepPoint::max_displacement), factor);
+  if (!main) {
+    const std::size_t before = panel.series.size();
+    draw_by_stability(panel, largest, line.stability.points, special);
+    return label_once(panel, before);
+  }
+  Series rms = line.series("rms with its mean",
+                           values_along(line.curve, &solvers::SweepPoint::rms_displacement), factor);
+  rms.colour = Colour::orange;
+  add_curve(panel, largest, line.stability.points, special);
+  add_curve(panel, rms, line.stability.points, {});
 }
 
 /// Largest and rms displacement of the contacts beside their gap.
 void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sweep) {
-  const std::vector<double> values = displacements_of(sweep);
+  const std::vector<SweepLine> lines = lines_of(sweep);
+  const std::vector<double> values = displacements_of(lines);
   const double largest = *std::max_element(values.begin(), values.end());
   const double top = shown_top(sweep, values);
   const Scale scale = axis_scale(top);
-  const StabilityAlong stability = sweep.stability_of(0);
   Panel& panel = figure.add_panel("Displacement of the contacts");
   panel.x.label = sweep_axis(sweep).label();
   const std::string unit = displacement_unit(scene);
   panel.y.label = "Displacement (" + scale.prefix + unit + ")";
-  for (const auto& [label, value, colour] :
-       {std::tuple{"largest", &solvers::SweepPoint::max_displacement, Colour::blue},
-        {"rms with its mean", &solvers::SweepPoint::rms_displacement, Colour::orange}}) {
-    Series series(label, places_along(sweep.curve), values_along(sweep.curve, value, scale.factor));
-    series.colour = colour;
-    const bool largest_one = colour == Colour::blue;  // of the special points
-    add_curve(panel, series, stability.points,
-              largest_one ? placed(sweep.stability.special_points, scale.factor, sweep.curve.parameter)
-                          : std::vector<PlacedPoint>());
+  std::vector<PlacedPoint> marks;
+  for (const SweepLine& line : lines) {
+    const std::vector<PlacedPoint> special =
+        line.placed([&](const solvers::SpecialPoint& one) { return scale.factor * one.max_displacement; });
+    add_displacements_of(panel, line, special, scale.factor);
+    marks.insert(marks.end(), special.begin(), special.end());
   }
-  draw_branches(panel, sweep, 1.0, scale.factor);
-  draw_isolas(panel, sweep, 1.0, scale.factor);
-  mark_all_special_points(panel, sweep, scale.factor);
+  draw_special_points(panel, marks);
   if (top < largest) panel.y.upper = 1.1 * scale.factor * top;
   if (const double gap = common_gap(scene); !std::isnan(gap))
     panel.mark_level(scale.factor * gap, "gap", quantity(gap, unit));

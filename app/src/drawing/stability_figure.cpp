@@ -116,27 +116,10 @@ Series drawn(const Series& curve, const std::vector<Piece>& pieces, bool unstabl
   series.y.clear();
   for (const Piece& piece : pieces) {
     if (piece.unstable != unstable) continue;
-    if (!series.x.empty()) {
-      series.x.push_back(piece.vertices.front().x);
-      series.y.push_back(std::nan(""));
-    }
-    for (const Vertex& one : piece.vertices) {
-      series.x.push_back(one.x);
-      series.y.push_back(one.y);
-    }
+    if (!series.x.empty()) series.append(piece.vertices.front().x, std::nan(""));
+    for (const Vertex& one : piece.vertices) series.append(one.x, one.y);
   }
   return series;
-}
-
-/// One entry of the legend for the parts of a branch, the series from `first` on: dashes mean the same in
-/// all.
-void label_once(Panel& panel, std::size_t first) {
-  if (panel.series.size() < first + 2) return;
-  Series &stable = panel.series[first], &unstable = panel.series[first + 1];
-  unstable.label = "";
-  if (std::any_of(stable.y.begin(), stable.y.end(), [](double y) { return !std::isnan(y); })) return;
-  unstable.label = std::move(stable.label);
-  panel.series.erase(panel.series.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 }  // namespace
@@ -165,62 +148,13 @@ void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solv
 
 void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points) {
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    std::vector<double> x, y;
-    for (const PlacedPoint& point : points) {
-      if (point.type != kinds[kind].first) continue;
-      x.push_back(point.x);
-      y.push_back(point.y);
-    }
-    if (x.empty()) continue;
-    Series series(kinds[kind].second, x, y, SeriesStyle::points);
+    Series series(kinds[kind].second, SeriesStyle::points);
+    for (const PlacedPoint& point : points)
+      if (point.type == kinds[kind].first) series.append(point.x, point.y);
+    if (series.x.empty()) continue;
     series.colour = Colour::black;
     series.marker = static_cast<int>(kind) + 1;
     panel.add(std::move(series));
-  }
-}
-
-namespace {
-
-/// One of the curves beside the first, the i-th of its kind.
-void draw_beside(Panel& panel, std::string label, const solvers::FrequencySweep& curve,
-                 const StabilityAlong& stability, const std::vector<solvers::SpecialPoint>& special_points,
-                 std::size_t colour, double x_factor, double y_factor) {
-  constexpr std::array colours{Colour::green, Colour::vermillion, Colour::purple, Colour::sky_blue};
-  if (curve.points.empty()) return;
-  Series series;
-  series.label = std::move(label);
-  for (const auto& point : curve.points) {
-    series.x.push_back(x_factor * point.frequency);
-    series.y.push_back(y_factor * point.max_displacement);
-  }
-  series.colour = colours[colour % colours.size()];
-  std::vector<PlacedPoint> special;
-  for (const auto& point : special_points)
-    special.push_back({point.type, x_factor * point.frequency, y_factor * point.max_displacement});
-  const std::size_t before = panel.series.size();
-  draw_by_stability(panel, series, stability.points, special);
-  label_once(panel, before);
-}
-
-}  // namespace
-
-void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
-  for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
-    const solvers::Branch& branch = sweep.branches[i];
-    const int periods = branch.periods * sweep.periods;
-    draw_beside(panel,
-                "branch " + std::to_string(i + 1) + ", " + std::to_string(periods) +
-                    (periods == 1 ? " period" : " periods"),
-                branch.curve, sweep.stability_of(i + 1), branch.stability.special_points, i, x_factor,
-                y_factor);
-  }
-}
-
-void draw_isolas(Panel& panel, const Sweep& sweep, double x_factor, double y_factor) {
-  for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
-    const Sweep& isola = sweep.isolas[i];
-    draw_beside(panel, "isola " + std::to_string(i + 1), isola.curve, isola.stability_of(0),
-                isola.stability.special_points, sweep.branches.size() + i, x_factor, y_factor);
   }
 }
 

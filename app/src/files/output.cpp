@@ -66,13 +66,19 @@ int flush(int descriptor) {
   return errno;
 }
 
+/// Writes contents to the disk and closes the file. The number of the error, 0 without one.
+int write_through(Descriptor& descriptor, std::string_view contents) {
+  int error = write_all(descriptor.get(), contents);
+  if (error == 0) error = flush(descriptor.get());
+  if (!descriptor.close() && error == 0) error = errno;
+  return error;
+}
+
 /// Writes a temporary for `target` and returns its path; removes it again on failure.
 fs::path write_temporary(const fs::path& target, std::string_view contents) {
   auto [raw, temporary] = open_temporary(target);
   Descriptor descriptor(raw);
-  int error = write_all(descriptor.get(), contents);
-  if (error == 0) error = flush(descriptor.get());
-  if (!descriptor.close() && error == 0) error = errno;
+  const int error = write_through(descriptor, contents);
   if (error == 0) return temporary;
   ::unlink(temporary.c_str());
   throw IoError(target, "cannot be written: " + reason_of(error));
@@ -95,10 +101,8 @@ void require_writable(const fs::path& target) {
   }
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   Descriptor descriptor(opened);
-  int error = write_all(descriptor.get(), "wavebalance\n");
-  if (error == 0) error = flush(descriptor.get());
-  if (!descriptor.close() && error == 0) error = errno;
-  if (error != 0) throw IoError(target, "cannot be written: " + reason_of(error));
+  if (const int error = write_through(descriptor, "wavebalance\n"); error != 0)
+    throw IoError(target, "cannot be written: " + reason_of(error));
 }
 
 void flush_directory(const fs::path& directory) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "files/contains.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 
@@ -24,7 +25,7 @@ void require_replaceable(const std::filesystem::path& folder,
   std::error_code failure;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
     const std::string name = entry.path().filename().string();
-    const bool ours = std::find(listed.begin(), listed.end(), name) != listed.end();
+    const bool ours = contains(listed, name);
     if (!ours && !writes(name)) continue;
     if (is_one_of(entry.path(), inputs))
       throw IoError(entry.path(),

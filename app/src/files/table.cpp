@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "files/contains.hpp"
 #include "files/number_text.hpp"
 
 namespace wavebalance::app {
@@ -49,9 +50,7 @@ void Table::append_row(std::vector<Cell> row) {
   rows_.push_back(std::move(row));
 }
 
-bool Table::has_column(std::string_view name) const {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
-}
+bool Table::has_column(std::string_view name) const { return contains(names_, name); }
 
 std::size_t Table::index_of(std::string_view column) const {
   const auto found = std::find(names_.begin(), names_.end(), column);

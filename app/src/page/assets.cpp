@@ -1,5 +1,6 @@
 #include "wavebalance/app/page/assets.hpp"
 
+#include <array>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -20,15 +21,8 @@ const std::map<std::string, std::string_view, std::less<>>& own_assets() {
 
 /// The script of the library as the build found it; empty where it did not.
 std::filesystem::path script_of(Library library) {
-  switch (library) {
-    case Library::d3:
-      return WAVEBALANCE_D3;
-    case Library::three:
-      return WAVEBALANCE_THREE;
-    case Library::katex:
-      return WAVEBALANCE_KATEX;
-  }
-  return {};
+  constexpr std::array scripts{WAVEBALANCE_D3, WAVEBALANCE_THREE, WAVEBALANCE_KATEX};
+  return scripts[static_cast<std::size_t>(library)];  // in the order of the enumeration
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "files/contains.hpp"
 #include "page/library_files.hpp"
 #include "wavebalance/app/files/output.hpp"
 
@@ -55,8 +56,7 @@ std::string scripts_html(const PageParts& parts) {
   std::string text;
   for (const Library library : parts.libraries) text += library_html(parts.assets, library);
   std::vector<std::string> names{"page.js"};
-  if (std::find(parts.libraries.begin(), parts.libraries.end(), Library::d3) != parts.libraries.end())
-    names.push_back("curves.js");
+  if (contains(parts.libraries, Library::d3)) names.push_back("curves.js");
   names.insert(names.end(), parts.scripts.begin(), parts.scripts.end());
   for (const auto& name : names) text += link_or_content(parts.assets, name, asset(name));
   return text;

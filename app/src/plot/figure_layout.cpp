@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -20,17 +21,8 @@ constexpr double letter_width = 0.7 * 13.5, line_height = 1.5 * 13.5;
 constexpr double sample_width = 7 * letter_width;  // of the line before a name, and the space between columns
 
 std::string dash_text(Dash dash) {
-  switch (dash) {
-    case Dash::dashed:
-      return "(9,5)";
-    case Dash::dotted:
-      return "(2,4)";
-    case Dash::dash_dotted:
-      return "(10,4,2,4)";
-    case Dash::solid:
-      break;
-  }
-  return "1";
+  constexpr std::array patterns{"1", "(9,5)", "(2,4)", "(10,4,2,4)"};  // in the order of the enumeration
+  return patterns[static_cast<std::size_t>(dash)];
 }
 
 Colour colour_of(const Series& series, std::size_t index) {
@@ -82,20 +74,14 @@ std::string stroke_text(Colour colour, Dash dash, double width) {
 }
 
 std::string style_text(const Series& series, std::size_t index) {
-  const std::string drawn = stroke_text(colour_of(series, index), series.dash, series.width);
-  switch (series.style) {
-    case SeriesStyle::points:
-      return "points lc rgb '" + colour_code(colour_of(series, index)) + "'" + symbol(series, index);
-    case SeriesStyle::line_points:
-      return "linespoints " + drawn + symbol(series, index);
-    case SeriesStyle::steps:
-      return "steps " + drawn;
-    case SeriesStyle::impulses:
-      return "impulses " + drawn;
-    case SeriesStyle::line:
-      break;
-  }
-  return "lines " + drawn;
+  // In the order of the enumeration.
+  constexpr std::array names{"lines ", "points ", "linespoints ", "steps ", "impulses "};
+  const bool points = series.style == SeriesStyle::points;
+  const bool marked = points || series.style == SeriesStyle::line_points;
+  const Colour colour = colour_of(series, index);
+  return names[static_cast<std::size_t>(series.style)] +
+         (points ? "lc rgb '" + colour_code(colour) + "'" : stroke_text(colour, series.dash, series.width)) +
+         (marked ? symbol(series, index) : "");
 }
 
 std::vector<LegendEntry> legend_entries(const Figure& figure) {

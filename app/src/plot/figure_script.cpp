@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -55,36 +56,12 @@ std::vector<std::size_t> shown_points(const Series& series, const Panel& panel) 
   return kept;
 }
 
-std::string_view style_name(SeriesStyle style) {
-  switch (style) {
-    case SeriesStyle::points:
-      return "points";
-    case SeriesStyle::line_points:
-      return "line_points";
-    case SeriesStyle::steps:
-      return "steps";
-    case SeriesStyle::impulses:
-      return "impulses";
-    case SeriesStyle::line:
-      break;
-  }
-  return "line";
-}
+// In the order of the enumerations; of dashes the lengths of strokes and gaps in pixels.
+constexpr std::array style_names{"line", "points", "line_points", "steps", "impulses"};
+constexpr std::array dash_lengths{"", "8 5", "2 4", "9 4 2 4"};
+constexpr std::array anchors{"start", "middle", "end"};
 
-/// Lengths of strokes and gaps in pixels.
-std::string_view dash_lengths(Dash dash) {
-  switch (dash) {
-    case Dash::dashed:
-      return "8 5";
-    case Dash::dotted:
-      return "2 4";
-    case Dash::dash_dotted:
-      return "9 4 2 4";
-    case Dash::solid:
-      break;
-  }
-  return "";
-}
+const char* name_in(const auto& names, auto value) { return names[static_cast<std::size_t>(value)]; }
 
 Json optional_number(const std::optional<double>& value) {
   return value ? Json(short_number(*value)) : Json();
@@ -109,9 +86,9 @@ Json series_data(const Series& series, std::size_t index, const Panel& panel) {
   }
   const bool automatic = series.colour == Colour::automatic;
   Json data{{"label", series.label},
-            {"style", style_name(series.style)},
+            {"style", name_in(style_names, series.style)},
             {"colour", colour_code(automatic ? automatic_colour(index) : series.colour)},
-            {"dash", dash_lengths(series.dash)},
+            {"dash", name_in(dash_lengths, series.dash)},
             {"width", series.width},
             {"marker", series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index},
             {"every", series.marker_every.value_or(1)},
@@ -127,7 +104,7 @@ Json segment_data(const Segment& s) {
           {"to", {optional_number(s.x2), optional_number(s.y2)}},
           {"arrow", s.arrow},
           {"colour", colour_code(s.colour)},
-          {"dash", dash_lengths(s.dash)},
+          {"dash", name_in(dash_lengths, s.dash)},
           {"width", s.width},
           {"label", s.label}};
 }
@@ -167,13 +144,11 @@ Json panel_data(const Panel& panel) {
                                   {"y", {short_number(one.y1), short_number(one.y2)}},
                                   {"colour", colour_code(one.fill)},
                                   {"opacity", one.opacity}});
-  for (const TextMark& one : panel.texts) {
-    const char* anchor = one.align == TextMark::Align::left    ? "start"
-                         : one.align == TextMark::Align::right ? "end"
-                                                               : "middle";
-    data["texts"].push_back(
-        {{"x", short_number(one.x)}, {"y", short_number(one.y)}, {"text", one.text}, {"anchor", anchor}});
-  }
+  for (const TextMark& one : panel.texts)
+    data["texts"].push_back({{"x", short_number(one.x)},
+                             {"y", short_number(one.y)},
+                             {"text", one.text},
+                             {"anchor", name_in(anchors, one.align)}});
   return data;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -151,10 +152,9 @@ std::string segment_text(const Segment& s) {
 }
 
 bool has_labelled_segments(const Figure& figure) {
-  for (const Panel& panel : figure.panels)
-    for (const Segment& segment : panel.segments)
-      if (!segment.label.empty()) return true;
-  return false;
+  return std::ranges::any_of(figure.panels, [](const Panel& panel) {
+    return std::ranges::any_of(panel.segments, [](const Segment& one) { return !one.label.empty(); });
+  });
 }
 
 std::string rectangle_text(const Rectangle& r) {
@@ -164,11 +164,9 @@ std::string rectangle_text(const Rectangle& r) {
 }
 
 std::string mark_text(const TextMark& mark) {
-  const char* align = mark.align == TextMark::Align::left    ? "left"
-                      : mark.align == TextMark::Align::right ? "right"
-                                                             : "center";
+  constexpr std::array sides{"left", "center", "right"};  // in the order of the enumeration
   return fmt::format("set label {} at first {},first {} {} front\n", quoted(mark.text), number_text(mark.x),
-                     number_text(mark.y), align);
+                     number_text(mark.y), sides[static_cast<std::size_t>(mark.align)]);
 }
 
 /// Edges of the axes of a diagram in shares of the picture. In SVG gnuplot takes letters for higher than they

@@ -24,26 +24,10 @@ std::array<const char*, 5> map_colours(const HeatMap& map) {
 }
 
 std::string colour_code(Colour colour) {
-  switch (colour) {
-    case Colour::orange:
-      return "#E69F00";
-    case Colour::sky_blue:
-      return "#56B4E9";
-    case Colour::green:
-      return "#009E73";
-    case Colour::blue:
-      return "#0072B2";
-    case Colour::vermillion:
-      return "#D55E00";
-    case Colour::purple:
-      return "#CC79A7";
-    case Colour::grey:
-      return "#777777";
-    case Colour::black:
-    case Colour::automatic:
-      break;
-  }
-  return "#000000";
+  // In the order of the enumeration; what has no colour of its own is black.
+  constexpr std::array codes{"#000000", "#000000", "#E69F00", "#56B4E9", "#009E73",
+                             "#0072B2", "#D55E00", "#CC79A7", "#777777"};
+  return codes[static_cast<std::size_t>(colour)];
 }
 
 Colour automatic_colour(std::size_t index) {

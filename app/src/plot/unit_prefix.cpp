@@ -41,6 +41,14 @@ Scale axis_scale(double largest) {
   return {prefix.inverse, prefix.sign};
 }
 
+Scale take_to_scale(std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double one : values) largest = std::max(largest, std::abs(one));
+  Scale scale = axis_scale(largest);
+  for (double& one : values) one *= scale.factor;
+  return scale;
+}
+
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not known";
   const double least = unit == "Hz" ? 1.0 : 1e-12;

@@ -141,15 +141,12 @@ std::vector<SceneContact> contacts_of(const Scene& scene) {
 }
 
 bool has_damped_contact(const Scene& scene) {
-  const std::vector<SceneContact> contacts = contacts_of(scene);
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const SceneContact& one) { return is_damped(one.law); });
+  return std::ranges::any_of(contacts_of(scene), is_damped, &SceneContact::law);
 }
 
 bool has_friction(const Scene& scene) {
-  const std::vector<SceneContact> contacts = contacts_of(scene);
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [](const SceneContact& one) { return has_friction(one.law); });
+  const auto rubs = [](const std::string& law) { return has_friction(law); };
+  return std::ranges::any_of(contacts_of(scene), rubs, &SceneContact::law);
 }
 
 bool integrates_by_events(const Scene& scene) {

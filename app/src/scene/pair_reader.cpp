@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "files/contains.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
@@ -33,23 +34,15 @@ class PairReader {
     return *std::find_if(keys_.begin(), keys_.end(), [&](const SceneKey& one) { return one.name == name; });
   }
 
-  [[noreturn]] void fail_missing(std::string_view name, const std::string& more) const {
-    throw SceneError({document_.name, document_.section_line(section_), "",
-                      section_ + "." + std::string(name), "",
-                      "missing; expected " + key(name).expected() + more});
+  [[noreturn]] void fail_without(std::string_view name, const std::string& more) const {
+    fail_missing(document_, section_, name, key(name).expected() + more);
   }
 
   /// Sets a value that stands in the file, or else its default.
-  void take(std::string_view name) {
-    const SceneKey& taken = key(name);
-    if (const DocumentEntry* given = entry(name))
-      taken.set(scene_, checked_value(document_, *given, taken));
-    else
-      taken.set(scene_, taken.derived(scene_));
-  }
+  void take(std::string_view name) { take_key(document_, section_, key(name), scene_); }
 
   void read_directions() {
-    if (entry("dofs") == nullptr) fail_missing("dofs", "");
+    if (entry("dofs") == nullptr) fail_without("dofs", "");
     read_direction({"dofs", "coefficients", pair_.dofs, pair_.coefficients});
     read_direction({"tangent", "tangent_coefficients", pair_.tangent, pair_.tangent_coefficients});
     read_direction({"second_tangent", "second_tangent_coefficients", pair_.second_tangent,
@@ -74,7 +67,7 @@ class PairReader {
       fail_at(document_, *dofs, "a degree of freedom is there twice; expected each once");
     const std::string one_each =
         ", one for each of " + std::to_string(one.dofs.size()) + " " + std::string(one.dofs_name);
-    if (weights == nullptr && one.dofs.size() > 2) fail_missing(one.weights_name, one_each);
+    if (weights == nullptr && one.dofs.size() > 2) fail_without(one.weights_name, one_each);
     take(one.weights_name);
     if (one.weights.size() != one.dofs.size())
       fail_at(document_, *weights,
@@ -114,7 +107,7 @@ class PairReader {
       return;
     }
     if (own == nullptr && parameter->required() && document_.find("contact", name) == nullptr)
-      fail_missing(name, ", here or in [contact]");
+      fail_without(name, ", here or in [contact]");
     take(name);
   }
 
@@ -144,7 +137,7 @@ const DocumentEntry* first_law(const Document& document) {
       std::find_if(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
         const auto* text = std::get_if<std::string>(&entry.value);
         return is_pair_section(entry.section) && entry.key == "law" && text != nullptr &&
-               std::find(law->choices.begin(), law->choices.end(), *text) != law->choices.end();
+               contains(law->choices, *text);
       });
   return found == document.entries.end() ? nullptr : &*found;
 }

@@ -119,6 +119,15 @@ Scene with_longer_period(Scene scene, int times) {
 
 bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_stepping; }
 
+bool is_sweep(AnalysisType type) {
+  return type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
+}
+
+std::pair<double, double> sweep_interval(const Analysis& analysis) {
+  if (analysis.type == AnalysisType::amplitude_sweep) return {analysis.amplitude_from, analysis.amplitude_to};
+  return {analysis.frequency_from, analysis.frequency_to};
+}
+
 bool names_exact_method(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   return !has_impacts(scene.contact) &&

@@ -3,10 +3,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "scene/spelling.hpp"
-#include "scene/toml_nesting.hpp"
 #include "scene/toml_text.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -17,43 +15,19 @@ namespace {
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 /// A list of texts and numbers; monostate if there is another entry.
-DocumentValue mixed_list_of(const toml::array& array) {
-  std::vector<NumberOrText> entries;
-  for (const auto& node : array) {
-    if (!node.is_string() && !node.is_number()) return std::monostate{};
-    if (node.is_string())
-      entries.emplace_back(node.as_string()->get());
-    else
-      entries.emplace_back(*node.value<double>());
-  }
-  return entries;
-}
-
-/// A list of texts and integers as texts; one of texts and numbers where there are others.
-DocumentValue texts_of(const toml::array& array) {
-  std::vector<std::string> texts;
-  bool any = false;
-  for (const auto& node : array) {
-    if (!node.is_string() && !node.is_integer()) return mixed_list_of(array);
-    any = any || node.is_string();
-    texts.push_back(node.is_string() ? node.as_string()->get() : std::to_string(node.as_integer()->get()));
-  }
-  if (!any) return std::monostate{};
-  return texts;
-}
-
-/// A list of integers if all entries are, else a list of numbers, or of texts; monostate if there are others.
 DocumentValue list_of(const toml::array& array) {
-  std::vector<std::int64_t> integers;
-  std::vector<double> numbers;
+  DocumentList list;
   for (const auto& node : array) {
-    const bool integer = node.is_integer();
-    if (!integer && !node.is_floating_point()) return texts_of(array);
-    if (integer) integers.push_back(node.as_integer()->get());
-    numbers.push_back(integer ? static_cast<double>(integers.back()) : node.as_floating_point()->get());
+    if (node.is_integer())
+      list.emplace_back(node.as_integer()->get());
+    else if (node.is_floating_point())
+      list.emplace_back(node.as_floating_point()->get());
+    else if (node.is_string())
+      list.emplace_back(node.as_string()->get());
+    else
+      return std::monostate{};
   }
-  if (integers.size() == numbers.size()) return integers;
-  return numbers;
+  return list;
 }
 
 DocumentValue value_of(const toml::node& node) {
@@ -191,10 +165,9 @@ void remove_entries(Document& document, std::span<const std::string> names) {
     if (remove_tables(document, name)) continue;
     std::vector<std::string> known;
     for (const DocumentEntry& entry : document.entries) known.push_back(entry.full_name());
-    const std::string close = closest(name, known);
-    throw SceneError({document.name, 0, "--unset " + name, "", "",
-                      "there is no such key in " + document.name +
-                          (close.empty() ? "; expected section.key" : "; did you mean " + close + "?")});
+    throw SceneError(
+        {document.name, 0, "--unset " + name, "", "",
+         "there is no such key in " + document.name + suggestion(name, known, "; expected section.key")});
   }
 }
 

@@ -12,11 +12,12 @@
 
 namespace wavebalance::app {
 
-/// A TOML value of a type that scenes use, lists of integers, of numbers or of texts (and integers, as texts)
-/// included, and of texts and numbers; monostate is any other value (another array, table, date).
-using DocumentValue =
-    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
-                 std::vector<double>, std::vector<std::string>, std::vector<NumberOrText>>;
+/// An entry of a list.
+using DocumentScalar = std::variant<std::int64_t, double, std::string>;
+using DocumentList = std::vector<DocumentScalar>;
+/// A TOML value of a type that scenes use, or a list of numbers and texts; monostate is any other value
+/// (another array, table, date).
+using DocumentValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, DocumentList>;
 
 /// One `key = value` of a scene file or of an override.
 struct DocumentEntry {

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

@@ -170,6 +170,11 @@ inline Property derived(std::string_view text, double value) {
   return derived(text, [=](const Scene&) { return value; });
 }
 
+/// A text, a list of integers or none that is left out where it is not given.
+inline Property none_by_default(SceneValue nothing = std::string()) {
+  return derived("none", [=](const Scene&) { return nothing; });
+}
+
 /// An error in scenes where `condition` does not hold.
 inline Property only_with(Condition condition) {
   return [=](SceneKey& key) { key.belongs = std::move(key.belongs) && condition; };

@@ -1,4 +1,5 @@
 #include "wavebalance/app/scene/scene_keys.hpp"
+#include "files/contains.hpp"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +22,7 @@ bool Bounds::contain(double value) const {
 
 bool Condition::Clause::holds(const Scene& scene) const {
   const std::string value = std::get<std::string>(find_scene_key(key)->get(scene));
-  return std::find(values.begin(), values.end(), value) != values.end();
+  return contains(values, value);
 }
 
 Condition Condition::unless(std::string_view key) const {
@@ -33,9 +34,8 @@ Condition Condition::unless(std::string_view key) const {
 bool Condition::holds(const Scene& scene) const { return broken_by(scene).empty(); }
 
 bool Condition::concerns(std::string_view key) const {
-  return std::find(unless_.begin(), unless_.end(), key) != unless_.end() ||
-         std::any_of(clauses_.begin(), clauses_.end(),
-                     [&](const Clause& clause) { return clause.key == key; });
+  return contains(unless_, key) || std::any_of(clauses_.begin(), clauses_.end(),
+                                               [&](const Clause& clause) { return clause.key == key; });
 }
 
 std::string_view Condition::broken_by(const Scene& scene) const {
@@ -49,8 +49,7 @@ std::string_view Condition::broken_by(const Scene& scene) const {
 Condition operator&&(Condition left, const Condition& right) {
   left.clauses_.insert(left.clauses_.end(), right.clauses_.begin(), right.clauses_.end());
   for (const std::string_view name : right.unless_)
-    if (std::find(left.unless_.begin(), left.unless_.end(), name) == left.unless_.end())
-      left.unless_.push_back(name);
+    if (!contains(left.unless_, name)) left.unless_.push_back(name);
   return left;
 }
 

@@ -185,18 +185,13 @@ std::string SceneKey::expected() const {
 }
 
 std::string SceneKey::default_text() const {
-  switch (fallback) {
-    case Default::value: {
-      const SceneValue value = get(Scene{});
-      const bool unset = value == SceneValue(std::string()) ||
-                         value == SceneValue(std::vector<std::int64_t>()) ||
-                         value == SceneValue(std::vector<NumberOrText>());
-      return unset ? "none" : toml_text(value);
-    }
-    case Default::derived:
-      return std::string(derived_text);
-    case Default::required:
-      break;
+  if (fallback == Default::derived) return std::string(derived_text);
+  if (fallback == Default::value) {
+    const SceneValue value = get(Scene{});
+    const bool unset = value == SceneValue(std::string()) ||
+                       value == SceneValue(std::vector<std::int64_t>()) ||
+                       value == SceneValue(std::vector<NumberOrText>());
+    return unset ? "none" : toml_text(value);
   }
   return needed.empty() ? "required" : "required with " + needed.text();
 }

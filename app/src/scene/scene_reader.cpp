@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 
+#include "files/contains.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/pair_reader.hpp"
 #include "scene/spelling.hpp"
@@ -16,13 +17,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-[[noreturn]] void fail_missing(const Document& document, const SceneKey& key) {
-  const std::string section(key.section);
-  const std::string where = document.section_line(section) == 0 ? ", in a section [" + section + "]" : "";
-  throw SceneError({document.name, document.section_line(section), "", key.full_name(), "",
-                    "missing; expected " + key.expected() + where});
-}
 
 /// The keys of an entry of [[contact.pairs]] or [[forcing.terms]]; none for another section.
 std::vector<SceneKey> keys_of_tables(std::string_view section) {
@@ -42,7 +36,7 @@ std::vector<std::string> known_names(const std::string& section) {
     if (key.section == section) names.emplace_back(key.name);
   if (!names.empty()) return names;
   for (const SceneKey& key : scene_keys())
-    if (std::find(names.begin(), names.end(), key.section) == names.end()) names.emplace_back(key.section);
+    if (!contains(names, key.section)) names.emplace_back(key.section);
   return names;
 }
 
@@ -105,8 +99,7 @@ void reject_unknown(const Document& document) {
     if (is_former(entry)) return true;
     if (!is_table_section(entry.section)) return find_scene_key(entry.full_name()) != nullptr;
     const std::vector<std::string> names = known_names(entry.section);
-    return document.has_section(entry.section) &&
-           std::find(names.begin(), names.end(), entry.key) != names.end();
+    return document.has_section(entry.section) && contains(names, entry.key);
   };
   for (const DocumentEntry& entry : document.entries)
     if (!is_known(entry)) fail_unknown(document, entry);
@@ -115,9 +108,7 @@ void reject_unknown(const Document& document) {
 SceneValue checked_text(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
   const auto* text = std::get_if<std::string>(&entry.value);
   const bool any = key.choices.empty();
-  if (text != nullptr &&
-      (any || std::find(key.choices.begin(), key.choices.end(), *text) != key.choices.end()))
-    return *text;
+  if (text != nullptr && (any || contains(key.choices, *text))) return *text;
   std::string allowed = "expected " + key.expected();
   if (text != nullptr) {
     std::string close(name_for(key.name, *text));
@@ -144,19 +135,33 @@ SceneValue checked_number(const Document& document, const DocumentEntry& entry, 
   return value;
 }
 
+template <class Type>
+bool holds(const DocumentScalar& one) {
+  return std::holds_alternative<Type>(one);
+}
+
+/// Whether a value is a list of numbers alone.
+bool is_list(const DocumentValue& value) {
+  const auto* list = std::get_if<DocumentList>(&value);
+  return list != nullptr && std::none_of(list->begin(), list->end(), holds<std::string>);
+}
+
 SceneValue checked_list(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
-  const auto* integers = std::get_if<std::vector<std::int64_t>>(&entry.value);
-  const auto* given = std::get_if<std::vector<double>>(&entry.value);
-  if (integers == nullptr && (given == nullptr || key.type == SceneKey::Type::integer))
+  const bool of_integers = key.type == SceneKey::Type::integer;
+  const auto* list = std::get_if<DocumentList>(&entry.value);
+  if (!is_list(entry.value) || (of_integers && std::any_of(list->begin(), list->end(), holds<double>)))
     fail_at(document, entry, "expected " + key.expected());
-  const std::vector<double> numbers =
-      integers == nullptr ? *given : std::vector<double>(integers->begin(), integers->end());
-  const bool right_length =
-      key.length == 0 ? !numbers.empty() : static_cast<int>(numbers.size()) == key.length;
-  if (!right_length)
-    fail_at(document, entry, "there are " + std::to_string(numbers.size()) + "; expected " + key.expected());
-  for (const double value : numbers) check_number(document, entry, key, value);
-  if (key.type == SceneKey::Type::integer) return *integers;
+  if (key.length == 0 ? list->empty() : std::ssize(*list) != key.length)
+    fail_at(document, entry, "there are " + std::to_string(list->size()) + "; expected " + key.expected());
+  std::vector<std::int64_t> integers;
+  std::vector<double> numbers;
+  for (const DocumentScalar& one : *list) {
+    const auto* integer = std::get_if<std::int64_t>(&one);
+    numbers.push_back(integer == nullptr ? std::get<double>(one) : static_cast<double>(*integer));
+    if (integer != nullptr) integers.push_back(*integer);
+    check_number(document, entry, key, numbers.back());
+  }
+  if (of_integers) return integers;
   return numbers;
 }
 
@@ -170,17 +175,16 @@ NumberOrText entry_of_text(const std::string& text) {
 
 /// A number, a text or a list as a list of both; empty for anything else.
 std::vector<NumberOrText> entries_of(const DocumentValue& value) {
-  if (const auto* entries = std::get_if<std::vector<NumberOrText>>(&value)) return *entries;
-  if (const auto* text = std::get_if<std::string>(&value)) return {entry_of_text(*text)};
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) return {static_cast<double>(*integer)};
-  if (const auto* number = std::get_if<double>(&value)) return {*number};
   std::vector<NumberOrText> entries;
-  if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
-    for (const std::string& text : *texts) entries.push_back(entry_of_text(text));
-  if (const auto* integers = std::get_if<std::vector<std::int64_t>>(&value))
-    for (const std::int64_t one : *integers) entries.emplace_back(static_cast<double>(one));
-  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
-    entries.assign(numbers->begin(), numbers->end());
+  const auto append = [&](const DocumentScalar& one) {
+    if (const auto* text = std::get_if<std::string>(&one)) return entries.push_back(entry_of_text(*text));
+    const auto* integer = std::get_if<std::int64_t>(&one);
+    entries.emplace_back(integer == nullptr ? std::get<double>(one) : static_cast<double>(*integer));
+  };
+  if (const auto* list = std::get_if<DocumentList>(&value)) std::for_each(list->begin(), list->end(), append);
+  if (const auto* text = std::get_if<std::string>(&value)) append(*text);
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) append(*integer);
+  if (const auto* number = std::get_if<double>(&value)) append(*number);
   return entries;
 }
 
@@ -193,7 +197,7 @@ SceneValue checked_mixed(const Document& document, const DocumentEntry& entry, c
       continue;
     }
     const std::string& text = std::get<std::string>(one);
-    if (std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end()) continue;
+    if (contains(key.choices, text)) continue;
     fail_at(document, entry, toml_text(text) + " is none of them; expected " + key.expected());
   }
   return entries;
@@ -203,11 +207,6 @@ SceneValue checked_path(const Document& document, const DocumentEntry& entry, co
   const auto* text = std::get_if<std::string>(&entry.value);
   if (text == nullptr || text->empty()) fail_at(document, entry, "expected " + key.expected());
   return path_in(document, *text);
-}
-
-bool is_list(const DocumentValue& value) {
-  return std::holds_alternative<std::vector<std::int64_t>>(value) ||
-         std::holds_alternative<std::vector<double>>(value);
 }
 
 SceneValue checked_truth(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
@@ -221,19 +220,11 @@ SceneValue checked(const Document& document, const DocumentEntry& entry, const S
   if (key.form == Form::list || (key.form == Form::single_or_list && is_list(entry.value)))
     return checked_list(document, entry, key);
   if (key.form == Form::single_or_list && (std::holds_alternative<std::monostate>(entry.value) ||
-                                           std::holds_alternative<std::vector<std::string>>(entry.value)))
+                                           std::holds_alternative<DocumentList>(entry.value)))
     fail_at(document, entry, "expected " + key.expected() + ", or a list of them");
-  switch (key.type) {
-    case SceneKey::Type::boolean:
-      return checked_truth(document, entry, key);
-    case SceneKey::Type::text:
-      return checked_text(document, entry, key);
-    case SceneKey::Type::path:
-      return checked_path(document, entry, key);
-    case SceneKey::Type::integer:
-    case SceneKey::Type::number:
-      break;
-  }
+  if (key.type == SceneKey::Type::boolean) return checked_truth(document, entry, key);
+  if (key.type == SceneKey::Type::text) return checked_text(document, entry, key);
+  if (key.type == SceneKey::Type::path) return checked_path(document, entry, key);
   return checked_number(document, entry, key);
 }
 
@@ -271,7 +262,10 @@ void read_key(const Document& document, const SceneKey& key, Scene& scene) {
   if (entry != nullptr)
     key.set(scene, checked(document, *entry, key));
   else if (key.required_in(scene))
-    fail_missing(document, key);
+    fail_missing(document, std::string(key.section), key.name,
+                 key.expected() + (document.section_line(key.section) == 0
+                                       ? ", in a section [" + std::string(key.section) + "]"
+                                       : ""));
   else if (key.fallback == SceneKey::Default::derived)
     key.set(scene, key.derived(scene));
 }
@@ -283,6 +277,17 @@ void fail_at(const Document& document, const DocumentEntry& entry, std::string a
       {document.name, entry.line, entry.override, entry.full_name(), entry.found, std::move(allowed)});
 }
 
+void fail_missing(const Document& document, const std::string& section, std::string_view name,
+                  const std::string& expected) {
+  throw SceneError({document.name, document.section_line(section), "", section + "." + std::string(name), "",
+                    "missing; expected " + expected});
+}
+
+void take_key(const Document& document, const std::string& section, const SceneKey& key, Scene& scene) {
+  const DocumentEntry* given = document.find(section, key.name);
+  key.set(scene, given == nullptr ? key.derived(scene) : checked(document, *given, key));
+}
+
 bool is_of_former_analysis(const Document& document, const DocumentEntry& entry) {
   const DocumentEntry* type = document.find("analysis", "type");
   return entry.section == "time" && entry.override.empty() && type != nullptr && !type->override.empty();
@@ -291,10 +296,6 @@ bool is_of_former_analysis(const Document& document, const DocumentEntry& entry)
 std::string path_in(const Document& document, const std::string& name) {
   const auto folder = std::filesystem::absolute(document.name).parent_path();
   return (folder / name).lexically_normal().string();
-}
-
-SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
-  return checked(document, entry, key);
 }
 
 Scene read_scene(const Document& given) {

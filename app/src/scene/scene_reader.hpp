@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene.hpp"
@@ -10,11 +11,15 @@ namespace wavebalance::app {
 /// Throws SceneError at the place of `entry`.
 [[noreturn]] void fail_at(const Document& document, const DocumentEntry& entry, std::string allowed);
 
+/// Throws SceneError at a section that lacks a key.
+[[noreturn]] void fail_missing(const Document& document, const std::string& section, std::string_view name,
+                               const std::string& expected);
+
 /// The absolute path of a file that the document names relative to its own.
 std::string path_in(const Document& document, const std::string& name);
 
-/// The value of `entry` if the key allows it. Throws SceneError.
-SceneValue checked_value(const Document& document, const DocumentEntry& entry, const SceneKey& key);
+/// Sets a key of one of the tables of a scene as `section` of the document has it, or to its default.
+void take_key(const Document& document, const std::string& section, const SceneKey& key, Scene& scene);
 
 /// The scene that `document` describes: each key is known, in range and allowed in the scene; defaults are
 /// filled in. The rules between keys are not checked here. Throws SceneError.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -31,59 +32,79 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
 }
 
 /// Whether a pair of this law has the key, with a value of its own.
-bool has_value(const Scene& scene, std::size_t index, const SceneKey& key) {
-  const std::string& law = scene.contact.pairs[index].law;
-  if (key.name == "law") return law != no_law && !is_rigid(law);
-  const bool of_law = key.laws.empty() || std::find(key.laws.begin(), key.laws.end(), law) != key.laws.end();
+bool is_written(const SceneKey& key, const Scene& scene, const ContactPair& pair) {
+  if (key.name == "law") return pair.law != no_law && !is_rigid(pair.law);
+  const bool of_law = key.laws.empty() || contains(key.laws, pair.law);
   return of_law && !is_empty(key.get(scene));
 }
 
-/// Calls use(section, key) for each key of the pairs that is written.
-template <class Use>
-void for_each_pair_key(const Scene& scene, Use use) {
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
-    for (const SceneKey& key : pair_keys(i))
-      if (has_value(scene, i, key)) use(pair_section(i), key);
+/// Whether a term has the key: one of samples has no harmonic, and a static one no phase.
+bool is_written(const SceneKey& key, const Scene& scene, const ForcingTerm& term) {
+  const bool sampled = !term.samples.empty();
+  if (key.name == "harmonic") return !sampled;
+  if (key.name == "phase") return !sampled && term.harmonic != 0;
+  return !is_empty(key.get(scene));
 }
 
-std::string pair_lines(const Scene& scene) {
-  std::string text, current;
-  for_each_pair_key(scene, [&](const std::string& section, const SceneKey& key) {
-    if (section != current) text += "\n[[contact.pairs]]\n";
-    current = section;
-    text += line_of(key, scene);
-  });
+/// One of the tables of a scene that may have several, with its keys that are written.
+struct WrittenTable {
+  std::string section;
+  std::vector<SceneKey> keys;
+};
+
+template <class Entry>
+std::vector<WrittenTable> written_tables(const Scene& scene, const std::vector<Entry>& entries,
+                                         std::string (*section)(std::size_t),
+                                         std::vector<SceneKey> (*keys)(std::size_t)) {
+  std::vector<WrittenTable> tables;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    tables.push_back({section(i), keys(i)});
+    std::erase_if(tables.back().keys,
+                  [&](const SceneKey& key) { return !is_written(key, scene, entries[i]); });
+  }
+  return tables;
+}
+
+std::vector<WrittenTable> written_pairs(const Scene& scene) {
+  return written_tables(scene, scene.contact.pairs, pair_section, pair_keys);
+}
+
+std::vector<WrittenTable> written_terms(const Scene& scene) {
+  return written_tables(scene, scene.forcing.terms, term_section, term_keys);
+}
+
+std::string lines_of(const std::vector<WrittenTable>& tables, const Scene& scene) {
+  std::string text;
+  for (const auto& [section, keys] : tables) {
+    text += "\n[[" + section.substr(0, section.find('[')) + "]]\n";
+    for (const SceneKey& key : keys) text += line_of(key, scene);
+  }
   return text;
 }
 
-/// Calls use(section, key) for each key of the terms that is written.
-template <class Use>
-void for_each_term_key(const Scene& scene, Use use) {
-  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
-    for (const SceneKey& key : term_keys(i)) {
-      const ForcingTerm& term = scene.forcing.terms[i];
-      const bool sampled = !term.samples.empty();
-      const bool optional =
-          key.name == "samples" || key.name == "dofs" || key.name == "load" || key.name == "direction";
-      if (optional && is_empty(key.get(scene))) continue;
-      if (key.name == "harmonic" && sampled) continue;
-      if (key.name == "phase" && (sampled || term.harmonic == 0)) continue;
-      use(term_section(i), key);
-    }
+template <class Content>
+DocumentValue document_value(const Content& content) {
+  return content;
+}
+template <class Entry>
+DocumentValue document_value(const std::vector<Entry>& list) {
+  DocumentList entries;
+  for (const Entry& one : list)
+    if constexpr (std::is_same_v<Entry, NumberOrText>)
+      entries.push_back(std::visit([](const auto& content) { return DocumentScalar(content); }, one));
+    else
+      entries.emplace_back(one);
+  return entries;
 }
 
-std::string term_lines(const Scene& scene) {
-  std::string text, current;
-  for_each_term_key(scene, [&](const std::string& section, const SceneKey& key) {
-    if (section != current) text += "\n[[forcing.terms]]\n";
-    current = section;
-    text += line_of(key, scene);
-  });
-  return text;
-}
-
-DocumentValue document_value(const SceneValue& value) {
-  return std::visit([](const auto& content) { return DocumentValue(content); }, value);
+DocumentEntry entry_of(const SceneKey& key, const Scene& scene, std::string section) {
+  const SceneValue value = key.get(scene);
+  return {std::move(section),
+          std::string(key.name),
+          std::visit([](const auto& content) { return document_value(content); }, value),
+          toml_text(value),
+          0,
+          ""};
 }
 
 }  // namespace
@@ -91,37 +112,25 @@ DocumentValue document_value(const SceneValue& value) {
 Document document_of(const Scene& scene, const std::string& name) {
   Document document;
   document.name = name;
-  for (const SceneKey& key : scene_keys()) {
-    if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
-    const SceneValue value = key.get(scene);
-    document.entries.push_back(
-        {std::string(key.section), std::string(key.name), document_value(value), toml_text(value), 0, ""});
-  }
-  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
-    document.sections.push_back({pair_section(i), 0});
-  for_each_pair_key(scene, [&](const std::string& section, const SceneKey& key) {
-    const SceneValue value = key.get(scene);
-    document.entries.push_back(
-        {section, std::string(key.name), document_value(value), toml_text(value), 0, ""});
-  });
-  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
-    document.sections.push_back({term_section(i), 0});
-  for_each_term_key(scene, [&](const std::string& section, const SceneKey& key) {
-    const SceneValue value = key.get(scene);
-    document.entries.push_back(
-        {section, std::string(key.name), document_value(value), toml_text(value), 0, ""});
-  });
+  for (const SceneKey& key : scene_keys())
+    if (key.belongs.holds(scene) && !is_unset(key, scene))
+      document.entries.push_back(entry_of(key, scene, std::string(key.section)));
+  for (const auto& tables : {written_pairs(scene), written_terms(scene)})
+    for (const auto& [section, keys] : tables) {
+      document.sections.push_back({section, 0});
+      for (const SceneKey& key : keys) document.entries.push_back(entry_of(key, scene, section));
+    }
   return document;
 }
 
 std::string write_scene(const Scene& scene) {
   std::string text;
   std::string_view section;
-  std::string terms = term_lines(scene);  // which may be all that there is of the loads
+  std::string terms = lines_of(written_terms(scene), scene);  // which may be all that there is of the loads
   for (const SceneKey& key : scene_keys()) {
     if (!key.belongs.holds(scene) || is_unset(key, scene)) continue;
     if (key.section != section) {
-      if (section == "contact") text += pair_lines(scene);
+      if (section == "contact") text += lines_of(written_pairs(scene), scene);
       if (key.section == "time" || key.section == "analysis") text += std::exchange(terms, "");
       text += (text.empty() ? "[" : "\n[") + std::string(key.section) + "]\n";
     }

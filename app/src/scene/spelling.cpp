@@ -38,6 +38,12 @@ std::string closest(std::string_view word, const std::vector<std::string>& names
   return best;
 }
 
+std::string suggestion(std::string_view word, const std::vector<std::string>& names,
+                       const std::string& otherwise) {
+  const std::string close = closest(word, names);
+  return close.empty() ? otherwise : "; did you mean " + close + "?";
+}
+
 std::string_view name_for(std::string_view place, std::string_view word) {
   struct Synonym {
     std::string_view place, word, name;

@@ -13,6 +13,10 @@ std::string_view name_for(std::string_view place, std::string_view word);
 /// The one of `names` that `word` was probably meant to be; empty if none is near. O(length^2) per name.
 std::string closest(std::string_view word, const std::vector<std::string>& names);
 
+/// "; did you mean NAME?" with the closest of `names`, or `otherwise` where none is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& names,
+                       const std::string& otherwise = "");
+
 /// "a, b, c".
 std::string joined(const std::vector<std::string>& names);
 

@@ -1,6 +1,5 @@
 #include "scene/term_reader.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "scene/scene_reader.hpp"
@@ -15,7 +14,7 @@ class TermReader {
  public:
   TermReader(const Document& document, std::size_t index, Scene& scene)
       : document_(document), section_(term_section(index)), scene_(scene), term_(scene.forcing.terms[index]) {
-    for (const SceneKey& key : term_keys(index)) read(key);
+    for (const SceneKey& key : term_keys(index)) take_key(document_, section_, key, scene_);
     check_samples();
     if (term_.harmonic == 0 && entry("phase") != nullptr)
       fail_at(document_, *entry("phase"), "does not belong to a static load, harmonic = 0");
@@ -25,21 +24,13 @@ class TermReader {
  private:
   const DocumentEntry* entry(std::string_view name) const { return document_.find(section_, name); }
 
-  [[noreturn]] void fail_missing(const std::string& name, const std::string& expected) const {
-    throw SceneError({document_.name, document_.section_line(section_), "", section_ + "." + name, "",
-                      "missing; expected " + expected});
-  }
-
-  void read(const SceneKey& key) {
-    if (const DocumentEntry* given = entry(key.name))
-      key.set(scene_, checked_value(document_, *given, key));
-    else
-      key.set(scene_, key.derived(scene_));
+  [[noreturn]] void fail_without(const std::string& name, const std::string& expected) const {
+    fail_missing(document_, section_, name, expected);
   }
 
   void check_samples() const {
     if (term_.samples.empty()) {
-      if (entry("amplitude") == nullptr) fail_missing("amplitude", "a number in N, m or m/s^2, or samples");
+      if (entry("amplitude") == nullptr) fail_without("amplitude", "a number in N, m or m/s^2, or samples");
       return;
     }
     for (const std::string_view name : {"harmonic", "phase"})
@@ -65,9 +56,9 @@ class TermReader {
           document_, *entry("direction"),
           "expected structure.dof_map beside it, which says which rows move that way, or dofs in its place");
     if (term_.kind == LoadKind::base_displacement && term_.dofs.empty())
-      fail_missing("dofs", "a list of integers, the rows that move");
+      fail_without("dofs", "a list of integers, the rows that move");
     if (term_.kind == LoadKind::base_acceleration && term_.dofs.empty() && term_.direction.empty())
-      fail_missing("dofs",
+      fail_without("dofs",
                    "a list of integers, the rows that point along the motion of the base, or direction");
   }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "files/missing.hpp"
 #include "plot/axis_ticks.hpp"
 #include "plot/unit_prefix.hpp"
@@ -68,13 +69,9 @@ std::vector<Outcome> outcomes_of(const Table& table) {
 /// Marks of the runs of one outcome; none where there are none.
 void add_marks(Panel& panel, const std::vector<double>& x, const std::vector<double>& y,
                const std::vector<Outcome>& outcomes, Outcome outcome) {
-  Series series(outcome == Outcome::unstable ? "unstable" : "did not converge", std::vector<double>(),
-                std::vector<double>(), SeriesStyle::points);
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (outcomes[i] != outcome || !std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
-    series.x.push_back(x[i]);
-    series.y.push_back(y[i]);
-  }
+  Series series(outcome == Outcome::unstable ? "unstable" : "did not converge", SeriesStyle::points);
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (outcomes[i] == outcome && std::isfinite(x[i]) && std::isfinite(y[i])) series.append(x[i], y[i]);
   if (series.x.empty()) return;
   series.colour = outcome == Outcome::unstable ? Colour::vermillion : Colour::grey;
   series.marker = outcome == Outcome::unstable ? 2 : 4;
@@ -216,12 +213,8 @@ void add_quantile_curves(Panel& panel, const Varying& x, const std::vector<doubl
     if (std::isfinite(values[i])) columns[x.numbers[i]].push_back(values[i]);
   for (auto& [at, column] : columns) std::sort(column.begin(), column.end());
   for (const double share : {0.05, 0.5, 0.95}) {
-    Series series(fmt::format("{:g} % of the runs are below", 100 * share), std::vector<double>(),
-                  std::vector<double>());
-    for (const auto& [at, column] : columns) {
-      series.x.push_back(at);
-      series.y.push_back(quantile_of(column, share));
-    }
+    Series series(fmt::format("{:g} % of the runs are below", 100 * share), SeriesStyle::line);
+    for (const auto& [at, column] : columns) series.append(at, quantile_of(column, share));
     panel.add(std::move(series));
   }
 }
@@ -256,15 +249,12 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
     curves[others_text(study, table, i, x.key, shown)][x.numbers[i]] = values[i];
   if (curves.size() > most_curves) return add_quantile_curves(panel, x, values);
   for (const auto& [text, curve] : curves) {
-    Series series(plain(text), std::vector<double>(), std::vector<double>(), SeriesStyle::line_points);
-    for (const auto& [at, value] : curve) {
-      series.x.push_back(at);
-      series.y.push_back(value);
-    }
+    Series series(plain(text), SeriesStyle::line_points);
+    for (const auto& [at, value] : curve) series.append(at, value);
     panel.add(std::move(series));
   }
   add_marks(panel, x.numbers, values, outcomes, Outcome::unstable);
-  if (std::find(outcomes.begin(), outcomes.end(), Outcome::unstable) != outcomes.end()) panel.legend = true;
+  if (contains(outcomes, Outcome::unstable)) panel.legend = true;
 }
 
 void add_distribution(Figure& figure, std::vector<double> values, const std::string& quantity) {
@@ -319,11 +309,8 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
   const std::vector<double> solved = values_of(values, outcomes, Outcome::solved);
   for (const Varying& one : varying) {
     if (!one.numeric || drawn++ == most_scatters) continue;
-    Series series("", std::vector<double>(), std::vector<double>(), SeriesStyle::points);
-    for (std::size_t i = 0; i < values.size(); i += step) {
-      series.x.push_back(one.numbers[i]);
-      series.y.push_back(solved[i]);
-    }
+    Series series("", SeriesStyle::points);
+    for (std::size_t i = 0; i < values.size(); i += step) series.append(one.numbers[i], solved[i]);
     series.marker = 1;
     series.colour = Colour::blue;
     Panel& panel = figure.add_panel("Over " + plain(one.key));

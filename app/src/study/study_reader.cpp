@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "files/contains.hpp"
 #include "scene/spelling.hpp"
 #include "scene/toml_text.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
@@ -90,11 +91,8 @@ class StudyTable {
   void refuse_others() const {
     for (const auto& [key, node] : table_) {
       const std::string name(key.str());
-      if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-      const std::string close = closest(name, known_);
-      fail(name, &node,
-           "unknown key" +
-               (close.empty() ? "; known are " + joined(known_) : "; did you mean " + close + "?"));
+      if (contains(known_, name)) continue;
+      fail(name, &node, "unknown key" + suggestion(name, known_, "; known are " + joined(known_)));
     }
   }
 
@@ -111,10 +109,8 @@ void check_key(const StudyTable& table, const toml::node* node, const std::strin
     return;
   std::vector<std::string> names;
   for (const SceneKey& one : scene_keys()) names.push_back(one.full_name());
-  const std::string close = closest(key, names);
   table.fail("key", node,
-             "no key of a scene" + (close.empty() ? "; `wavebalance keys --names` lists them"
-                                                  : "; did you mean " + close + "?"));
+             "no key of a scene" + suggestion(key, names, "; `wavebalance keys --names` lists them"));
 }
 
 void read_interval(StudyTable& table, Sampling sampling, StudyParameter& parameter) {

@@ -1,17 +1,63 @@
 #include <fmt/format.h>
+#include <gsl/gsl_qrng.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <utility>
 
 #include "files/number_text.hpp"
-#include "study/samples.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study.hpp"
 
 namespace wavebalance::app {
 namespace {
+
+constexpr int max_sobol_dimension = 40;  // of Sobol's sequence
+
+/// In [0, 1), with all 53 bits. The distributions of the standard library differ between its implementations.
+double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+
+/// 0..size-1 in random order [D. E. Knuth, The Art of Computer Programming 2, algorithm 3.4.2 P].
+std::vector<int> random_order(int size, std::mt19937_64& generator) {
+  std::vector<int> order(static_cast<std::size_t>(size));
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t last = order.size(); last > 1; --last) {
+    const auto other = static_cast<std::size_t>(uniform(generator) * static_cast<double>(last));
+    std::swap(order[last - 1], order[other]);
+  }
+  return order;
+}
+
+/// Points of Sobol's sequence from its first on, runs x dimension, in (0, 1) [P. Bratley and B. L. Fox,
+/// Algorithm 659, ACM Trans. Math. Softw. 14 (1988) 88-100].
+std::vector<double> sobol_points(int runs, int dimension) {
+  const std::unique_ptr<gsl_qrng, void (*)(gsl_qrng*)> sequence(
+      gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(dimension)), gsl_qrng_free);
+  const auto width = static_cast<std::size_t>(dimension);
+  std::vector<double> points(static_cast<std::size_t>(runs) * width);
+  for (std::size_t begin = 0; begin < points.size(); begin += width)
+    gsl_qrng_get(sequence.get(), points.data() + begin);
+  return points;
+}
+
+/// A Latin hypercube sample, runs x dimension, in [0, 1): each of `runs` equal strata of a coordinate holds
+/// one point, at random within it [M. D. McKay, R. J. Beckman and W. J. Conover, Technometrics 21 (1979)
+/// 239-245]. The same seed gives the same points on every machine.
+std::vector<double> latin_hypercube_points(int runs, int dimension, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  const auto width = static_cast<std::size_t>(dimension), size = static_cast<std::size_t>(runs);
+  std::vector<double> points(size * width);
+  for (std::size_t j = 0; j < width; ++j) {
+    const std::vector<int> strata = random_order(runs, generator);
+    for (std::size_t i = 0; i < size; ++i) points[i * width + j] = (strata[i] + uniform(generator)) / runs;
+  }
+  return points;
+}
 
 std::int64_t values_in_grid(const StudyParameter& parameter) {
   return parameter.is_interval() ? parameter.count : std::int64_t(parameter.values.size());

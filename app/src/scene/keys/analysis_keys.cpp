@@ -11,10 +11,8 @@ namespace {
 /// The interval of a sweep over `parts`.
 auto interval_over(int parts) {
   return [parts](const Scene& scene) {
-    const Analysis& analysis = scene.analysis;
-    return (std::abs(analysis.frequency_to - analysis.frequency_from) +
-            std::abs(analysis.amplitude_to - analysis.amplitude_from)) /
-           parts;  // one of them is 0
+    const auto [from, to] = sweep_interval(scene.analysis);
+    return std::abs(to - from) / parts;
   };
 }
 
@@ -25,7 +23,7 @@ SceneValue first_step_by_default(const Scene& scene) {
 void add_sweep(std::vector<SceneKey>& keys) {
   const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
   const Section over_amplitude(keys, "analysis", analysis_part, analysis_is({"amplitude_sweep"}));
-  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep", "amplitude_sweep"}));
+  const Section sweep(keys, "analysis", analysis_part, of_sweeps());
   over_frequency(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch starts", positive);
   over_frequency(&Analysis::frequency_to, "frequency_to", "Hz",
                  "where the branch ends, above or below its start", positive);
@@ -73,8 +71,7 @@ void add_sweep(std::vector<SceneKey>& keys) {
 
 /// Contacts move each for itself; many would make a wide table.
 SceneValue contact_outputs_by_default(const Scene& scene) {
-  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
-                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  const bool sweep = is_sweep(scene.analysis.type);
   constexpr int most = 6;
   const int contacts = contact_count(scene);
   return sweep && scene.contact.law != no_law && contacts > 1 && contacts <= most;
@@ -96,7 +93,7 @@ void add_outputs(std::vector<SceneKey>& keys) {
   outputs(&Analysis::output_harmonics, "output_harmonics", "",
           "harmonics of the load whose amplitude and phase are written of each output", within(0, 1000),
           optional);
-  const Section sweep(keys, "analysis", analysis_part, analysis_is({"frequency_sweep", "amplitude_sweep"}));
+  const Section sweep(keys, "analysis", analysis_part, of_sweeps());
   sweep(&Analysis::peak_of, "peak_of", "",
         "an output, as \"node 1052 z\", \"row 17\" or \"contact 2\": the peak is then where its vibration is "
         "largest, by half the peak-to-peak value, and not where the displacement towards an obstacle is",
@@ -172,8 +169,7 @@ void add_mode(std::vector<SceneKey>& keys) {
 /// Whether counts take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
-  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
-                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  const bool sweep = is_sweep(scene.analysis.type);
   if (!sweep && !mode) return true;
   if (mode && (is_rigid(scene.contact.law) || takes_energy(scene.contact))) return true;  // not known
   constexpr int few = 6;
@@ -189,8 +185,7 @@ SceneValue phases_by_default(const Scene& scene) {
 }
 
 SceneValue default_motion_points(const Scene& scene) {
-  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep ||
-                     scene.analysis.type == AnalysisType::amplitude_sweep;
+  const bool sweep = is_sweep(scene.analysis.type);
   const bool motion = !sweep || !scene.analysis.motion_at.empty();
   const bool meshed = scene.structure.type == StructureType::blade || !scene.structure.matrices.mesh.empty();
   return std::int64_t{meshed && motion ? 32 : 0};
@@ -209,7 +204,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       "motion_150Hz.csv, motion_20N.csv and so on: that of the largest displacement, the special points, "
       "and those at frequencies, of an amplitude sweep at amplitudes, solved for there, each time that "
       "the curve passes one; [\"peak\", 150.0] is an example",
-      positive, optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"})));
+      positive, optional, only_with(of_sweeps()));
   analysis(
       &Analysis::motion_points, "motion_points", "",
       "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
@@ -232,14 +227,14 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       &Analysis::special_points, "special_points", "",
       "with stability, true locates the special points of a curve, and those of the structure beside it; false "
       "counts multipliers at the points of the curve alone, which of many contacts takes far less time",
-      optional, only_with(analysis_is({"frequency_sweep", "amplitude_sweep"}) && by_balance()));
+      optional, only_with(of_sweeps() && by_balance()));
   analysis(
       &Analysis::phases, "phases", "",
       "true solves for the motion of the structure itself near the response, by phases of contact: its "
       "instants of contact, the errors of the response, and the stability of the structure; of a sweep "
       "errors and stability at every point of its curves, in place of the peak and the special points alone",
       derived("true of a response with contact, false of a sweep", phases_by_default),
-      only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"}) && by_balance()));
+      only_with(of_responses() && by_balance()));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
            "output_points are then those of n periods",

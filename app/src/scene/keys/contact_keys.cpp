@@ -17,44 +17,42 @@ void set_gap(Scene& scene, const SceneValue& value) {
   contact.gaps = one ? std::vector<double>{} : *list;
 }
 
+/// The key of a law's parameter among the values of a part of the scene, [contact] or one of its pairs.
+template <class Part>
+SceneKey law_key(std::string_view section, const SharedParameter& parameter, Part part) {
+  SceneKey key = key_of_parameter(section, parameter);
+  const contact::LawParameter& first = parameter.first;
+  key.get = [=, &first](const Scene& scene) { return value_in(part(scene).values, first); };
+  key.set = [=, &first](Scene& scene, const SceneValue& value) {
+    set_value(part(scene).values, first, value);
+  };
+  return key;
+}
+
 void add_law_keys(std::vector<SceneKey>& keys) {
   for (const SharedParameter& parameter : law_parameters()) {
-    SceneKey key = key_of_parameter("contact", parameter);
+    SceneKey key = law_key("contact", parameter, contact_part);
     if (!parameter.first.may_lack) or_in_pairs(key);
     only_with(law_is(parameter.laws))(key);
-    if (parameter.first.name == "gap") {
-      single_or_list(get_gap, set_gap)(key);
-    } else {
-      key.get = [&parameter](const Scene& scene) { return value_in(scene.contact.values, parameter.first); };
-      key.set = [&parameter](Scene& scene, const SceneValue& value) {
-        set_value(scene.contact.values, parameter.first, value);
-      };
-    }
+    if (parameter.first.name == "gap") single_or_list(get_gap, set_gap)(key);
     keys.push_back(std::move(key));
   }
 }
 
 /// The keys of a pair's law, whose defaults are those of [contact].
 void add_law_keys_of_pair(std::vector<SceneKey>& keys, std::size_t index) {
+  const auto part = [index](auto& scene) -> auto& { return scene.contact.pairs[index]; };
   for (const SharedParameter& parameter : law_parameters()) {
-    SceneKey key = key_of_parameter("contact.pairs", parameter);
+    SceneKey key = law_key("contact.pairs", parameter, part);
     const contact::LawParameter& first = parameter.first;
-    if (first.name == "gap") {
-      key.get = [=](const Scene& scene) { return SceneValue(scene.contact.pairs[index].gap); };
-      key.set = [=](Scene& scene, const SceneValue& value) {
-        scene.contact.pairs[index].gap = std::get<double>(value);
-      };
-      derived("that of [contact]", [](const Scene& scene) { return scene.contact.gap; })(key);
-    } else {
-      key.get = [=, &first](const Scene& scene) {
-        return value_in(scene.contact.pairs[index].values, first);
-      };
-      key.set = [=, &first](Scene& scene, const SceneValue& value) {
-        set_value(scene.contact.pairs[index].values, first, value);
-      };
-      derived("that of [contact]",
-              [&first](const Scene& scene) { return value_in(scene.contact.values, first); })(key);
+    const bool gap = first.name == "gap";
+    if (gap) {
+      key.get = [=](const Scene& scene) { return SceneValue(part(scene).gap); };
+      key.set = [=](Scene& scene, const SceneValue& value) { part(scene).gap = std::get<double>(value); };
     }
+    derived("that of [contact]", [=, &first](const Scene& scene) {
+      return gap ? SceneValue(scene.contact.gap) : value_in(scene.contact.values, first);
+    })(key);
     keys.push_back(std::move(key));
   }
 }
@@ -87,11 +85,10 @@ void add_contact_keys(std::vector<SceneKey>& keys) {
   contact(&Contact::tangent, "tangent", "",
           "direction along which the corner nodes of a blade's tip rub, beside the radial one: x or y",
           optional, only_with(structure_is({"blade"}) && law_is(with_friction())));
-  const Condition balanced = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
   contact(
       &Contact::form, "form", "",
       "unknown in which contact is solved: the displacement, or for stiff and rigid laws the contact force",
-      optional, only_with(balanced && by_balance()));
+      optional, only_with(of_responses() && by_balance()));
   contact(
       &Contact::mass, "mass", "",
       "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
@@ -118,7 +115,7 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
                                std::string_view name, std::string_view weights_name, std::string_view help,
                                const std::vector<std::string_view>& laws) {
     pair(dofs, name, "", help, within(1, 100'000'000), named_dofs,
-         derived("none", [](const Scene&) { return std::vector<std::int64_t>(); }));
+         none_by_default(std::vector<std::int64_t>()));
     pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
          derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
     for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = laws;
@@ -139,8 +136,7 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
        one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law && !law.rigid; })),
        derived("that of [contact]", [](const Scene& scene) { return scene.contact.law; }));
   pair(&ContactPair::name, "name", "",
-       "of the contact, by which texts and pictures show it beside its number",
-       derived("none", [](const Scene&) { return std::string(); }));
+       "of the contact, by which texts and pictures show it beside its number", none_by_default());
   add_law_keys_of_pair(keys, index);
   return keys;
 }

@@ -52,7 +52,7 @@ std::vector<SceneKey> term_keys(std::size_t index) {
       &ForcingTerm::samples, "samples", "",
       "CSV file with a header row, whose last column holds one period at uniform times from t = 0 on; in place "
       "of harmonic and phase",
-      path, derived("none", [](const Scene&) { return std::string(); }));
+      path, none_by_default());
   term(&ForcingTerm::dofs, "dofs", "",
        "matrices: rows that each take the whole force or move with the base, as load_dofs; required with a "
        "base, of which they are the rows that move (displacement) or point along its motion (acceleration)",
@@ -60,11 +60,11 @@ std::vector<SceneKey> term_keys(std::size_t index) {
        derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
   term(&ForcingTerm::load, "load", "",
        "matrices: forces of all degrees of freedom for amplitude 1, as forcing.load; in place of dofs", path,
-       derived("none", [](const Scene&) { return std::string(); }));
+       none_by_default());
   term(
       &ForcingTerm::direction, "direction", "",
       "matrices with a dof_map: of a base_acceleration, along which all nodes move with it; in place of dofs",
-      one_of({"x", "y", "z", "-x", "-y", "-z"}), derived("none", [](const Scene&) { return std::string(); }));
+      one_of({"x", "y", "z", "-x", "-y", "-z"}), none_by_default());
   return keys;
 }
 

@@ -19,6 +19,10 @@ inline Condition law_is(std::vector<std::string_view> laws) { return {"contact.l
 inline Condition analysis_is(std::vector<std::string_view> types) {
   return {"analysis.type", std::move(types)};
 }
+inline Condition of_sweeps() { return analysis_is({"frequency_sweep", "amplitude_sweep"}); }
+inline Condition of_responses() {
+  return analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
+}
 /// Not of motions by phases of contact or with impacts, which have no functions.
 inline Condition by_balance() { return Condition("time.method", {"balance"}).unless("contact.restitution"); }
 

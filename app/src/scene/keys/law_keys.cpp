@@ -61,7 +61,7 @@ SceneKey key_of_parameter(std::string_view section, const SharedParameter& param
   if (parameter.first.kind == LawParameter::Kind::list) key.form = SceneKey::Form::list;
   if (parameter.first.kind == LawParameter::Kind::file) key.type = SceneKey::Type::path;
   if (parameter.first.fallback) optional(key);
-  if (parameter.first.may_lack) derived("none", [](const Scene&) { return std::string(); })(key);
+  if (parameter.first.may_lack) none_by_default()(key);
   if (!parameter.first.same_as.empty())
     derived(parameter.first.same_as, [](const Scene&) { return std::string(); })(key);
   return key;

@@ -29,7 +29,7 @@ void add_bar(std::vector<SceneKey>& keys) {
       optional);
   bar(&Structure::massless_tip, "massless_tip", "",
       "true moves the tip's mass to its neighbour, so that rigid contact has no mass to stop at once",
-      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"})));
+      optional, only_with(of_responses()));
 }
 
 void add_matrices(std::vector<SceneKey>& keys) {

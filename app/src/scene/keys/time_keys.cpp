@@ -18,11 +18,11 @@ SceneValue default_tolerance(const Scene& scene) {
 
 void add_time_keys(std::vector<SceneKey>& keys) {
   const Section time(keys, "time", time_part);
-  const Condition of_responses = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
   const Condition of_bases =
       analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"}) &&
       by_balance();
-  const Condition balance = (of_responses && by_balance()).unless("time.tolerance").unless("analysis.exact");
+  const Condition balance =
+      (of_responses() && by_balance()).unless("time.tolerance").unless("analysis.exact");
   time(&Time::method, "method", "",
        "what a response solves for: the balance in a pair of bases, or the motion of the structure itself by "
        "phases of contact, which has no functions and starts from a coarse balance of its own",
@@ -50,7 +50,7 @@ void add_time_keys(std::vector<SceneKey>& keys) {
   time(&Time::sample_offset, "sample_offset", "",
        "first quadrature point in intervals of the points: 0 for their left ends k/N, 0.5 for their middles "
        "(k + 0.5)/N; without effect on output_points",
-       optional, only_with(of_responses && by_balance()));
+       optional, only_with(of_responses() && by_balance()));
   time(&Time::inner_products, "inner_products", "",
        "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
        "pairs: connection coefficients) or exact",

@@ -38,7 +38,7 @@ struct PairResult {
   /// have three errors above that of the reference: over the last four of them. NaN without three.
   double order = solvers::missing, force_order = solvers::missing;
   int order_points_per_function = 0;  ///< of these orders
-  std::string failures;  ///< "2 stalled (4 to 8 functions), 1 cancelled (1024 functions)", or empty
+  std::string failures = {};  ///< "2 stalled (4 to 8 functions), 1 cancelled (1024 functions)", or empty
 };
 
 /// A forced response in several pairs and sizes.
@@ -82,6 +82,14 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options);
 /// was measured so far. Throws as check_comparison().
 Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
                              const solvers::Observer& observer = {});
+
+/// The pairs that are compared, and those of common_pairs() that are not with the reasons.
+struct SplitPairs {
+  std::vector<BasisPair> admissible;
+  std::vector<PairResult> others;
+};
+/// Those of the options, or the admissible ones of common_pairs().
+SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options);
 
 /// What each pair did, in the order of `pairs`; `points` as size_study() returns them.
 std::vector<PairResult> pair_results(const std::vector<BasisPair>& pairs,

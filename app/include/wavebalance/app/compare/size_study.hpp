@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "wavebalance/app/analysis/start_motion.hpp"
@@ -63,6 +64,27 @@ solvers::ContactProblem uncondensed_problem(const Scene& scene, const StructureM
 
 /// The samples of a start in a scene's sizes; none of an empty motion.
 solvers::ResponseStart response_start(const StartMotion& start, const Scene& scene);
+
+/// The response of a scene's problem near a start, or near the response without contact, with the
+/// condensation.
+solvers::PeriodicResponse response_near(const Scene& scene, solvers::ContactProblem& problem,
+                                        const solvers::ResponseStart& start,
+                                        const solvers::Observer& observer);
+
+/// A scene's own pair and sizes, not solved yet.
+SolvePoint unsolved_point(const Scene& scene);
+
+/// The problem of an unsolved point, which is given the time of its construction; nothing, with the status
+/// "refused", of a pair that has as many Fourier functions as points at the middles.
+std::optional<solvers::ContactProblem> timed_problem(const MeasuredScene& measured, const Scene& scene,
+                                                     const Repetition& repetition, SolvePoint& point);
+
+/// Sets the time of `solve`. False, with the status "singular", where it throws solvers::SingularSystem.
+bool time_solve(const std::function<void()>& solve, const Repetition& repetition, SolvePoint& point);
+
+/// Sets the errors of a motion, which are no smaller than those of the reference where these are given.
+void set_errors(const MeasuredScene& measured, const solvers::Motion& motion, SolvePoint& point,
+                double least_displacement = 0.0, double least_force = 0.0);
 
 /// Relative rms errors of all contacts together; NaN where the reference is zero or missing.
 double displacement_error(const solvers::Motion& motion, const solvers::Motion& reference);

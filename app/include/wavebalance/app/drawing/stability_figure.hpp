@@ -30,12 +30,6 @@ StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& 
 void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
                        const std::vector<PlacedPoint>& special);
 
-/// Adds the largest displacements along the branches of a sweep in the same way, each with its number and its
-/// periods of the load in the legend. Frequencies and displacements times the factors.
-void draw_branches(Panel& panel, const Sweep& sweep, double x_factor, double y_factor);
-/// The same of its isolas.
-void draw_isolas(Panel& panel, const Sweep& sweep, double x_factor, double y_factor);
-
 /// Marks special points in black, one symbol and one entry of the legend for each kind.
 void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points);
 

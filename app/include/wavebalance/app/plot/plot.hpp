@@ -40,10 +40,17 @@ struct Series {
         x(as_span(x_values).begin(), as_span(x_values).end()),
         y(as_span(y_values).begin(), as_span(y_values).end()),
         style(drawn_as) {}
+  /// Without points yet.
+  Series(std::string name, SeriesStyle drawn_as) : label(std::move(name)), style(drawn_as) {}
   /// Two columns of a table.
   Series(std::string name, const Table& table, std::string_view x_column, std::string_view y_column,
          SeriesStyle drawn_as = SeriesStyle::line)
       : Series(std::move(name), table.numbers(x_column), table.numbers(y_column), drawn_as) {}
+
+  void append(double x_value, double y_value) {
+    x.push_back(x_value);
+    y.push_back(y_value);
+  }
 
   std::string label;  ///< in the legend; none when empty
   std::vector<double> x;

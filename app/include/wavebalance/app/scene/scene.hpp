@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/contact/law_description.hpp"
@@ -50,6 +51,8 @@ inline constexpr std::array phases_starts{63, 127, 255, 511};
 inline constexpr double default_phases_tolerance = 1e-9;
 /// Whether the equation of motion is integrated in time, so that there are no functions: time stepping.
 bool integrates_in_time(AnalysisType type);
+/// Whether motions are followed over the frequency or the amplitude of the load.
+bool is_sweep(AnalysisType type);
 /// What a further load is, forcing.terms.kind: a force, or the motion of supports.
 enum class LoadKind { force, base_displacement, base_acceleration };
 
@@ -318,6 +321,9 @@ struct Analysis {
 
   bool operator==(const Analysis&) const = default;
 };
+
+/// Where the curve of a sweep starts and ends, Hz, or amplitudes of the load.
+std::pair<double, double> sweep_interval(const Analysis& analysis);
 
 /// Everything that defines one computation. SI units. Read from a TOML file by load_scene(), written by
 /// write_scene(); scene_keys() describes each entry.

@@ -5,9 +5,15 @@
 
 #include "drawing/period_window.hpp"
 #include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 
+/// Panels of one motion beside its displacement and force.
 namespace wavebalance::app {
+
+/// Adds the loops of friction force over tangential displacement of the contacts that dissipate most, and a
+/// map of what each contact does over the period. Nothing without friction.
+void add_friction(Figure& figure, const Scene& scene, const Response& response, const PeriodWindow& window);
 
 /// The velocity of a contact over the period, sampled at uniform instants (m/s), with both values at each of
 /// its impacts, so that these are drawn as jumps.

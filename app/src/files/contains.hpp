@@ -1,0 +1,11 @@
+#pragma once
+#include <algorithm>
+
+namespace wavebalance::app {
+
+/// Whether a list holds a value.
+bool contains(const auto& list, const auto& value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace wavebalance::app
