@@ -9,14 +9,12 @@ namespace {
 constexpr double tolerance = 1e-10;
 constexpr double stiffening = 10.0;
 
-}  // namespace
-
-bool StrategyStep::converged() const {
-  return inequality_measure < tolerance && equality_measure < tolerance;
+MultiplierReport reported(double inequality_measure, double equality_measure) {
+  return {inequality_measure < tolerance && equality_measure < tolerance, false, inequality_measure,
+          equality_measure};
 }
 
-MultipliersOnly::MultipliersOnly(int inequalities, double step)
-    : step_(step), multipliers_(static_cast<std::size_t>(inequalities), 0.0) {}
+}  // namespace
 
 void MultipliersOnly::inequality_force(std::span<const double>, std::span<double> force,
                                        std::span<double> tangent) const {
@@ -24,32 +22,19 @@ void MultipliersOnly::inequality_force(std::span<const double>, std::span<double
   std::fill(tangent.begin(), tangent.end(), 0.0);
 }
 
-void MultipliersOnly::equality_force(std::span<const double>, std::span<double> force) const {
-  force[0] = equality_;
+void MultipliersOnly::restart(std::span<const double> inequality, double equality) {
+  multipliers_.assign(inequality.begin(), inequality.end());
+  equality_ = equality;
 }
 
-double MultipliersOnly::inequality_term(std::span<const double> g) const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < g.size(); ++i) sum += multipliers_[i] * g[i];
-  return sum;
-}
-
-double MultipliersOnly::equality_term(std::span<const double> h) const { return equality_ * h[0]; }
-
-void MultipliersOnly::restart(std::span<const double> inequality, std::span<const double> equality) {
-  if (!inequality.empty()) multipliers_.assign(inequality.begin(), inequality.end());
-  if (!equality.empty()) equality_ = equality[0];
-}
-
-StrategyStep MultipliersOnly::update(std::span<const double> g, std::span<const double> h) {
-  StrategyStep step{0.0, std::abs(h[0])};
+MultiplierReport MultipliersOnly::update(std::span<const double> g, double h) {
+  double measure = 0.0;
   for (std::size_t i = 0; i < g.size(); ++i) {
-    step.inequality_measure =
-        std::max(step.inequality_measure, std::abs(std::max(g[i], -multipliers_[i] / step_)));
+    measure = std::max(measure, std::abs(std::max(g[i], -multipliers_[i] / step_)));
     multipliers_[i] = std::max(0.0, multipliers_[i] + step_ * g[i]);
   }
-  equality_ += step_ * h[0];
-  return step;
+  equality_ += step_ * h;
+  return reported(measure, std::abs(h));
 }
 
 void PenaltiesOnly::inequality_force(std::span<const double> g, std::span<double> force,
@@ -60,23 +45,11 @@ void PenaltiesOnly::inequality_force(std::span<const double> g, std::span<double
   }
 }
 
-void PenaltiesOnly::equality_force(std::span<const double> h, std::span<double> force) const {
-  force[0] = penalty_ * h[0];
-}
-
-double PenaltiesOnly::inequality_term(std::span<const double> g) const {
-  double sum = 0.0;
-  for (const double one : g) sum += 0.5 * penalty_ * std::pow(std::max(0.0, one), 2);
-  return sum;
-}
-
-double PenaltiesOnly::equality_term(std::span<const double> h) const { return 0.5 * penalty_ * h[0] * h[0]; }
-
-StrategyStep PenaltiesOnly::update(std::span<const double> g, std::span<const double> h) {
-  StrategyStep step{0.0, std::abs(h[0])};
-  for (const double one : g) step.inequality_measure = std::max(step.inequality_measure, one);
+MultiplierReport PenaltiesOnly::update(std::span<const double> g, double h) {
+  double measure = 0.0;
+  for (const double one : g) measure = std::max(measure, one);
   penalty_ *= stiffening;
-  return step;
+  return reported(measure, std::abs(h));
 }
 
 }  // namespace wavebalance::ll10

@@ -16,6 +16,9 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+constexpr double min_fundamental_share = 0.5;  // of the kinetic energy, of the mode itself
+constexpr double resonance_share = 0.15, resonance_detuning = 0.1;  // as in NonlinearModeOptions
+
 std::span<const double> view(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
@@ -85,9 +88,6 @@ void LagrangianModeOptions::validate() const {
   solvers::detail::require_at_least(who, "max_inner_iterations", max_inner_iterations, 1);
   solvers::detail::require_at_least(who, "max_outer_iterations", max_outer_iterations, 1);
   solvers::detail::require_at_least(who, "max_step_halvings", max_step_halvings, 0);
-  solvers::detail::require_share(who, "min_fundamental_share", min_fundamental_share);
-  solvers::detail::require_share(who, "resonance_share", resonance_share);
-  solvers::detail::require_share(who, "resonance_detuning", resonance_detuning);
 }
 
 int LagrangianPoint::newton_iterations() const {
@@ -232,9 +232,9 @@ LagrangianMode::Newton LagrangianMode::critical_point(Eigen::VectorXd& x, double
   return {status(), run.iterations, condition.largest()};
 }
 
-LagrangianPoint LagrangianMode::solve_with(double energy_ratio, Multipliers& multipliers,
-                                           const LagrangianStart& given,
-                                           std::optional<double> predicted_rayleigh) const {
+LagrangianPoint LagrangianMode::solve(double energy_ratio, Multipliers& multipliers,
+                                      const LagrangianStart& given,
+                                      std::optional<double> predicted_rayleigh) const {
   if (!(energy_ratio > 0.0))
     solvers::detail::reject("LagrangianMode", "energy_ratio", energy_ratio, "positive");
   const bool contact = energy_ratio > 1.0;
@@ -325,23 +325,24 @@ void LagrangianMode::measure_shares(LagrangianPoint& point) const {
 }
 
 LagrangianStatus LagrangianMode::classify(const LagrangianPoint& point) const {
-  if (point.fundamental_share < options_.min_fundamental_share) return LagrangianStatus::left_mode;
+  if (point.fundamental_share < min_fundamental_share) return LagrangianStatus::left_mode;
   if (point.force.isZero(0.0)) return LagrangianStatus::linear;
-  if (point.resonance.share < options_.resonance_share) return LagrangianStatus::converged;
+  if (point.resonance.share < resonance_share) return LagrangianStatus::converged;
   const double omega_j = std::sqrt(model_.omega_squared[point.resonance.mode - 1]);
   const double detuning = std::abs(point.resonance.harmonic * point.omega - omega_j) / omega_j;
-  return detuning <= options_.resonance_detuning ? LagrangianStatus::internal_resonance
-                                                 : LagrangianStatus::converged;
+  return detuning <= resonance_detuning ? LagrangianStatus::internal_resonance : LagrangianStatus::converged;
 }
 
-std::vector<LagrangianPoint> LagrangianMode::follow(
-    std::span<const double> energy_ratios, const LagrangianStart& start,
-    const std::function<LagrangianPoint(double, const Prediction&)>& solve_from) const {
+std::vector<LagrangianPoint> LagrangianMode::branch(std::span<const double> energy_ratios,
+                                                    const contact::MultiplierUpdate& strategy,
+                                                    const LagrangianStart& start) const {
   std::vector<LagrangianPoint> points, path;  // path holds the points between, too
   for (const double target : energy_ratios) {
     double ratio = target;
     for (int halvings = 0;;) {
-      const LagrangianPoint point = solve_from(ratio, predict(path, ratio, start));
+      const Prediction from = predict(path, ratio, start);
+      contact::MultiplierUpdate fresh(strategy);
+      const LagrangianPoint point = solve(ratio, fresh, from.start, from.rayleigh);
       if (point.accepted()) path.push_back(point);
       const bool given_up = !point.accepted() && (path.empty() || halvings == options_.max_step_halvings);
       if (given_up || (point.accepted() && ratio == target)) points.push_back(point);

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -45,10 +44,6 @@ struct LagrangianModeOptions {
   int max_inner_iterations = 60;   ///< Newton steps per outer iteration
   int max_outer_iterations = 60;   ///< updates of the multipliers per energy
   int max_step_halvings = 12;      ///< halvings of failed energy steps, per energy in branch()
-  /// Least share of the kinetic energy in harmonic 1; below it the status is left_mode.
-  double min_fundamental_share = 0.5;
-  double resonance_share = 0.15;    ///< as in NonlinearModeOptions
-  double resonance_detuning = 0.1;  ///< as in NonlinearModeOptions
 
   /// Throws std::invalid_argument for a number out of its range, whatever the model.
   void validate() const;
@@ -113,7 +108,6 @@ class LagrangianMode {
   const ModeLagrangian& functional() const { return functional_; }  ///< in units omega_1 = gap = 1
   int constraints() const { return functional_.constraints(); }     ///< c m
   double linear_omega() const;                                      ///< rad/s
-  double grazing_energy() const { return 0.25 * amplitude_ * amplitude_; }
 
   /// The linear mode at an energy ratio >= 0, without force; it penetrates above 1.
   LagrangianStart linear_start(double energy_ratio) const;
@@ -122,11 +116,12 @@ class LagrangianMode {
   /// predicted_rayleigh: r to freeze in the sequential way, (rad/s)^2; that of the start if absent. Throws
   /// std::invalid_argument if the strategy has other than c m and 1 constraints, or the start does not fit.
   /// A Newton step is O((r (2N + 1))^3).
-  template <MultiplierStrategy Strategy>
-  LagrangianPoint solve(double energy_ratio, Strategy& strategy, const LagrangianStart& start,
-                        std::optional<double> predicted_rayleigh = {}) const {
-    MultipliersOf<Strategy> multipliers(strategy);
-    return solve_with(energy_ratio, multipliers, start, predicted_rayleigh);
+  LagrangianPoint solve(double energy_ratio, Multipliers& multipliers, const LagrangianStart& start,
+                        std::optional<double> predicted_rayleigh = {}) const;
+  LagrangianPoint solve(double energy_ratio, contact::MultiplierUpdate& strategy,
+                        const LagrangianStart& start, std::optional<double> predicted_rayleigh = {}) const {
+    AugmentedMultipliers multipliers(strategy);
+    return solve(energy_ratio, multipliers, start, predicted_rayleigh);
   }
 
   /// Energy steps [LL10, Algorithms 1 and 2], each predicted by the secant through the two before (the first
@@ -134,15 +129,9 @@ class LagrangianMode {
   /// are not returned. The branch ends at the first point that is not accepted even so; that point is kept
   /// with its status and its ratio. The strategy is copied for each point, so that penalties do not grow from
   /// one point to the next.
-  template <MultiplierStrategy Strategy>
-  std::vector<LagrangianPoint> branch(std::span<const double> energy_ratios, const Strategy& strategy,
-                                      const LagrangianStart& start) const {
-    return follow(energy_ratios, start, [&](double ratio, const Prediction& from) {
-      Strategy fresh(strategy);
-      MultipliersOf<Strategy> multipliers(fresh);
-      return solve_with(ratio, multipliers, from.start, from.rayleigh);
-    });
-  }
+  std::vector<LagrangianPoint> branch(std::span<const double> energy_ratios,
+                                      const contact::MultiplierUpdate& strategy,
+                                      const LagrangianStart& start) const;
 
  private:
   struct Prediction {
@@ -156,13 +145,8 @@ class LagrangianMode {
     double gradient;
   };
 
-  std::vector<LagrangianPoint> follow(
-      std::span<const double> energy_ratios, const LagrangianStart& start,
-      const std::function<LagrangianPoint(double, const Prediction&)>& solve_from) const;
   Prediction predict(const std::vector<LagrangianPoint>& points, double energy_ratio,
                      const LagrangianStart& start) const;
-  LagrangianPoint solve_with(double energy_ratio, Multipliers& multipliers, const LagrangianStart& start,
-                             std::optional<double> predicted_rayleigh) const;
   std::optional<LagrangianStatus> outer_iteration(LagrangianPoint& point, Eigen::VectorXd& x,
                                                   Multipliers& multipliers,
                                                   std::optional<double> frozen) const;

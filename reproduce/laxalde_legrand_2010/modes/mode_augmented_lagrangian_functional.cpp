@@ -59,12 +59,6 @@ Eigen::VectorXd ModeLagrangian::generalised_force(const Eigen::VectorXd& force) 
   return result;
 }
 
-double ModeLagrangian::value(const Eigen::VectorXd& x, double gamma, const Multipliers& multipliers) const {
-  const Eigen::VectorXd g = gap_function(x);
-  return quotient_.value(x) + multipliers.terms({g.data(), static_cast<std::size_t>(g.size())},
-                                                1.0 / samples(), normalisation(x) - gamma);
-}
-
 Eigen::VectorXd ModeLagrangian::gradient(const Eigen::VectorXd& x, double gamma,
                                          const Multipliers& multipliers, std::optional<double> frozen) const {
   const Eigen::VectorXd elastic = quotient_.stiffness().apply(x), inertia = quotient_.mass().apply(x);

@@ -44,7 +44,6 @@ class ModeLagrangian {
   /// (1/m) B^T force, the generalised force of force samples.
   Eigen::VectorXd generalised_force(const Eigen::VectorXd& force) const;
 
-  double value(const Eigen::VectorXd& x, double gamma, const Multipliers& multipliers) const;
   /// frozen: rho, in the place of r.
   Eigen::VectorXd gradient(const Eigen::VectorXd& x, double gamma, const Multipliers& multipliers,
                            std::optional<double> frozen = {}) const;

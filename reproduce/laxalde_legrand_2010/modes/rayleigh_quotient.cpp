@@ -73,10 +73,4 @@ Eigen::MatrixXd RayleighQuotient::hessian(const Eigen::VectorXd& x) const {
   return result;
 }
 
-Eigen::VectorXd RayleighQuotient::hessian_times(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const {
-  const Eigen::VectorXd inertia = mass_.apply(x), slope = gradient(x);
-  return 2.0 / x.dot(inertia) *
-         (stiffness_.apply(v) - value(x) * mass_.apply(v) - inertia.dot(v) * slope - slope.dot(v) * inertia);
-}
-
 }  // namespace wavebalance::ll10

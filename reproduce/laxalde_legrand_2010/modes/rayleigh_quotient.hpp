@@ -57,8 +57,6 @@ class RayleighQuotient {
   Eigen::VectorXd gradient(const Eigen::VectorXd& x) const;
   /// (2/m) (A - r D - grad r (D x)^T - D x grad r^T), dense. O((n N)^2).
   Eigen::MatrixXd hessian(const Eigen::VectorXd& x) const;
-  /// The same times v. O(n^2 N).
-  Eigen::VectorXd hessian_times(const Eigen::VectorXd& x, const Eigen::VectorXd& v) const;
 
  private:
   FourierLayout layout_;
