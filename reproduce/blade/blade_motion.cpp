@@ -6,16 +6,6 @@
 #include "wavebalance/fem/boundary_faces.hpp"
 
 namespace wavebalance::blade {
-namespace {
-
-/// Distance of two fractions of a period on the circle.
-double apart(double a, double b) {
-  const double difference = std::abs(a - b);
-  return std::min(difference, 1.0 - difference);
-}
-
-}  // namespace
-
 std::vector<Eigen::Matrix3Xd> motion(const app::ModeStudy& study, const solvers::ModePoint& point,
                                      int times) {
   const Eigen::MatrixXd whole = study.model().recover(study.structure_motion(point, times).displacement);
@@ -80,15 +70,6 @@ EdgeContact edge_contact(const Eigen::MatrixXd& force) {
     if (force.col(k).tail(half).maxCoeff() > 0.0) contact.trailing.push_back(time);
   }
   return contact;
-}
-
-bool centred(const std::vector<double>& times, double centre, double sample) {
-  const auto holds = [&](double time) {
-    return std::any_of(times.begin(), times.end(),
-                       [&](double other) { return apart(time - std::floor(time), other) < 0.5 * sample; });
-  };
-  return holds(centre) &&
-         std::all_of(times.begin(), times.end(), [&](double time) { return holds(2.0 * centre - time); });
 }
 
 Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements, double scale) {

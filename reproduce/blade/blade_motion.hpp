@@ -41,8 +41,6 @@ struct EdgeContact {
 };
 /// force: contacts x samples, N, contacts from the leading to the trailing edge.
 EdgeContact edge_contact(const Eigen::MatrixXd& force);
-/// True if `times` are symmetric about `centre` (all in periods) and hold it, to half a sample.
-bool centred(const std::vector<double>& times, double centre, double sample);
 
 /// The blade's surface in mm. displacements: 3 x nodes, m, or empty; added `scale` times.
 Surface surface(const fem::Blade& blade, const Eigen::Matrix3Xd& displacements = {}, double scale = 0.0);

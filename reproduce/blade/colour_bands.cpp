@@ -23,13 +23,10 @@ int packed(const Rgb& colour) {
   return (byte(colour.red) << 16) + (byte(colour.green) << 8) + byte(colour.blue);
 }
 
-/// Linear between stops, uniform over 0..1.
-Rgb colour_at(ColourBands::Map map, double share) {
-  constexpr std::array<Rgb, 5> diverging{
-      {{0, 114, 178}, {127, 184, 216}, {255, 255, 255}, {234, 174, 127}, {213, 94, 0}}};
-  constexpr std::array<Rgb, 5> sequential{
+/// Linear between stops, uniform over 0..1: white to dark blue.
+Rgb colour_at(double share) {
+  constexpr std::array<Rgb, 5> stops{
       {{247, 251, 255}, {173, 216, 240}, {86, 180, 233}, {0, 114, 178}, {6, 42, 78}}};
-  const auto& stops = map == ColourBands::Map::diverging ? diverging : sequential;
   const double place = share * static_cast<double>(stops.size() - 1);
   const auto low = std::min(static_cast<std::size_t>(place), stops.size() - 2);
   const double rest = place - static_cast<double>(low);
@@ -65,7 +62,7 @@ double level_of(const ColourBands& colours, int band) {
 }
 
 int band_colour(const ColourBands& colours, int band) {
-  return packed(colour_at(colours.map, static_cast<double>(band) / (colours.bands - 1)));
+  return packed(colour_at(static_cast<double>(band) / (colours.bands - 1)));
 }
 
 int grey(double brightness) { return packed({brightness, brightness, brightness}); }

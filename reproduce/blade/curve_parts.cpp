@@ -24,28 +24,6 @@ std::size_t index_of(const std::vector<solvers::SweepPoint>& points, std::size_t
                                   begin);
 }
 
-template <class Points>
-auto by_frequency(const Points& points, std::size_t first, bool upper) {
-  const auto lower = [](const auto& a, const auto& b) { return a.frequency < b.frequency; };
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(first);
-  return upper ? std::max_element(begin, points.end(), lower) : std::min_element(begin, points.end(), lower);
-}
-
-class Counter {
- public:
-  Counter(const app::Scene& scene, const app::StructureModel& model, const solvers::FrequencySweep& curve)
-      : problem_(app::compose_problem(scene, model)), curve_(curve) {}
-
-  PointCount operator()(const solvers::SweepPoint& point) {
-    const auto response = problem_.response(curve_, point.frequency, point.unknown);
-    return {point.frequency, problem_.stability(response).unstable};
-  }
-
- private:
-  solvers::ContactProblem problem_;
-  const solvers::FrequencySweep& curve_;
-};
-
 }  // namespace
 
 std::string CurveParts::counts_text() const {
@@ -62,14 +40,19 @@ CurveParts curve_parts(const app::Scene& scene, const app::StructureModel& model
   const auto& turns = sweep.curve.turning_points;
   CurveParts parts;
   if (turns.size() < 2) return parts;
-  const auto upper = by_frequency(turns, 0, true);
-  const auto lower = by_frequency(turns, static_cast<std::size_t>(upper - turns.begin()), false);
+  const auto below = [](const auto& a, const auto& b) { return a.frequency < b.frequency; };
+  const auto upper = std::max_element(turns.begin(), turns.end(), below);
+  const auto lower = std::min_element(upper, turns.end(), below);
   parts.folds = {*upper, *lower};
   // The curve goes up to the first fold and back to the second, whose point is the lowest after it.
   const std::size_t highest = index_of(points, 0, points.size(), upper->frequency);
   const std::size_t back = index_of(points, highest, points.size(), lower->frequency);
   const std::array<std::size_t, 4> ends{0, highest, back, points.size() - 1};
-  Counter count(scene, model, sweep.curve);
+  solvers::ContactProblem problem = app::compose_problem(scene, model);
+  const auto count = [&](const solvers::SweepPoint& point) -> PointCount {
+    const auto response = problem.response(sweep.curve, point.frequency, point.unknown);
+    return {point.frequency, problem.stability(response).unstable};
+  };
   parts.points.resize(points.size());
   for (std::size_t part = 0; part < 3; ++part) {
     const double from = points[ends[part]].frequency, to = points[ends[part + 1]].frequency;

@@ -8,31 +8,49 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stepped_sweep.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::blade {
+namespace {
+
+/// From frequency_from to frequency_to, both included, at most largest_step apart; of more than max_points
+/// the first ones.
+std::vector<double> uniform_frequencies(const app::Analysis& analysis) {
+  constexpr double rounding = 1e-9;  // so that rounding does not add a step to an interval of n steps
+  const double from = analysis.frequency_from, width = analysis.frequency_to - from;
+  const double steps = std::max(1.0, std::ceil(std::abs(width) / analysis.largest_step - rounding));
+  const int count = static_cast<int>(std::min(steps + 1.0, static_cast<double>(analysis.max_points)));
+  std::vector<double> frequencies;
+  for (int i = 0; i < count; ++i) frequencies.push_back(from + width * i / steps);
+  return frequencies;
+}
+
+}  // namespace
+
 std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model) {
-  const auto& analysis = scene.analysis;
-  const auto frequencies = uniform_frequencies(analysis.frequency_from, analysis.frequency_to,
-                                               analysis.largest_step, analysis.max_points);
   solvers::ForcedResponseOptions nearby;
   nearby.fallbacks = false;
   nearby.newton.max_iterations = 12;  // enough on a branch
   solvers::ContactProblem problem = app::compose_problem(scene, model);
+  solvers::CondensedProblem& condensed = problem.condensed();
   Eigen::VectorXd guess;
-  const auto solve = [&](solvers::CondensedProblem& at) -> BladeResponse {
-    auto found = solvers::forced_response(at, problem.laws(), nearby, guess);
-    if (!found.converged()) found = solvers::forced_response(at, problem.laws(), {});  // the branch ends here
-    guess = found.converged() ? found.displacement : Eigen::VectorXd();
-    return {at.frequency(), found.converged(), solvers::by_contact(found.displacement, model.contacts()),
-            solvers::by_contact(found.contact_force, model.contacts())};
-  };
   std::vector<BladeResponse> responses;
-  for (auto& found : steps_over(problem.condensed(), frequencies, solve))
-    responses.push_back(found ? std::move(*found)
-                              : BladeResponse{frequencies[responses.size()], false, {}, {}});
+  for (const double frequency : uniform_frequencies(scene.analysis)) {
+    BladeResponse& response = responses.emplace_back();
+    response.frequency = frequency;
+    try {
+      condensed.set_frequency(frequency);
+      auto found = solvers::forced_response(condensed, problem.laws(), nearby, guess);
+      if (!found.converged())  // the branch ends here
+        found = solvers::forced_response(condensed, problem.laws(), {});
+      guess = found.converged() ? found.displacement : Eigen::VectorXd();
+      response.converged = found.converged();
+      response.displacement = solvers::by_contact(found.displacement, model.contacts());
+      response.force = solvers::by_contact(found.contact_force, model.contacts());
+    } catch (const solvers::SingularSystem&) {  // the response is missing
+    }
+  }
   return responses;
 }
 

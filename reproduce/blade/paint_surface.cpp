@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "colour_bands.hpp"
 #include "files/number_text.hpp"
@@ -328,29 +327,6 @@ std::string axes_text(const SurfaceView& view, const Eigen::Vector2d& corner) {
   return text;
 }
 
-void check(const SurfaceView& view) {
-  const auto fail = [](const std::string& text) { throw std::invalid_argument("Figure: " + text); };
-  if (view.surfaces.empty()) fail("a view has no surface");
-  if (!(view.colours.upper > view.colours.lower) || view.colours.bands < 2)
-    fail("the colours of a surface need upper > lower and at least 2 bands");
-  for (const Surface& surface : view.surfaces) {
-    const auto count = static_cast<std::size_t>(surface.vertices.cols());
-    if (!surface.values.empty() && surface.values.size() != count)
-      fail("a surface of " + std::to_string(count) + " vertices has " +
-           std::to_string(surface.values.size()) + " values; it needs one per vertex, or none");
-    const auto check_numbers = [&](const std::vector<int>& vertices) {
-      for (const int vertex : vertices)
-        if (vertex < 0 || static_cast<std::size_t>(vertex) >= count)
-          fail("a surface of " + std::to_string(count) + " vertices has no vertex " + std::to_string(vertex));
-    };
-    for (const auto& face : surface.faces) {
-      if (face.size() < 3) fail("a face of a surface has fewer than 3 vertices");
-      check_numbers(face);
-    }
-    for (const auto& marks : surface.marks) check_numbers(marks.vertices);
-  }
-}
-
 /// Faces are projected, ordered and cut into bands here, because gnuplot 5.4 gives a polygon one colour,
 /// draws back faces as well, and writes several times as much SVG.
 Drawing drawing_of(const SurfaceView& view, const Axis& x, const Axis& y, const std::string& name) {
@@ -373,7 +349,7 @@ Drawing drawing_of(const SurfaceView& view, const Axis& x, const Axis& y, const 
         axes_text(view, {x.lower.value_or(lower.x()) + 0.3 * margin, y.lower.value_or(lower.y()) + margin});
   const bool valued = std::any_of(view.surfaces.begin(), view.surfaces.end(),
                                   [](const Surface& surface) { return !surface.values.empty(); });
-  if (valued && view.colours.bar) script.setup += colour_bar_text(view.colours);
+  if (valued) script.setup += colour_bar_text(view.colours);
   return script;
 }
 
@@ -384,7 +360,6 @@ Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point)
 }
 
 void paint(app::Panel& panel, const SurfaceView& view, const std::string& name) {
-  check(view);
   panel.drawing = drawing_of(view, panel.x, panel.y, "$" + name);
 }
 

@@ -24,18 +24,12 @@ struct Surface {
   std::vector<SurfaceMarks> marks;
 };
 
-/// How values become colours.
+/// How values become colours, white to dark blue.
 struct ColourBands {
-  enum class Map {
-    diverging,  ///< blue, white, orange
-    sequential  ///< white to dark blue
-  };
-  Map map = Map::sequential;
   double lower = 0.0;
   double upper = 1.0;  ///< > lower; values beyond take the last colour
   int bands = 12;      ///< >= 2
   std::string label;   ///< label of the colour bar
-  bool bar = true;     ///< draw the colour bar
 };
 
 /// Surfaces in parallel projection with equal scales. Back faces are left out and the others painted from the
@@ -54,9 +48,7 @@ Eigen::Vector2d projected(const SurfaceView& view, const Eigen::Vector3d& point)
 
 /// Draws the view in the panel, without axes. The limits that the panel's x and y have bound the projection,
 /// which fills the panel otherwise; its series and texts have the coordinates of projected(). `name` begins
-/// the names of its data blocks, so that the panels of a figure need different ones. Throws
-/// std::invalid_argument if a vertex number is out of range, there is not one value per vertex, a face has
-/// fewer than 3 vertices or the colours have no range.
+/// the names of its data blocks, so that the panels of a figure need different ones.
 void paint(app::Panel& panel, const SurfaceView& view, const std::string& name);
 
 }  // namespace wavebalance::blade

@@ -9,7 +9,6 @@
 #include "curve_measures.hpp"
 #include "nyquist_resonances.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/compose/scene_loader.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -17,8 +16,7 @@ namespace {
 std::string case_file(int case_number) { return "case" + std::to_string(case_number) + ".toml"; }
 
 Measures measures_of(const Case& study, const app::Response& response, int functions, bool energies) {
-  Measures m{solvers::missing, solvers::missing, solvers::missing, solvers::missing,  solvers::missing,
-             solvers::missing, solvers::missing, solvers::missing, response.converged};
+  Measures m{.converged = response.converged};
   if (!response.converged) return m;
   const Eigen::VectorXd u = response.displacement(), exact = study.reference().displacement();
   const Eigen::VectorXd middle = cell_midpoints(u, functions),
@@ -55,38 +53,31 @@ const std::vector<Sums>& convergence_sums() {
   return all;
 }
 
-Convergence::Convergence(report::Artefact& artefact, bool energies) : sums_(convergence_sums().front()) {
+Convergence::Convergence(report::Artefact& artefact, bool energies, const Sums& sums,
+                         const Convergence* start)
+    : sums_(sums) {
   for (const int number : {1, 2}) {
     Case study(artefact, number);
+    if (start) artefact.scene(case_file(number), sums.overrides(pairs().front()));
     for (const Pair& pair : pairs())
       for (const int functions : sizes()) {
-        const auto response = study.solve(pair, functions, energies);
-        measures_[{number, pair.name(), functions}] = measures_of(study, response, functions, energies);
-        if (response.converged) displacements_[{number, pair.name(), functions}] = response.displacement();
+        const Key key{number, pair.name(), functions};
+        const auto response = start ? start->solved_again(study, pair, functions, energies, sums)
+                                    : study.solve(pair, functions, energies);
+        measures_[key] = measures_of(study, response, functions, energies);
+        if (response.converged) displacements_[key] = response.displacement();
       }
   }
 }
 
-Convergence::Convergence(report::Artefact& artefact, bool energies, const Sums& sums,
-                         const Convergence& first)
-    : sums_(sums) {
-  for (const int number : {1, 2}) {
-    const Case study(artefact, number);
-    artefact.scene(case_file(number), sums.overrides(pairs().front()));
-    for (const Pair& pair : pairs())
-      for (const int functions : sizes()) {
-        auto overrides = sums.overrides(pair);
-        overrides.insert(overrides.end(), {"time.trial=" + pair.trial, "time.weight=" + pair.weight,
-                                           "time.functions=" + std::to_string(functions)});
-        const auto scene = app::load_scene(artefact.scenes() / case_file(number), overrides);
-        app::ResponseOptions options;
-        if (energies) options.structure_points = scene.analysis.output_points;
-        const auto start = first.displacements_.find({number, pair.name(), functions});
-        if (start != first.displacements_.end()) options.guess = start_from(start->second, sums);
-        measures_[{number, pair.name(), functions}] =
-            measures_of(study, app::weighted_residual_response(scene, options), functions, energies);
-      }
-  }
+app::Response Convergence::solved_again(const Case& study, const Pair& pair, int functions, bool energies,
+                                        const Sums& sums) const {
+  const app::Scene scene = study.scene_under(pair, functions, sums.overrides(pair));
+  app::ResponseOptions options;
+  if (energies) options.structure_points = scene.analysis.output_points;
+  const auto start = displacements_.find({study.number(), pair.name(), functions});
+  if (start != displacements_.end()) options.guess = start_from(start->second, sums);
+  return app::weighted_residual_response(scene, options);
 }
 
 double Convergence::at(Measure measure, int case_number, const std::string& pair_name, int functions) const {
@@ -100,27 +91,18 @@ std::vector<double> Convergence::of(Measure measure, int case_number, const std:
   return values;
 }
 
-std::vector<double> Convergence::largest(Measure measure, int case_number,
+std::vector<double> Convergence::extreme(const double& (*better)(const double&, const double&),
+                                         Measure measure, int case_number,
                                          const std::vector<std::string>& names,
                                          const std::vector<int>& functions) const {
-  std::vector<double> values(functions.size(), -std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < functions.size(); ++i)
+  std::vector<double> values;
+  for (const int number : functions) {
+    double& value = values.emplace_back(at(measure, case_number, names.front(), number));
     for (const auto& name : names) {
-      const double value = at(measure, case_number, name, functions[i]);
-      values[i] = std::isnan(value) || std::isnan(values[i]) ? solvers::missing : std::max(values[i], value);
+      const double other = at(measure, case_number, name, number);
+      value = std::isnan(other) || std::isnan(value) ? solvers::missing : better(value, other);
     }
-  return values;
-}
-
-std::vector<double> Convergence::smallest(Measure measure, int case_number,
-                                          const std::vector<std::string>& names,
-                                          const std::vector<int>& functions) const {
-  std::vector<double> values(functions.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < functions.size(); ++i)
-    for (const auto& name : names) {
-      const double value = at(measure, case_number, name, functions[i]);
-      values[i] = std::isnan(value) || std::isnan(values[i]) ? solvers::missing : std::min(values[i], value);
-    }
+  }
   return values;
 }
 
@@ -196,18 +178,11 @@ std::vector<app::Panel> Convergence::panels(Measure measure, const std::string& 
 }
 
 std::vector<Convergence> under_all_sums(report::Artefact& artefact, bool energies) {
-  std::vector<Convergence> all{Convergence(artefact, energies)};
+  std::vector<Convergence> all;
   all.reserve(convergence_sums().size());  // each may start from another one
-  for (std::size_t i = 1; i < convergence_sums().size(); ++i)
-    all.emplace_back(artefact, energies, convergence_sums()[i],
-                     all[convergence_sums()[i].samples == 256 ? 0 : 1]);
+  for (const Sums& sums : convergence_sums())
+    all.emplace_back(artefact, energies, sums, all.empty() ? nullptr : &all[sums.samples == 256 ? 0 : 1]);
   return all;
-}
-
-void conclude(report::Artefact& artefact, report::Statement statement, std::vector<report::Reading> readings,
-              const std::string& because) {
-  statement.because = because;
-  artefact.statement(concluded(std::move(statement), std::move(readings)));
 }
 
 void judge_under_all(report::Artefact& artefact, report::Statement statement,
@@ -218,7 +193,8 @@ void judge_under_all(report::Artefact& artefact, report::Statement statement,
     const Finding outcome = judge(results);
     readings.push_back({results.sums().name(), outcome.verdict, outcome.measured, results.sums().of_text()});
   }
-  conclude(artefact, std::move(statement), std::move(readings), because);
+  statement.because = because.empty() ? "Drawn: " + readings.front().measured + "." : because;
+  artefact.statement(concluded(std::move(statement), std::move(readings)));
 }
 
 std::string range_over(const std::vector<Convergence>& all,
@@ -249,13 +225,6 @@ report::Verdict lower_where_known(const std::vector<double>& first, const std::v
     b.push_back(second[i]);
   }
   return a.empty() ? report::Verdict::differs : report::lower(a, b);
-}
-
-report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    count += errors[i] <= report::similar_factor * others[i] ? 1 : 0;
-  return report::plain(2 * count > errors.size());
 }
 
 report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& part) {

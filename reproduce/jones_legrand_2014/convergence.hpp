@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
@@ -21,22 +22,22 @@ const std::vector<Sums>& convergence_sums();
 /// against the reference: relative ones over the rms or the mean modulus of the reference, largest ones over
 /// its range.
 struct Measures {
-  double energy_ratio = 0.0;      ///< rms of the system energy, eq. (35), over that of the reference
-  double energy_deviation = 0.0;  ///< |energy_ratio - 1|
-  double rms = 0.0, mean = 0.0, largest = 0.0;
-  double midpoint_rms = 0.0, midpoint_mean = 0.0, midpoint_largest = 0.0;  ///< at the middles of M cells
   bool converged = false;
+  double energy_ratio = solvers::missing;      ///< rms of the system energy, eq. (35), over the reference's
+  double energy_deviation = solvers::missing;  ///< |energy_ratio - 1|
+  double rms = solvers::missing, mean = solvers::missing, largest = solvers::missing;
+  double midpoint_rms = solvers::missing, midpoint_mean = solvers::missing,
+         midpoint_largest = solvers::missing;  ///< at the middles of M cells
 };
 using Measure = double Measures::*;
 
 /// The measures of all 60 combinations of case, pair and number of functions: what Figs. 10 and 11 draw.
 class Convergence {
  public:
-  /// Under the first of convergence_sums(). A response that has not converged is noted in the artefact.
-  /// Energies are measured if wanted, which takes the motion of the whole structure.
-  Convergence(report::Artefact& artefact, bool energies);
-  /// Under another one, each solution from that of `first`.
-  Convergence(report::Artefact& artefact, bool energies, const Sums& sums, const Convergence& first);
+  /// Under the first of convergence_sums(), or under another one, each solution from that of `start`. A
+  /// response of the first that has not converged is noted in the artefact. Energies are measured if wanted,
+  /// which takes the motion of the whole structure.
+  Convergence(report::Artefact& artefact, bool energies, const Sums& sums, const Convergence* start);
 
   const Sums& sums() const { return sums_; }
   double at(Measure measure, int case_number, const std::string& pair_name, int functions) const;
@@ -44,9 +45,13 @@ class Convergence {
                          const std::vector<int>& functions = sizes()) const;
   /// Largest or smallest over pairs, for each number of functions; NaN where one of them is missing.
   std::vector<double> largest(Measure measure, int case_number, const std::vector<std::string>& names,
-                              const std::vector<int>& functions = sizes()) const;
+                              const std::vector<int>& functions = sizes()) const {
+    return extreme(std::max<double>, measure, case_number, names, functions);
+  }
   std::vector<double> smallest(Measure measure, int case_number, const std::vector<std::string>& names,
-                               const std::vector<int>& functions = sizes()) const;
+                               const std::vector<int>& functions = sizes()) const {
+    return extreme(std::min<double>, measure, case_number, names, functions);
+  }
   /// "8: 2.58 %, 16: ..."
   std::string text(Measure measure, int case_number, const std::string& pair_name,
                    const std::vector<int>& functions = sizes()) const;
@@ -59,6 +64,11 @@ class Convergence {
 
  private:
   using Key = std::tuple<int, std::string, int>;
+  app::Response solved_again(const Case& study, const Pair& pair, int functions, bool energies,
+                             const Sums& sums) const;
+  std::vector<double> extreme(const double& (*better)(const double&, const double&), Measure measure,
+                              int case_number, const std::vector<std::string>& names,
+                              const std::vector<int>& functions) const;
 
   Sums sums_;
   std::map<Key, Measures> measures_;
@@ -69,13 +79,11 @@ class Convergence {
 std::vector<Convergence> under_all_sums(report::Artefact& artefact, bool energies);
 
 /// Adds the statement as `judge` finds it under each of convergence_sums(). `because` gives the reason where
-/// it does not agree under all; under which it holds is added to it.
+/// it does not agree under all, what is drawn if empty.
 void judge_under_all(report::Artefact& artefact, report::Statement statement,
                      const std::vector<Convergence>& all,
-                     const std::function<Finding(const Convergence&)>& judge, const std::string& because);
-/// The same of readings that are judged already.
-void conclude(report::Artefact& artefact, report::Statement statement, std::vector<report::Reading> readings,
-              const std::string& because);
+                     const std::function<Finding(const Convergence&)>& judge,
+                     const std::string& because = "");
 
 /// What a figure is over all readings: "1.58 (256 left ends) to 89 (512 left ends)". Missing ones are left
 /// out.
@@ -87,9 +95,6 @@ std::string range_over(const std::vector<Convergence>& all, Measure measure, int
 
 /// report::lower() of the entries of which both are known; differs where none is.
 report::Verdict lower_where_known(const std::vector<double>& first, const std::vector<double>& second);
-/// Most entries of `errors` are at most report::similar_factor times those of `others`; unknown ones count as
-/// higher.
-report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others);
 /// Both measures of an error that the rule compares.
 inline constexpr Measure rms_and_mean[] = {&Measures::rms, &Measures::mean};
 /// `part` by rms and by mean, together.

@@ -9,24 +9,24 @@ namespace wavebalance::jl14 {
 double total_variation(const Eigen::VectorXd& values);
 
 /// How much more a curve varies than its reference, total_variation(values) / total_variation(reference) - 1:
-/// the measure of ringing. Throws std::invalid_argument when the reference is constant.
+/// the measure of ringing. The reference must vary.
 double excess_variation(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
 
-/// max |v[i+steps] - v[i]| round the period. Throws std::invalid_argument unless 1 <= steps < n.
+/// max |v[i+steps] - v[i]| round the period, 1 <= steps < n.
 double largest_change(const Eigen::VectorXd& values, int steps);
 
 using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-/// The entries in those of `cells` equal cells of the period whose entries are all in `where`. Throws
-/// std::invalid_argument unless cells divides their number.
+/// The entries in those of `cells` equal cells of the period whose entries are all in `where`.
+/// Throws std::invalid_argument unless cells divides their number.
 Mask whole_cells(const Mask& where, int cells);
 
-/// The mean over each of `cells` equal cells of the period: the best constants there. Throws
-/// std::invalid_argument unless cells divides the number of values.
+/// The mean over each of `cells` equal cells of the period: the best constants there.
+/// Throws std::invalid_argument unless cells divides the number of values.
 Eigen::VectorXd best_constants(const Eigen::VectorXd& values, int cells);
 
 /// (u[k+1] - u[k-1]) / (2 period / points) of every n-th of `values`, `points` of them round the period.
-/// Throws std::invalid_argument unless points divides their number and is at least 3.
+/// Throws std::invalid_argument unless points divides their number.
 Eigen::VectorXd central_differences(const Eigen::VectorXd& values, int points, double period);
 /// Every n-th of `values`, `points` of them. Throws std::invalid_argument unless points divides their number.
 Eigen::VectorXd thinned(const Eigen::VectorXd& values, int points);
@@ -35,12 +35,10 @@ Eigen::VectorXd thinned(const Eigen::VectorXd& values, int points);
 /// all. O(n log n).
 int coefficients_needed(const Eigen::VectorXd& coefficients, double share);
 
-/// The entries of `values` at which `where` is true, in their order. Throws std::invalid_argument if the
-/// lengths differ.
+/// The entries of `values` at which `where` is true, in their order.
 Eigen::VectorXd select(const Eigen::VectorXd& values, const Mask& where);
 
 /// mean |values - reference| / mean |reference|. Short spikes weigh less than in app::relative_rms_error().
-/// Throws std::invalid_argument if the lengths differ.
 double relative_mean_error(const Eigen::VectorXd& values, const Eigen::VectorXd& reference);
 
 /// The entries in the middle of `cells` equal cells of the period: at (j + 1/2) n / cells. Throws
@@ -51,8 +49,7 @@ Eigen::VectorXd cell_midpoints(const Eigen::VectorXd& values, int cells);
 int sign_changes(const Eigen::VectorXd& values);
 
 /// max |fine[2i+1] - (coarse[i] + coarse[i+1]) / 2|: what a refinement adds to the polygon through `coarse`,
-/// n values, when `fine`, 2n - 1 values, has a further one in the middle of each interval. Throws
-/// std::invalid_argument when the lengths do not fit.
+/// n values, when `fine`, 2n - 1 values, has a further one in the middle of each interval.
 double refinement_gain(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine);
 
 }  // namespace wavebalance::jl14

@@ -13,14 +13,6 @@ using app::Panel;
 using app::plain;
 using app::SeriesStyle;
 
-app::Axis axis(const std::string& label, double lower, double upper) {
-  app::Axis result;
-  result.label = label;
-  result.lower = lower;
-  result.upper = upper;
-  return result;
-}
-
 Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from) {
   const Eigen::Index n = values.size();
   const auto first = static_cast<Eigen::Index>(std::lround(from * static_cast<double>(n)));
@@ -33,11 +25,8 @@ Series periodic_series(const std::string& label, const Eigen::VectorXd& values, 
 }
 
 Series reference_series(const Eigen::VectorXd& values, double from) {
-  Series series = periodic_series(reference_label, values, from);
-  series.colour = Colour::black;
-  series.dash = app::Dash::dashed;
-  series.width = 1.1;
-  return series;
+  return report::styled(periodic_series(reference_label, values, from), Colour::black,
+                        {.dash = app::Dash::dashed, .width = 1.1});
 }
 
 app::Axis fitted_axis(const std::string& label, const Values& curves) {
@@ -73,7 +62,7 @@ std::pair<double, double> contact_interval(const Case& study, double from) {
 
 std::vector<Panel> pair_view(const PairView& view, bool haar_apart) {
   const auto chosen = panel_pairs();
-  const Values values = reordered(view.values, pairs(), chosen);
+  const Values values = in_panels(view.values);
   std::vector<Panel> panels;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     Values shown{window(view.reference, view.from, view.to)};
@@ -81,9 +70,9 @@ std::vector<Panel> pair_view(const PairView& view, bool haar_apart) {
       if (!haar_apart || has_haar_trial(chosen[i]) == has_haar_trial(chosen[other]))
         shown.push_back(window(values[other], view.from, view.to));
     Panel& panel = panels.emplace_back();
-    Series series = periodic_series(chosen[i].label, values[i], std::min(view.from, 0.0));
-    series.colour = chosen[i].colour;
-    panel.add(series).add(reference_series(view.reference, std::min(view.from, 0.0)));
+    const double from = std::min(view.from, 0.0);
+    panel.add(report::styled(periodic_series(chosen[i].label, values[i], from), chosen[i].colour))
+        .add(reference_series(view.reference, from));
     panel.x = axis(time_label, view.from, view.to);
     panel.y = fitted_axis(view.label, shown);
     panel.legend = false;

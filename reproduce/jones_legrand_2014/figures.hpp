@@ -1,7 +1,5 @@
 #pragma once
-#include <vector>
-
-#include "wavebalance/report/program.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 /// The figures and tables of JL14, each a function that makes it.
 namespace wavebalance::jl14 {
@@ -24,9 +22,5 @@ void tab02(report::Artefact& artefact);
 void haar_readings(report::Artefact& artefact);
 void rigid_plateau(report::Artefact& artefact);
 void speed(report::Artefact& artefact);
-
-/// What the program jl14 makes. Figs. 6-11 read the references, and Figs. 6-9 what
-/// haar_readings leaves; both must be made before.
-const std::vector<report::Step>& figures();
 
 }  // namespace wavebalance::jl14

@@ -12,6 +12,7 @@ namespace wavebalance::jl14 {
 
 using app::Series;
 using app::Table;
+using report::axis;
 
 inline constexpr double millimetres = 1e3;  ///< per metre
 
@@ -56,8 +57,8 @@ class Case {
 
   /// The scene with this pair, solved. A response that has not converged is noted in the artefact.
   app::Response solve(const Pair& pair, int functions, bool whole_structure = false);
-  /// All of `chosen` with the scene's number of functions.
-  std::vector<app::Response> solve_all(const std::vector<Pair>& chosen, bool whole_structure = false);
+  /// All of pairs() with the scene's number of functions.
+  std::vector<app::Response> solve_all(bool whole_structure = false);
   /// The scene that solve() solves.
   app::Scene scene_for(const Pair& pair, int functions);
   /// The same with further overrides, of which the record says nothing.
@@ -81,14 +82,11 @@ app::Response by_phases(const app::Scene& scene, int structure_points = 0);
 /// has not converged.
 using Values = std::vector<Eigen::VectorXd>;
 Values drawn(const std::vector<app::Response>& responses, Eigen::VectorXd (app::Response::*history)() const);
-/// In the order of `to`, what is in the order of `from`.
-Values reordered(const Values& values, const std::vector<Pair>& from, const std::vector<Pair>& to);
+/// In the order of panel_pairs(), what is in the order of pairs().
+Values in_panels(const Values& values);
 /// A measure of each of `values` against the reference.
 std::vector<double> measured(const Values& values, const Eigen::VectorXd& reference,
                              double (*measure)(const Eigen::VectorXd&, const Eigen::VectorXd&));
-
-/// An axis with its limits.
-app::Axis axis(const std::string& label, double lower, double upper);
 
 /// A periodic curve of uniform samples from t/T = `from` to `from` + 1, both ends included.
 Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from = 0.0);
@@ -139,9 +137,6 @@ Eigen::VectorXd shifted_by_half_a_period(const Eigen::VectorXd& values);
 /// Pairs of Table 2 by name.
 std::vector<Pair> pairs_named(const std::vector<std::string>& names);
 
-/// The pair of Table 2 with the lowest of `values`.
-const Pair& lowest(const std::vector<double>& values);
-
 /// "Fourier:Fourier 0.12 %, DB6:Fourier 0.3 %", values as percentages.
 std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& values);
 
@@ -149,8 +144,8 @@ std::string listed(const std::vector<Pair>& chosen, const std::vector<double>& v
 /// normalised to integral 1: the translate k = 0, or, `centred`, the one of a function symmetric about 2 (the
 /// B-spline) whose maximum lies at t = 1/2. Columns time_fraction, level_0..level_5.
 Table levels_table(const std::string& basis, bool centred = false);
-/// max over the levels of |integral - 1| of the columns of a levels_table().
-double largest_integral_error(const Table& table);
+/// Checks that the integrals of the columns of a levels_table() are 1.
+void check_integrals(report::Artefact& artefact, const Table& table);
 app::Figure levels_figure(const Table& table, const std::string& name, app::SeriesStyle style);
 
 }  // namespace wavebalance::jl14

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <stdexcept>
-
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::jl14 {
@@ -12,12 +10,9 @@ namespace {
 
 constexpr Eigen::Index instants = 128;
 
-/// The samples at `count` uniform instants. Throws std::invalid_argument unless count divides their number.
+/// The samples at `count` uniform instants, which divides their number.
 template <class Matrix>
 Matrix at_instants(const Matrix& samples, Eigen::Index count) {
-  if (count < 1 || samples.cols() % count != 0)
-    throw std::invalid_argument(fmt::format(
-        "thinned: {} instants of {} samples; the one must divide the other", count, samples.cols()));
   const Eigen::Index step = samples.cols() / count;
   return Matrix::NullaryExpr(samples.rows(), count,
                              [&](Eigen::Index i, Eigen::Index j) { return samples(i, j * step); });
@@ -81,6 +76,14 @@ std::string motion_json(const Case& study, const std::vector<app::Response>& res
                      study.gap(), scene.forcing.amplitude, scene.forcing.frequency, scene.structure.length,
                      list(app::time_fractions(static_cast<int>(count))), moving,
                      motion_object(reference_label, "reference", moves, force(study.reference())));
+}
+
+void attach_motion(report::Artefact& artefact, const Case& study,
+                   const std::vector<app::Response>& responses) {
+  const Table nodes = artefact.result(fmt::format("reference_case{}_nodes.csv", study.number()));
+  const std::string json = motion_json(study, responses, nodes);
+  artefact.attach(fmt::format("motion_case{}.json", study.number()), json, false);
+  artefact.script("motions", "motion", json);
 }
 
 }  // namespace wavebalance::jl14

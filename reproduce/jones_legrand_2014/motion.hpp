@@ -11,8 +11,11 @@ namespace wavebalance::jl14 {
 /// label, name, nodes (n lists of the displacements of the nodes from the clamped end to the tip), tip and
 /// force (n values each, the force over the amplitude). `responses` are in the order of pairs() with the
 /// whole structure; those that have not converged are left out. `nodes` are those of the reference, a table
-/// of node_columns(). Throws std::invalid_argument unless its instants are some of those of the responses.
+/// of node_columns(). Its instants are some of those of the responses.
 std::string motion_json(const Case& study, const std::vector<app::Response>& responses, const Table& nodes);
+/// Attaches it as motion_case<N>.json and as the script that the page moves.
+void attach_motion(report::Artefact& artefact, const Case& study,
+                   const std::vector<app::Response>& responses);
 
 /// The displacements of a bar at 128 uniform instants: time_fraction, node_1_m, ... without the clamped node.
 Table node_columns(const solvers::Motion& structure);

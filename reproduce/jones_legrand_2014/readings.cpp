@@ -1,9 +1,11 @@
 #include "readings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -130,87 +132,69 @@ std::vector<report::Reading> judged(const Readings& readings, const std::vector<
   return judged(judge, [&](std::size_t i) { return readings.missing(i, needed); });
 }
 
-report::Verdict at_most_similar(const std::vector<double>& errors, const std::vector<double>& others) {
-  std::vector<double> larger = errors;
-  for (std::size_t i = 0; i < std::min(errors.size(), others.size()); ++i)
-    larger[i] = std::max(errors[i], others[i]);
-  return report::similar(larger, others);
+report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    count += errors[i] <= report::similar_factor * others[i] ? 1 : 0;
+  return report::plain(2 * count > errors.size());
+}
+
+double lowest_of(const std::string& trial, const std::vector<double>& errors) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (pairs()[i].trial == trial) least = std::min(least, errors[i]);
+  return least;
+}
+
+double lowest_without_daubechies(const std::vector<double>& errors) {
+  return std::min({lowest_of("fourier", errors), lowest_of("bspline", errors), lowest_of("haar", errors)});
+}
+
+Finding daubechies_lowest(const std::vector<double>& rms, const std::vector<double>& mean) {
+  const double own_rms = lowest_of("daubechies6", rms), other_rms = lowest_without_daubechies(rms),
+               own_mean = lowest_of("daubechies6", mean), other_mean = lowest_without_daubechies(mean);
+  return {report::together({report::lower({own_rms}, {other_rms}), report::lower({own_mean}, {other_mean})}),
+          fmt::format("rms {} against {}, mean {} against {}", report::percent(own_rms),
+                      report::percent(other_rms), report::percent(own_mean), report::percent(other_mean))};
 }
 
 namespace {
 
-int partly_right(const std::vector<report::Reading>& readings) {
-  return static_cast<int>(std::count_if(readings.begin(), readings.end(), [](const report::Reading& reading) {
-    return reading.verdict == report::Verdict::partly;
-  }));
-}
-
-std::string names_where(const std::vector<report::Reading>& readings, bool agrees) {
-  std::string names;
+std::vector<std::string> names_with(const std::vector<report::Reading>& readings, report::Verdict verdict) {
+  std::vector<std::string> names;
   for (const auto& reading : readings)
-    if ((reading.verdict == report::Verdict::agrees) == agrees)
-      names += (names.empty() ? "" : "; ") + reading.name;
+    if (reading.verdict == verdict) names.push_back(reading.name);
   return names;
 }
 
-int agreeing_in(const std::vector<report::Reading>& readings) {
-  return report::agreeing(readings, true) + report::agreeing(readings, false);
-}
-
-/// "agrees under both readings of the text"
-std::string text_part(const std::vector<report::Reading>& readings) {
-  const int agreeing = agreeing_in(readings), count = static_cast<int>(readings.size());
-  if (agreeing == count) return "It agrees under " + all_readings_text(readings.size()) + " of the text";
-  if (agreeing > 0)
-    return "Of the readings of the text it agrees with " + names_where(readings, true) + " only";
-  const int partly = partly_right(readings);
-  const std::string in_part =
-      partly == count ? all_readings_text(readings.size()) : fmt::format("{} of {}", partly, count);
-  return "It agrees under no reading of the text" + (partly > 0 ? " and holds in part under " + in_part : "");
-}
-
-std::string instead_part(const std::vector<report::Reading>& readings) {
-  const int agreeing = agreeing_in(readings), count = static_cast<int>(readings.size());
-  if (agreeing == 0 || agreeing == count)
-    return fmt::format("so it would under {} of the {} other ways to form the sums",
-                       agreeing == 0 ? "none" : "all", count);
-  constexpr int few = 3;
-  if (agreeing <= few)
-    return fmt::format("of {} other ways to form the sums it would agree with {}", count,
-                       names_where(readings, true));
-  if (count - agreeing <= few)
-    return fmt::format("of {} other ways to form the sums it would agree with all but {}", count,
-                       names_where(readings, false));
-  return fmt::format("it would agree under {} of {} other ways to form the sums", agreeing, count);
+/// "1 of 2 readings of the text (256 left ends, same sums)", with the names of those that agree where they
+/// are few.
+std::string share_text(const std::vector<report::Reading>& readings, const std::string& what) {
+  constexpr std::size_t few = 3;
+  const auto names = names_with(readings, report::Verdict::agrees);
+  const bool named = !names.empty() && names.size() <= few && names.size() < readings.size();
+  return fmt::format("{} of {} {}{}", names.size(), readings.size(), what,
+                     named ? fmt::format(" ({})", fmt::join(names, "; ")) : "");
 }
 
 }  // namespace
 
-std::string all_readings_text(std::size_t count) {
-  return count == 1   ? "the one reading"
-         : count == 2 ? "both readings"
-                      : fmt::format("all {} readings", count);
+std::string spread(const std::vector<report::Reading>& readings) {
+  const auto text = report::of_text(readings), beside = report::of_text(readings, false);
+  const auto partly = names_with(text, report::Verdict::partly).size();
+  return fmt::format(
+      "It agrees under {}{}{}", share_text(text, "readings of the text"),
+      partly > 0 ? fmt::format(" and holds in part under {}", partly) : "",
+      beside.empty() ? "" : ", and would under " + share_text(beside, "other ways to form the sums"));
 }
 
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings) {
   statement.verdict = report::over(readings);
   statement.measured = readings.front().measured;
-  const auto text = report::of_text(readings), beside = report::of_text(readings, false);
-  if (text.size() > 1) statement.measured += fmt::format(" ({}). {}", text.front().name, text_part(text));
-  if (text.size() > 1 && !beside.empty()) statement.measured += "; " + instead_part(beside);
+  if (report::of_text(readings).size() > 1)
+    statement.measured += fmt::format(" ({}). {}", readings.front().name, spread(readings));
   statement.readings = std::move(readings);
-  return reasoned(std::move(statement));
-}
-
-report::Statement reasoned(report::Statement statement) {
-  if (statement.verdict == report::Verdict::agrees) statement.because.clear();
   return statement;
-}
-
-std::string spread(const std::vector<report::Reading>& readings) {
-  const auto beside = report::of_text(readings, false);
-  const std::string text = text_part(report::of_text(readings));
-  return beside.empty() ? text : text + "; " + instead_part(beside);
 }
 
 void refer_to_readings(report::Artefact& artefact) {

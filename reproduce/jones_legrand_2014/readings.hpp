@@ -68,9 +68,6 @@ app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& 
 Eigen::VectorXd cell_values(const app::Response& response, int cells);
 std::string cells_column(const Pair& pair, const Sums& sums);
 
-/// "both readings", "all 6 readings"
-std::string all_readings_text(std::size_t count);
-
 /// A finding for each of all_sums(); a reading for which `missing` names a pair differs and says so.
 std::vector<report::Reading> judged(const std::function<Finding(std::size_t)>& judge,
                                     const std::function<std::string(std::size_t)>& missing);
@@ -80,15 +77,19 @@ std::vector<report::Reading> judged(const Readings& readings, const std::vector<
 
 /// Whether errors are lower than others or similar to them: "reasonably", "relatively well", "comparable"
 /// beside another pair's. Agrees if most entries are at most report::similar_factor times as high, else
-/// differs. Throws as report::lower().
-report::Verdict at_most_similar(const std::vector<double>& errors, const std::vector<double>& others);
+/// differs; unknown ones count as higher.
+report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others);
+
+/// The lowest of the errors of the pairs with these trial functions.
+double lowest_of(const std::string& trial, const std::vector<double>& errors);
+/// Whether the better pair with DB6 trial functions has lower errors than all others, rms and mean.
+Finding daubechies_lowest(const std::vector<double>& rms, const std::vector<double>& mean);
+/// The lowest of the errors of all pairs without DB6 trial functions.
+double lowest_without_daubechies(const std::vector<double>& errors);
 
 /// The statement with the verdict of the readings, and what the first found with the number of those that
-/// agree as `measured`; without its reason where it agrees.
+/// agree as `measured`.
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings);
-
-/// The statement without its reason if it agrees, so that one can be given beforehand.
-report::Statement reasoned(report::Statement statement);
 
 /// Under which readings of the text a statement agrees, and under which it would if the sums were formed
 /// otherwise: their names where they are few, else how many.

@@ -46,8 +46,8 @@ Json verdicts_under(const report::Artefact& artefact, const std::string& name) {
 
 }  // namespace
 
-void attach_sums(report::Artefact& artefact, const std::string& stem, const Case& study,
-                 const Readings& readings, const SumsView& view) {
+void attach_sums(report::Artefact& artefact, const Case& study, const Readings& readings,
+                 const SumsView& view) {
   const auto shown = [&](const Eigen::VectorXd& history) -> Eigen::VectorXd {
     return view.scale * window(history, view.from, view.to);
   };
@@ -73,9 +73,7 @@ void attach_sums(report::Artefact& artefact, const std::string& stem, const Case
     one["verdicts"] = verdicts_under(artefact, all_sums()[i].name());
     data["readings"].push_back(std::move(one));
   }
-  artefact.attach(
-      stem + ".readings.js",
-      "((window.wavebalance ?\?= {}).readings ?\?= {})[\"" + stem + "\"] = " + data.dump() + ";\n", false);
+  artefact.script("readings", "readings", data.dump());
 }
 
 }  // namespace wavebalance::jl14

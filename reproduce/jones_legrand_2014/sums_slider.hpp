@@ -17,7 +17,7 @@ struct SumsView {
 /// The script <stem>.readings.js: wavebalance.readings["<stem>"] with the curves of all pairs and of the
 /// reference in integers of 1/5000 of their range, the relative rms errors, and for each statement of the
 /// artefact that has a reading of that name its verdict. The statements must have been added before.
-void attach_sums(report::Artefact& artefact, const std::string& stem, const Case& study,
-                 const Readings& readings, const SumsView& view);
+void attach_sums(report::Artefact& artefact, const Case& study, const Readings& readings,
+                 const SumsView& view);
 
 }  // namespace wavebalance::jl14

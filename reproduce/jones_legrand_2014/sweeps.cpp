@@ -68,31 +68,10 @@ app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::stri
       artefact.scene(file, {"time.functions=63", "analysis.first_step=0.5", "analysis.largest_step=1.0"}));
 }
 
-std::string all_turning_points_text(report::Artefact& artefact, const std::string& file, const Pair& pair) {
-  const auto scene = artefact.scene(file, {"time.trial=" + pair.trial, "time.weight=" + pair.weight});
-  auto problem = app::make_problem(scene, app::make_model(scene));
-  solvers::FrequencySweepOptions options;
-  options.from = scene.analysis.frequency_from;
-  options.to = scene.analysis.frequency_to;
-  options.arc_length.grazing_events = solvers::GrazingEvents::all;
-  options.smallest_return = 1e-9 * std::abs(options.to - options.from);
-  const auto curve = solvers::frequency_sweep(problem, app::make_laws(scene), options);
-  std::vector<double> turns;
-  for (const auto& turn : curve.turning_points) turns.push_back(turn.frequency);
-  std::string text = pair.label + " " + std::to_string(turns.size());
-  if (!turns.empty()) {
-    const auto [low, high] = std::minmax_element(turns.begin(), turns.end());
-    text += " at " + report::number(*low, 7) + " to " + report::number(*high, 7) + " Hz";
-  }
-  const bool ended = curve.status == solvers::SweepStatus::reached_end;
-  return ended ? text : text + " (" + std::string(to_string(curve.status)) + ")";
-}
-
-void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep) {
-  const Series points = curve(style.label, sweep.curve.points);
-  style.x = points.x;
-  style.y = points.y;
-  app::draw_by_stability(panel, style, sweep.stability.points, placed(sweep.stability.special_points));
+void add_stable_sweep(app::Panel& panel, const app::Sweep& sweep) {
+  app::draw_by_stability(
+      panel, report::styled(curve("Fourier, by arc length", sweep.curve.points), app::Colour::black),
+      sweep.stability.points, placed(sweep.stability.special_points));
 }
 
 void note_nyquist_resonances(report::Artefact& artefact, const std::string& file) {
@@ -167,10 +146,6 @@ std::string unstable_text(const app::Sweep& sweep) {
   return text;
 }
 
-Series displacement_curve(const std::string& label, const app::Sweep& sweep) {
-  return curve(label, sweep.curve.points);
-}
-
 Series modulus_curve(const std::string& label, const app::Sweep& sweep) {
   Series series = curve(label, sweep.curve.points);
   for (std::size_t i = 0; i < series.y.size(); ++i)
@@ -181,10 +156,8 @@ Series modulus_curve(const std::string& label, const app::Sweep& sweep) {
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
   app::Panel panel;
   panel.title = title;
-  Series free = curve("without contact", resonance.free.curve.points);
-  free.colour = app::Colour::grey;
-  free.width = 4.0;  // seen where another curve lies on it
-  panel.add(std::move(free));
+  panel.add(report::styled(curve("without contact", resonance.free.curve.points), app::Colour::grey,
+                           {.width = 4.0}));  // seen where another curve lies on it
   panel.mark_y(millimetres * resonance.gap);
   panel.x.label = "Forcing frequency (Hz)";
   panel.y.label = "Largest displacement (mm)";
@@ -195,17 +168,13 @@ app::Panel sweep_panel(const std::string& title, const Resonance& resonance) {
 void add_points(app::Panel& panel, const Pair& pair, const std::string& label, const app::Sweep& sweep,
                 int first, int every) {
   const Series all = curve(label, sweep.curve.points);
-  Series series;
-  series.label = label;
+  std::vector<double> x, y;
   for (std::size_t i = static_cast<std::size_t>(first); i < all.x.size();
        i += static_cast<std::size_t>(every)) {
-    series.x.push_back(all.x[i]);
-    series.y.push_back(all.y[i]);
+    x.push_back(all.x[i]);
+    y.push_back(all.y[i]);
   }
-  series.style = app::SeriesStyle::points;
-  series.colour = pair.colour;
-  series.marker = pair.marker;
-  panel.add(std::move(series));
+  panel.add(report::styled({label, x, y, app::SeriesStyle::points}, pair.colour, {.marker = pair.marker}));
 }
 
 void add_special_points(app::Panel& panel, const app::Sweep& sweep) {

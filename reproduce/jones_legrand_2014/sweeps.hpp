@@ -38,11 +38,8 @@ std::string end_text(const app::Sweep& sweep);
 
 /// Notes where the scene's sweep meets resonances of the discretisation itself (see nyquist_resonances()).
 void note_nyquist_resonances(report::Artefact& artefact, const std::string& file);
-/// All turning points of the scene's curve with a pair, those of small returns included, as "6 at 1315.034 to
-/// 1338.035 Hz" and the status if the curve ends early. Every grazing point is solved for.
-std::string all_turning_points_text(report::Artefact& artefact, const std::string& file, const Pair& pair);
-/// Adds the curve of a sweep in mm over Hz in the style given, dashed where it is unstable.
-void add_stable_sweep(app::Panel& panel, Series style, const app::Sweep& sweep);
+/// Adds the curve of a sweep of Fourier:Fourier in mm over Hz, dashed where it is unstable.
+void add_stable_sweep(app::Panel& panel, const app::Sweep& sweep);
 
 /// The point of the largest displacement.
 solvers::SweepPoint peak(const app::Sweep& sweep);
@@ -58,8 +55,7 @@ std::string unstable_text(const app::Sweep& sweep);
 
 /// A panel with the response without contact, broad, and the gap; its legend stands beside it.
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance);
-/// max u and max |u| over the frequency, mm over Hz.
-Series displacement_curve(const std::string& label, const app::Sweep& sweep);
+/// max |u| over the frequency, mm over Hz.
 Series modulus_curve(const std::string& label, const app::Sweep& sweep);
 /// Every `every`-th point of a pair's curve from `first` on, in the colour and with the symbol of the pair.
 void add_points(app::Panel& panel, const Pair& pair, const std::string& label, const app::Sweep& sweep,

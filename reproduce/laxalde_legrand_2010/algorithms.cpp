@@ -77,23 +77,6 @@ Table branches_table(const std::vector<Branch>& branches) {
   return table;
 }
 
-/// The same for the page.
-Table printed_branches(const std::vector<Branch>& branches) {
-  Table table(
-      {"Equations", "Algorithm", "N", "Reached energy", "Ended", "Newton steps", "ω over the linear one"});
-  for (const Branch& one : branches) {
-    const auto& last = one.points.back();
-    table.append_row(
-        {one.formulation == ModeFormulation::published ? "as printed" : "corrected", name_of(one.eigenvalue),
-         std::int64_t{one.harmonics}, number(last.prescribed_ratio, 4),
-         (last.status == LagrangianStatus::internal_resonance ? "internal resonance"
-                                                              : std::string(to_string(last.status))),
-         std::int64_t{one.newton_steps()},
-         last.accepted() ? number(last.omega / one.linear_omega, 6) : std::string("–")});
-  }
-  return table;
-}
-
 /// Pairs of complete branches, the simultaneous one first.
 std::vector<std::pair<const Branch*, const Branch*>> pairs_of(const std::vector<Branch>& branches) {
   std::vector<std::pair<const Branch*, const Branch*>> pairs;
@@ -125,8 +108,7 @@ void claim_similar(report::Artefact& artefact, const std::vector<Branch>& branch
        .measured =
            fmt::format("by {} of the linear frequency at most, over {} pairs of branches up to energy {}",
                        number(largest, 2), pairs.size(), number(branch_energy)),
-       .verdict = report::invisible(largest, range),
-       .earlier = report::not_judged},
+       .verdict = report::invisible(largest, range)},
       "The frequencies of the two algorithms differ by more.");
 }
 
@@ -151,8 +133,7 @@ void claim_expensive(report::Artefact& artefact, const std::vector<Branch>& bran
            "Newton steps of the sequential branches, each with its Hessian, are fewer; times vary from run to "
            "run and stand beside",
        .measured = measured + ", simultaneous against sequential",
-       .verdict = report::lower(sequential, simultaneous),
-       .earlier = report::not_judged},
+       .verdict = report::lower(sequential, simultaneous)},
       "Both take as many steps to within a tenth. Here a step costs the same too: a free r adds two products of "
       "vectors to the Hessian, which is factorised whole in either case.");
 }
@@ -203,11 +184,7 @@ void claim_small_steps(report::Artefact& artefact, const app::ModeStudy& study) 
                        number(branch_energy)),
        .measured = readings.front().measured,
        .verdict = report::over(readings),
-       .readings = readings,
-       .earlier =
-           "It was not judged. Then the growth by the corrected equations decided, and after that 2 % of the range of the "
-           "frequencies. It differed by both. The growth by the printed ones, which the sentence is about, decides since "
-           "this was seen."},
+       .readings = readings},
       "The multiplier of the normalisation, which multiplies the mass matrix too, takes up what the frozen eigenvalue "
       "misses.");
 }
@@ -269,8 +246,7 @@ void claim_convergence(report::Artefact& artefact, const std::vector<Attempt>& a
            "of cases than multipliers without penalties (four step lengths) and penalties without multipliers",
        .measured = fmt::format("Algorithm 3 in {} of {}, the others in {} of {}", augmented, tried, others,
                                others_tried),
-       .verdict = report::plain(augmented * others_tried > others * tried),
-       .earlier = report::not_judged},
+       .verdict = report::plain(augmented * others_tried > others * tried)},
       "It converges in no larger share of the cases.");
 }
 
@@ -303,10 +279,11 @@ void algorithms(report::Artefact& artefact) {
       for (const auto eigenvalue : {EigenvalueUpdate::simultaneous, EigenvalueUpdate::sequential})
         branches.push_back(branch(study, formulation, eigenvalue, harmonics));
   const auto all = attempts(artefact);
-  artefact.data(branches_table(branches), "ratios to the linear mode; newton_steps: over all energies");
+  const Table table = branches_table(branches);
+  artefact.data(table, "ratios to the linear mode; newton_steps: over all energies");
   artefact.more_data("convergence", attempts_table(all),
                      "one solution each, from the motion of 0.95 times the energy");
-  artefact.printed(printed_branches(branches));
+  artefact.printed(table);
   artefact.caption(fmt::format(
       "The rod's mode by the augmented Lagrangian with eq. (28) and {} samples, from grazing to energy {} in {} "
       "steps, each from the steps before. With r free (simultaneous, Algorithm 1) or frozen at its prediction "

@@ -10,14 +10,6 @@
 
 namespace wavebalance::ll10 {
 
-solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio) {
-  auto point = study.at_energy(curve, energy_ratio);
-  if (!point.accepted())
-    throw report::NotConverged(
-        fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
-  return point;
-}
-
 std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const app::Backbone& curve,
                                              const std::vector<double>& energies) {
   auto options = lagrangian_options(study.scene(), study.scene().analysis.harmonics);
@@ -33,24 +25,6 @@ std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const 
     if (point.accepted()) solutions.push_back({energy, start.omega / linear, point.omega / linear});
   }
   return solutions;
-}
-
-Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<LagrangianPoint>& published) {
-  const double linear = study.mode().linear_omega();
-  Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
-  table.append_row({"published", 0.0, 1.0, 1.0});
-  for (const auto& point : published) {
-    const double root = std::sqrt(point.rayleigh) / linear;
-    if (point.accepted()) table.append_row({"published", point.prescribed_ratio, root, root});
-  }
-  table.append_row({"consistent", 0.0, 1.0, 1.0});
-  table.append_row({"consistent", 1.0, 1.0, 1.0});
-  for (const auto& point : curve.points)
-    if (point.accepted())
-      table.append_row(
-          {"consistent", point.energy_ratio, point.omega / linear, std::sqrt(point.rayleigh) / linear});
-  return table;
 }
 
 Table blade_measures(const app::ModeStudy& study, const app::Backbone& curve) {

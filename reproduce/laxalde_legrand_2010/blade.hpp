@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "blade_motion.hpp"
+#include "curves.hpp"
 #include "ll10.hpp"
 #include "modes/mode_augmented_lagrangian.hpp"
 
@@ -22,14 +23,6 @@ struct SecondSolution {
 /// Those of `energies` that both reach. Throws report::NotConverged where the curve has no such energy.
 std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const app::Backbone& curve,
                                              const std::vector<double>& energies);
-
-/// The point of a backbone at an energy ratio. Throws report::NotConverged when there is none.
-solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio);
-
-/// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
-/// root of r, points that were reached) and consistent (accepted points), both from the linear mode on.
-Table blade_backbones(const app::ModeStudy& study, const app::Backbone& curve,
-                      const std::vector<LagrangianPoint>& published);
 
 /// energy_ratio, torsion_share (of the kinetic energy), tip_twist_degrees_per_gap (amplitude, for a gap of 1
 /// mm), contact_fraction along the accepted points of a backbone.

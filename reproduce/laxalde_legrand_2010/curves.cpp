@@ -1,5 +1,7 @@
 #include "curves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -7,23 +9,41 @@
 namespace wavebalance::ll10 {
 namespace {
 
-void add_row(Table& table, const std::string& formulation, double energy, double frequency, double rayleigh) {
-  table.append_row({formulation, energy, frequency, rayleigh});
-}
+const std::vector<std::string> columns{"formulation", "energy_ratio", "frequency_ratio",
+                                       "rayleigh_frequency_ratio"};
 
 /// The linear branch and the accepted points.
 void add_backbone(Table& table, const std::string& formulation, const app::ModeStudy& study,
                   const app::Backbone& curve) {
   const double linear = study.mode().linear_omega();
-  add_row(table, formulation, 0.0, 1.0, 1.0);
-  add_row(table, formulation, 1.0, 1.0, 1.0);
+  for (const double energy : {0.0, 1.0}) table.append_row({formulation, energy, 1.0, 1.0});
   for (const auto& point : curve.points)
     if (point.accepted())
-      add_row(table, formulation, point.energy_ratio, point.omega / linear,
-              std::sqrt(point.rayleigh) / linear);
+      table.append_row(
+          {formulation, point.energy_ratio, point.omega / linear, std::sqrt(point.rayleigh) / linear});
 }
 
 }  // namespace
+
+solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio) {
+  auto point = study.at_energy(curve, energy_ratio);
+  if (!point.accepted())
+    throw report::NotConverged(
+        fmt::format("energy ratio {}: {}", report::number(energy_ratio), to_string(point.status)));
+  return point;
+}
+
+Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
+                      const std::vector<LagrangianPoint>& published) {
+  Table table(columns);
+  table.append_row({"published", 0.0, 1.0, 1.0});
+  for (const auto& point : published) {
+    const double root = std::sqrt(point.rayleigh) / study.mode().linear_omega();
+    if (point.accepted()) table.append_row({"published", point.prescribed_ratio, root, root});
+  }
+  add_backbone(table, "consistent", study, curve);
+  return table;
+}
 
 LagrangianModeOptions lagrangian_options(const app::Scene& scene, int harmonics) {
   LagrangianModeOptions options;
@@ -50,23 +70,6 @@ std::vector<LagrangianPoint> published_branch(const app::ModeStudy& study) {
                      lagrangian_strategy(mode), mode.linear_start(1.0));
 }
 
-Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
-                               const std::vector<double>& energies) {
-  const LagrangianMode mode(study.mode().model(),
-                            lagrangian_options(study.scene(), study.scene().analysis.harmonics));
-  Agreement result;
-  for (const double energy : energies) {
-    const auto condensed = study.at_energy(curve, energy);
-    if (!condensed.accepted()) continue;
-    auto outer = lagrangian_strategy(mode);
-    const auto point = mode.solve(energy, outer, {condensed.amplitudes, condensed.force});
-    if (!point.accepted()) continue;
-    result.largest = std::max(result.largest, std::abs(point.omega / condensed.omega - 1.0));
-    ++result.points;
-  }
-  return result;
-}
-
 Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve) {
   std::vector<double> errors;
   for (const auto& point : curve.points) {
@@ -80,22 +83,15 @@ Distance exact_distance(const app::ModeStudy& study, const app::Backbone& curve)
 }
 
 Table backbones_table(const RodCurves& curves) {
-  Table table({"formulation", "energy_ratio", "frequency_ratio", "rayleigh_frequency_ratio"});
-  add_row(table, "published", 0.0, 1.0, 1.0);
-  for (const auto& point : curves.published) {
-    const double root = std::sqrt(point.rayleigh) / curves.study.mode().linear_omega();
-    if (point.accepted()) add_row(table, "published", point.prescribed_ratio, root, root);
-  }
-  add_backbone(table, "consistent", curves.study, curves.backbone);
+  Table table = backbones_table(curves.study, curves.backbone, curves.published);
   add_backbone(table, "consistent_half_lumped", curves.remedy, curves.remedy_backbone);
-  add_row(table, "exact", 0.0, 1.0, 1.0);
-  add_row(table, "exact", 1.0, 1.0, 1.0);
+  for (const double energy : {0.0, 1.0}) table.append_row({"exact", energy, 1.0, 1.0});
   const double onset = ExactBarMode::onset_energy(1, EnergyMeasure::modal);
   constexpr int points = 200;
   for (int i = 1; i <= points; ++i) {
     const double energy = onset * std::pow(10.0 / onset, static_cast<double>(i) / points);
     const auto mode = exact_mode(curves.study.scene(), energy);
-    add_row(table, "exact", energy, mode.frequency_ratio(), mode.rayleigh_frequency_ratio());
+    table.append_row({"exact", energy, mode.frequency_ratio(), mode.rayleigh_frequency_ratio()});
   }
   return table;
 }

@@ -19,15 +19,6 @@ contact::MultiplierUpdate lagrangian_strategy(const LagrangianMode& mode);
 /// O(points (n N)^3).
 std::vector<LagrangianPoint> published_branch(const app::ModeStudy& study);
 
-/// Largest relative difference of omega between the condensed solver and the consistent augmented Lagrangian
-/// (Algorithm 1) started from it, over those of `energies` that both reach.
-struct Agreement {
-  double largest = 0.0;
-  int points = 0;
-};
-Agreement lagrangian_agreement(const app::ModeStudy& study, const app::Backbone& curve,
-                               const std::vector<double>& energies);
-
 /// |omega / omega_exact - 1| at the energies of the accepted points of a curve with energy ratios in 1.2..10.
 struct Distance {
   double median = 0.0;
@@ -44,6 +35,14 @@ struct RodCurves {
   app::Backbone remedy_backbone;
   std::vector<LagrangianPoint> published;
 };
+
+/// The point of a backbone at an energy ratio. Throws report::NotConverged when there is none.
+solvers::ModePoint accepted_at(const app::ModeStudy& study, const app::Backbone& curve, double energy_ratio);
+
+/// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
+/// root of r, points that were reached) and consistent (accepted points), both from the linear mode on.
+Table backbones_table(const app::ModeStudy& study, const app::Backbone& curve,
+                      const std::vector<LagrangianPoint>& published);
 
 /// Rows formulation, energy_ratio, frequency_ratio, rayleigh_frequency_ratio: published (frequency is the
 /// root of r), consistent and consistent_half_lumped (accepted points) and exact, the linear branch below

@@ -4,10 +4,11 @@
 
 #include "figures.hpp"
 #include "ll10.hpp"
-#include "sketch.hpp"
+#include "wavebalance/report/sketch.hpp"
 
 namespace wavebalance::ll10 {
 using app::Colour;
+using report::Polyline;
 
 namespace {
 

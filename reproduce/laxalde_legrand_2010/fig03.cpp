@@ -56,19 +56,14 @@ app::Series curve(const Look& look, const Table& table, const std::string& colum
     x.push_back(energy[i]);
     y.push_back(value[i]);
   }
-  app::Series series(look.label, x, y, look.marker > 0 ? SeriesStyle::line_points : SeriesStyle::line);
-  series.colour = look.colour;
-  series.dash = look.dash;
-  series.marker = look.marker;
-  series.width = look.marker > 0 ? 1.1 : 1.8;
-  return series;
+  const bool marked = look.marker > 0;
+  return report::styled({look.label, x, y, marked ? SeriesStyle::line_points : SeriesStyle::line},
+                        look.colour, {.dash = look.dash, .width = marked ? 1.1 : 1.8, .marker = look.marker});
 }
 
 app::Series resonance_points(const std::vector<double>& energy, const std::vector<double>& ratio) {
-  app::Series series("eq. (28), on internal resonances", energy, ratio, SeriesStyle::points);
-  series.colour = Colour::grey;
-  series.marker = 8;
-  return series;
+  return report::styled({"eq. (28), on internal resonances", energy, ratio, SeriesStyle::points},
+                        Colour::grey, {.marker = 8});
 }
 
 /// Points on internal resonances, with their names where they stand apart.
@@ -180,30 +175,6 @@ void notes(report::Artefact& artefact, const RodCurves& curves) {
       report::number(frequency_quotient(curves.study), 6),
       report::number(frequency_quotient(curves.remedy), 6)));
   artefact.printed(resonances_table(curves));
-  const auto agreement =
-      lagrangian_agreement(curves.study, curves.backbone, {1.1, 1.2, 1.5, 1.8, 2.4, 3, 4, 5, 7, 10});
-  artefact.check(
-      {"", "Two solvers give one mode.",
-       "the augmented Lagrangian of the consistent equations (Algorithm 1), started from the condensed "
-       "solution, agrees with it to 1e-6 in ω wherever both converge, at four energies or more",
-       fmt::format("{} at {} energies", report::number(agreement.largest, 2), agreement.points),
-       agreement.points >= 4 && agreement.largest < 1e-6});
-  double residual = 0.0, identity = 0.0, penetration = 0.0, force = 0.0;
-  for (std::size_t i = 0; i < curves.backbone.points.size(); ++i)
-    if (const auto& point = curves.backbone.points[i]; point.accepted()) {
-      residual = std::max(residual, curves.backbone.residuals[i]);
-      identity = std::max(identity, point.virial_residual);
-      penetration = std::max(penetration, point.max_penetration);
-      force = std::min(force, point.min_force);
-    }
-  artefact.check(
-      {"", "Every motion drawn satisfies its equations.",
-       "accepted points of eq. (28): the equation of motion and $\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ are met to 1e-9, and "
-       "no force is negative",
-       fmt::format("{} and {}; least force {} N; penetration between the samples up to {} of the gap",
-                   report::number(residual, 2), report::number(identity, 2), report::number(force, 2),
-                   report::percent(penetration, 2)),
-       residual < 1e-9 && identity < 1e-9 && force >= 0.0});
   artefact.note(
       fmt::format("{} points with eq. (28) in {} ms; {} of them on internal resonances, {} unsolved.",
                   curves.backbone.points.size(), report::number(1e3 * curves.backbone.wall_seconds, 3),

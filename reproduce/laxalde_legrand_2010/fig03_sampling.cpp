@@ -104,23 +104,23 @@ double relative_contact(const Sampled& row, const ExactContact& exact) {
   return row.contact_fraction / exact.contact_fraction;
 }
 
+app::Axis logarithmic(double lower, double upper, const std::vector<double>& ticks) {
+  app::Axis result = axis("", lower, upper);
+  result.logarithmic = true;
+  result.ticks = ticks;
+  result.tick_format = "%g";
+  return result;
+}
+
 app::Figure drawn(const std::vector<Sampled>& rows, const ExactContact& exact) {
   app::Figure figure;
   figure.panel_width = 560;
   figure.panel_height = 260;
   add_panel(figure, "frequency", "Error of ω", rows, frequency_error, exact, axis("", -0.02, 0.04));
-  app::Axis forces = axis("", 0.2, 30.0);
-  forces.logarithmic = true;
-  forces.ticks = {0.3, 1.0, 3.0, 10.0, 30.0};
-  forces.tick_format = "%g";
   add_panel(figure, "largest contact force, 1 is exact", "Force over exact", rows, relative_force, exact,
-            forces);
-  app::Axis contact = axis("", 0.03, 4.0);
-  contact.logarithmic = true;
-  contact.ticks = {0.03, 0.1, 0.3, 1.0, 3.0};
-  contact.tick_format = "%g";
+            logarithmic(0.2, 30.0, {0.3, 1.0, 3.0, 10.0, 30.0}));
   add_panel(figure, "samples in contact, 1 is exact", "Contact over exact", rows, relative_contact, exact,
-            contact);
+            logarithmic(0.03, 4.0, {0.03, 0.1, 0.3, 1.0, 3.0}));
   figure.panels[0].mark_y(0.0);
   figure.panels[1].mark_y(1.0);
   figure.panels[2].mark_y(1.0);
@@ -189,7 +189,6 @@ void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const E
            forces_text(rows), number(1e-3 * exact.largest_force, 4), percent(exact.contact_fraction)),
        .verdict = report::over(readings),
        .readings = readings,
-       .earlier = report::not_judged,
        .headline =
            fmt::format("With N = {} and m = {} to {} the largest force grows from {} to {} kN; exact {} kN.",
                        main_harmonics, few.samples, many.samples, number(1e-3 * few.largest_force, 3),

@@ -132,18 +132,11 @@ FrontSpeeds front_speeds(const Motion& motion, double level) {
   return {passage / slope(rise), passage / slope(fall)};
 }
 
-/// Largest distance of a node's displacement from its first harmonic over its range, of all nodes: zero where
-/// displacement and velocity lie on an ellipse.
+/// The largest beyond_ellipse() of all nodes.
 double beyond_ellipse(const Motion& motion) {
-  const Eigen::Index count = motion.time.size() - 1;
-  const Eigen::ArrayXd phase = 2.0 * std::numbers::pi * motion.time.head(count).array();
   double largest = 0.0;
-  for (Eigen::Index i = 1; i < motion.position.size(); ++i) {
-    const Eigen::ArrayXd u = motion.displacement.row(i).head(count).transpose().array();
-    const double c = 2.0 * (u * phase.cos()).mean(), s = 2.0 * (u * phase.sin()).mean();
-    const double distance = (u - u.mean() - c * phase.cos() - s * phase.sin()).abs().maxCoeff();
-    largest = std::max(largest, distance / (u.maxCoeff() - u.minCoeff()));
-  }
+  for (Eigen::Index i = 1; i < motion.position.size(); ++i)
+    largest = std::max(largest, ll10::beyond_ellipse(motion.displacement.row(i)));
   return largest;
 }
 
@@ -199,9 +192,7 @@ void claim_duration(report::Artefact& artefact, const Motion& exact) {
                        report::agreeing(readings), readings.size(), percent(duration)),
        .verdict = report::over(readings),
        .readings = readings,
-       .panel = "(c) and (d)",
-       .earlier =
-           "The share of the samples had to be within a factor of 2 of the exact contact. It depended on N and m."},
+       .panel = "(c) and (d)"},
       "Few harmonics touch the obstacle at a single sample, however short, so that the computed fraction is that "
       "sample's share of the period and not a duration.");
 }
@@ -222,8 +213,7 @@ void claim_travelling(report::Artefact& artefact, const Motion& contact, const M
              number(found.backward), number(found.forward), number(closed.backward), number(closed.forward)),
          .verdict = report::plain(std::max({found.backward, found.forward, 1.0 / found.backward,
                                             1.0 / found.forward}) <= 1.0 + report::tie_share),
-         .panel = "(d)",
-         .earlier = "The times of largest velocity had to be more than 5 % of a period apart. It agreed."},
+         .panel = "(d)"},
         "The fronts do not move at the speed of sound.");
 }
 
@@ -240,8 +230,7 @@ void claim_maxima(report::Artefact& artefact, const Motion& contact) {
            percent(report::visible_share)),
        .measured = fmt::format("{} of a period apart", percent(spread)),
        .verdict = report::plain(spread > report::visible_share),
-       .panel = "(d)",
-       .earlier = "A limit of 5 % of a period decided, together with the sentence before. It agreed."},
+       .panel = "(d)"},
       "All nodes are fastest at one time.");
 }
 

@@ -11,16 +11,11 @@
 
 namespace wavebalance::ll10 {
 using app::Colour;
+using report::styled;
 
 namespace {
 
-app::Series drawn(const std::string& label, const Table& rows, const std::string& column, Colour colour,
-                  app::Dash dash) {
-  app::Series series(label, rows, "energy_ratio", column);
-  series.colour = colour;
-  series.dash = dash;
-  return series;
-}
+constexpr const char* abscissa = "energy_ratio";
 
 void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::Backbone& curve,
                    const Table& table, const std::vector<SecondSolution>& second, int published_harmonics,
@@ -32,41 +27,34 @@ void add_backbones(app::Figure& figure, const app::ModeStudy& study, const app::
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = axis("Frequency over the linear one", 0.98, 1.38);
   const auto consistent = table.where("formulation", "consistent");
-  panel.add(drawn("corrected equations, ω", consistent, "frequency_ratio", Colour::blue, Dash::solid));
-  panel.add(
-      drawn("the same motions, √r", consistent, "rayleigh_frequency_ratio", Colour::sky_blue, Dash::dashed));
-  auto published = drawn(fmt::format("as published: √r, N = {}", published_harmonics),
-                         table.where("formulation", "published"), "frequency_ratio", Colour::vermillion,
-                         Dash::dash_dotted);
-  published.style = app::SeriesStyle::line_points;
-  published.marker = 1;
+  panel.add(styled({"corrected equations, ω", consistent, abscissa, "frequency_ratio"}, Colour::blue))
+      .add(styled({"the same motions, √r", consistent, abscissa, "rayleigh_frequency_ratio"},
+                  Colour::sky_blue, {.dash = Dash::dashed}));
+  const auto published = styled(
+      {fmt::format("as published: √r, N = {}", published_harmonics), table.where("formulation", "published"),
+       abscissa, "frequency_ratio", app::SeriesStyle::line_points},
+      Colour::vermillion, {.dash = Dash::dash_dotted, .marker = 1});
   panel.add(published);
-  if (published_ends) {
-    app::Series end("as published, not found beyond", std::vector{published.x.back()},
-                    std::vector{published.y.back()}, app::SeriesStyle::points);
-    end.colour = Colour::black;
-    end.marker = 8;  // open
-    panel.add(end);
-  }
+  constexpr int open = 8;
+  if (published_ends)
+    panel.add(styled({"as published, not found beyond", std::vector{published.x.back()},
+                      std::vector{published.y.back()}, app::SeriesStyle::points},
+                     Colour::black, {.marker = open}));
   std::vector<double> x, y, resonance_energy, resonance_frequency;
   for (const auto& one : second) {
     x.push_back(one.energy_ratio);
     y.push_back(one.lagrangian);
   }
-  app::Series other("ω by the augmented Lagrangian", x, y, app::SeriesStyle::points);
-  other.colour = Colour::black;
-  other.marker = 7;
-  panel.add(other);
+  panel.add(styled({"ω by the augmented Lagrangian", x, y, app::SeriesStyle::points}, Colour::black,
+                   {.marker = 7}));
   for (const auto& point : curve.points)
     if (point.status == solvers::ModeStatus::internal_resonance) {
       resonance_energy.push_back(point.energy_ratio);
       resonance_frequency.push_back(point.omega / study.mode().linear_omega());
     }
-  app::Series resonances("internal resonances", resonance_energy, resonance_frequency,
-                         app::SeriesStyle::points);
-  resonances.colour = Colour::grey;
-  resonances.marker = 8;
-  if (!resonance_energy.empty()) panel.add(resonances);
+  if (!resonance_energy.empty())
+    panel.add(styled({"internal resonances", resonance_energy, resonance_frequency, app::SeriesStyle::points},
+                     Colour::grey, {.marker = open}));
   panel.mark_x(1.0);
 }
 
@@ -74,28 +62,13 @@ void add_torsion(app::Figure& figure, const Table& measures) {
   auto& panel = figure.add_panel("torsion");
   panel.x = axis("Energy γ over its value at linear grazing", 0.0, 13.0);
   panel.y = axis("Share of kinetic energy in torsion modes", 0.0, 0.05);
-  app::Series share("", measures, "energy_ratio", "torsion_share");
-  share.colour = Colour::green;
-  panel.add(share).mark_x(1.0);
+  panel.add(styled({"", measures, abscissa, "torsion_share"}, Colour::green)).mark_x(1.0);
 }
 
 using report::number;
 using report::percent;
 
 constexpr double energies[] = {1.2, 2.0, 3.0, 7.0, 10.4};
-
-void check_second(report::Artefact& artefact, const std::vector<SecondSolution>& second) {
-  double largest = 0.0;
-  for (const auto& one : second) largest = std::max(largest, std::abs(one.lagrangian / one.condensed - 1.0));
-  artefact.check(
-      {"section 5.2",
-       "Fig. 7 depicts the eigenfrequency of the first mode (nonlinear extension of the first bending mode "
-       "of the blade) with respect to the modal energy.",
-       "so does ours, of another blade: two solvers, condensed and augmented Lagrangian from its solution, "
-       "agree within 1e-6 at all energies compared",
-       fmt::format("within {} at {} of {} energies", number(largest, 2), second.size(), std::size(energies)),
-       second.size() == std::size(energies) && largest < 1e-6});
-}
 
 void claim_hardening(report::Artefact& artefact, const std::vector<SecondSolution>& second) {
   bool rising = true;
@@ -159,29 +132,10 @@ void claim_contact(report::Artefact& artefact, const app::ModeStudy& study, cons
                      measured,
          .verdict = report::together({at_unity(first.leading), at_unity(first.trailing)}),
          .panel = "(a)",
-         .earlier = "No contact below energy 1, and both edges touching at 4.7 and 10.4, decided. It agreed.",
          .apart = on_our_blade},
         fmt::format("The edges do not touch together: one does so from energy {}, the other from {} on.",
                     number(std::min(first.leading, first.trailing), 3),
                     number(std::max(first.leading, first.trailing), 3)));
-}
-
-void check_quotient(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve) {
-  const auto point = accepted_at(study, curve, shape_energies[2]);
-  const double linear = study.mode().linear_omega(), root = std::sqrt(point.rayleigh) / linear;
-  double identity = 0.0, residual = 0.0;
-  for (std::size_t i = 0; i < curve.points.size(); ++i)
-    if (curve.points[i].accepted()) {
-      identity = std::max(identity, curve.points[i].virial_residual);
-      residual = std::max(residual, curve.residuals[i]);
-    }
-  artefact.check({"",
-                  "$\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ holds for the blade as for the rod.",
-                  "met to 1e-9 along the curve, as is the equation of motion",
-                  fmt::format("{} and {}; at energy {} ω is {} and √r {} of the linear frequency",
-                              number(identity, 2), number(residual, 2), number(shape_energies[2]),
-                              number(point.omega / linear, 5), number(root, 5)),
-                  identity < 1e-9 && residual < 1e-9});
 }
 
 void notes(report::Artefact& artefact, const app::ModeStudy& study, const app::Backbone& curve,
@@ -217,7 +171,7 @@ void fig07(report::Artefact& artefact) {
   const auto scene = artefact.scene("blade_published.toml");
   const auto published = published_branch(app::ModeStudy(scene, study.model()));
   const auto second = second_solutions(study, curve, {std::begin(energies), std::end(energies)});
-  const auto table = blade_backbones(study, curve, published);
+  const auto table = backbones_table(study, curve, published);
   const auto measures = blade_measures(study, curve);
   artefact.data(
       table, "ratios to the linear mode; energy_ratio is gamma over its value at linear grazing",
@@ -242,10 +196,8 @@ void fig07(report::Artefact& artefact) {
       "tip rotates more than it translates. Stability is not drawn: where contacts have mass, no motion beside that of "
       "a rigid obstacle is determined without a law of impact.",
       scene.analysis.harmonics));
-  check_second(artefact, second);
   claim_hardening(artefact, second);
   claim_contact(artefact, study, curve);
-  check_quotient(artefact, study, curve);
   notes(artefact, study, curve, published);
 }
 

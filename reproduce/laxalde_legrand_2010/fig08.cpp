@@ -7,6 +7,7 @@
 
 #include "blade.hpp"
 #include "figures.hpp"
+#include "wavebalance/app/page/body.hpp"
 #include "wavebalance/fem/vtu.hpp"
 #include "wavebalance/report/rule.hpp"
 
@@ -46,7 +47,7 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   view.surfaces[0].outline = true;
   const Eigen::VectorXd magnitude = u.colwise().norm();
   view.surfaces[1].values.assign(magnitude.begin(), magnitude.end());
-  view.colours = {blade::ColourBands::Map::sequential, 0.0, upper, 10, "|u| / g_0", true};
+  view.colours = {0.0, upper, 10, "|u| / g_0"};
   view.surfaces[1].marks.push_back(
       {"in contact", touching(blade, shape.point, half_period ? 0.5 : 0.0), app::Colour::vermillion, 1});
   view.azimuth = -35.0;
@@ -57,21 +58,26 @@ void add_panel(app::Figure& figure, const fem::Blade& blade, const Shape& shape,
   paint(panel, view, "shape" + std::to_string(figure.panels.size()));
 }
 
-/// Gap-sized motions as a series for ParaView.
+/// Gap-sized motions as a series for ParaView, and as the body that the page moves.
 void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Shape& shape) {
   const std::string stem = "fig08_energy_" + report::number(shape.energy);
+  const auto& mesh = blade.model.mesh;
+  app::MovingBody body{
+      "energy " + report::number(shape.energy), mesh.nodes, fem::surface_of(fem::mesh_of(mesh)), {}};
   std::vector<fem::PvdEntry> entries;
   for (std::size_t frame = 0; frame < shape.frames.size(); ++frame) {
     const std::string name = stem + "_" + (frame < 10 ? "0" : "") + std::to_string(frame) + ".vtu";
-    const fem::PointField fields[] = {{"displacement", drawn_gap * shape.frames[frame]}};
+    body.frames.push_back(drawn_gap * shape.frames[frame]);
+    const fem::PointField fields[] = {{"displacement", body.frames.back()}};
     std::ostringstream text;
-    fem::write_vtu(text, blade.model.mesh, fields);
+    fem::write_vtu(text, mesh, fields);
     artefact.attach(name, text.str(), false);
     entries.push_back({static_cast<double>(frame) / shape_times, name});
   }
   std::ostringstream text;
   fem::write_pvd(text, entries);
-  artefact.attach(stem + ".pvd", text.str(), true);
+  artefact.attach(stem + ".pvd", text.str());
+  artefact.attach(stem + ".body.js", app::body_script(stem, body), false);
 }
 
 Table shapes_table(const fem::Blade& blade, const std::vector<Shape>& shapes) {
@@ -118,7 +124,6 @@ void claim_torsion(report::Artefact& artefact, const app::ModeStudy& study,
            "a gap of 1 mm, are lower at each of the paper's three energies than at the next",
        .measured = measured,
        .verdict = report::together({grows(shares), grows(twists)}),
-       .earlier = "Growth of any size decided. It agreed.",
        .apart = on_our_blade},
       "One of them does not grow from one energy to the next.");
 }
@@ -142,7 +147,6 @@ void claim_sensitivity(report::Artefact& artefact, const std::vector<Shape>& sha
          .measured = measured,
          .verdict = report::plain(largest_difference > report::visible_share),
          .panel = "(c) to (f)",
-         .earlier = "A likeness |<a,b>| / (|a||b|) below 0.99 decided. It agreed.",
          .apart = on_our_blade},
         "The shapes differ by less.");
 }

@@ -1,7 +1,5 @@
 #pragma once
-#include <vector>
-
-#include "wavebalance/report/program.hpp"
+#include "wavebalance/report/artefact.hpp"
 
 /// The figures of LL10, each a function that makes it.
 namespace wavebalance::ll10 {
@@ -17,8 +15,5 @@ void fig05(report::Artefact& artefact);
 void fig06(report::Artefact& artefact);
 void fig07(report::Artefact& artefact);
 void fig08(report::Artefact& artefact);
-
-/// What the program ll10 makes.
-const std::vector<report::Step>& figures();
 
 }  // namespace wavebalance::ll10

@@ -97,22 +97,22 @@ Motion exact_motion(const app::Scene& scene, double energy_ratio, int times) {
   return motion;
 }
 
+double beyond_ellipse(const Eigen::VectorXd& history) {
+  const Eigen::Index count = history.size() - 1;
+  const Eigen::ArrayXd u = history.head(count).array();
+  const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(count + 1, 0.0, 2.0 * std::numbers::pi).head(count);
+  const double c = 2.0 * (u * phase.cos()).mean(), s = 2.0 * (u * phase.sin()).mean();
+  return (u - u.mean() - c * phase.cos() - s * phase.sin()).abs().maxCoeff() / (u.maxCoeff() - u.minCoeff());
+}
+
 std::string discretisation(const app::Scene& scene) {
   return fmt::format("{} harmonics, {} samples, {} elements", scene.analysis.harmonics,
                      scene.analysis.samples, scene.structure.elements);
 }
 
 void judge(report::Artefact& artefact, report::Statement statement, const std::string& because) {
-  if (statement.verdict != report::Verdict::agrees) statement.because = because;
+  statement.because = because;
   artefact.statement(std::move(statement));
-}
-
-app::Axis axis(const std::string& label, double lower, double upper) {
-  app::Axis result;
-  result.label = label;
-  result.lower = lower;
-  result.upper = upper;
-  return result;
 }
 
 }  // namespace wavebalance::ll10

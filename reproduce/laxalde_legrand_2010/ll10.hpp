@@ -13,6 +13,7 @@ namespace wavebalance::ll10 {
 
 using app::Series;
 using app::Table;
+using report::axis;
 
 /// "laxalde_legrand_2010", "LL10 Fig. 3", ...
 report::Identity identity(const std::string& number, const std::string& title, const std::string& stem);
@@ -39,16 +40,17 @@ Motion computed_motion(const app::ModeStudy& study, double energy_ratio, int tim
 /// The exact solution at the same nodes and times; below contact the linear mode of the bar.
 Motion exact_motion(const app::Scene& scene, double energy_ratio, int times);
 
+/// Largest distance of a history from its first harmonic, over its range: zero for an ellipse in phase space.
+/// Its last value is the first of the next period.
+double beyond_ellipse(const Eigen::VectorXd& history);
+
 /// "10 harmonics, 20 samples, 20 elements"
 std::string discretisation(const app::Scene& scene);
 
-/// Adds the statement, with the reason unless it agrees.
+/// Adds the statement with its reason.
 void judge(report::Artefact& artefact, report::Statement statement, const std::string& because);
 
 /// Why the statements on the blade are judged apart.
 inline constexpr const char* on_our_blade = "on our blade";
-
-/// An axis with its limits.
-app::Axis axis(const std::string& label, double lower, double upper);
 
 }  // namespace wavebalance::ll10

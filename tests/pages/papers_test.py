@@ -75,7 +75,7 @@ def statement(verdict, quote, readings=()):
     """One that says all it can."""
     return {"place": "section 5.1", "quote": quote, "criterion": "x < 1", "measured": "0.5", "verdict": verdict, "because": "x is open",
             "readings": [{"name": name, "verdict": one, "measured": "1", "of_text": True} for name, one in readings], "panel": "(a)",
-            "earlier": "x < 2", "apart": "", "headline": ""}
+            "apart": "", "headline": ""}
 
 
 def write(folder, paper, stem, one):
@@ -98,8 +98,7 @@ def results(tmp_path_factory):
         checks=[{"place": "", "sentence": "The code is right.", "criterion": "error < 1", "measured": "0.1", "passes": True}]))
     own = folder / "jones_legrand_2014"
     (own / f"{STEM}.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg" width="800" height="600"><text x="9" y="20">sine</text></svg>')
-    (own / "motion_case1.json").write_text(json.dumps(moving_bar()))
-    for kind, data, suffix in (("figures", figure(), "figure"), ("readings", sums(), "readings")):
+    for kind, data, suffix in (("figures", figure(), "figure"), ("readings", sums(), "readings"), ("motions", moving_bar(), "motion")):
         (own / f"{STEM}.{suffix}.js").write_text(f'((window.wavebalance ??= {{}}).{kind} ??= {{}})["{STEM}"] = {json.dumps(data)};\n')
     names = [f"a_rather_long_name_of_a_column_{i}" for i in range(5)]
     write(folder, "extremes", "extremes", record("extremes", "extremes", table=[names, ["1", "2", "3", "4", "$\\omega^2$"]]))

@@ -24,18 +24,24 @@ def forced_response(tmp_path_factory):
 
 
 def test_the_campbell_diagram_stiffens_with_speed_and_with_energy(results):
-    checks = results.record("campbell")["checks"]
-    assert checks and all(check["passes"] for check in checks), checks
     table = results.table("campbell.csv")
     linear = table.numbers("linear_Hz")
+    assert np.all(np.diff(linear) > 0.0)
+    for row in zip(*(table.numbers(name) for name in table.columns[2:])):
+        assert np.all(np.diff([frequency for frequency in row if np.isfinite(frequency)]) > 0.0)
     assert linear[0] == pytest.approx(570.0, abs=0.5)
     assert np.array_equal(table.numbers("energy_1"), linear)  # energy 1 is the linear mode at grazing
     assert table.numbers("energy_7")[0] / 570.0 == pytest.approx(1.1931, abs=0.003)
 
 
 def test_the_forced_response_is_bent_by_contact_in_every_pair(forced_response):
-    assert forced_response.record("forced_response")["checks"][0]["passes"]
     table = forced_response.table("forced_response.csv")
+    free = forced_response.table("forced_response_without_contact.csv")
+    highest = np.argmax(free.numbers("max_displacement_m"))
+    for pair in table.columns[1:4]:
+        peak = np.nanargmax(table.numbers(pair))
+        assert table.numbers("frequency_Hz")[peak] > free.numbers("frequency_Hz")[highest]
+        assert table.numbers(pair)[peak] < free.numbers("max_displacement_m")[highest]
     assert table.columns == ["frequency_Hz", "fourier_fourier", "daubechies6_daubechies6", "haar_fourier",
                              "fourier_fourier_downwards"]
     assert len(forced_response.table("forced_response_histories.csv")) == 64

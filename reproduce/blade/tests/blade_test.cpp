@@ -54,11 +54,6 @@ TEST(EdgeContact, TellsTheHalvesOfTheChordApart) {
   const EdgeContact contact = edge_contact(force);
   EXPECT_EQ(contact.leading, (std::vector<double>{0.0, 0.125, 0.875}));
   EXPECT_EQ(contact.trailing, std::vector<double>{0.5});
-  EXPECT_TRUE(centred(contact.leading, 0.0, 0.125));
-  EXPECT_FALSE(centred(contact.leading, 0.5, 0.125));
-  EXPECT_TRUE(centred(contact.trailing, 0.5, 0.125));
-  EXPECT_FALSE(centred({}, 0.0, 0.125));
-  EXPECT_FALSE(centred({0.0, 0.125}, 0.0, 0.125));
 }
 
 TEST(Torsion, SecondModeOfTheBladeIsTorsionAndTheFirstIsNot) {

@@ -92,7 +92,7 @@ TEST(Surface, ValuesBecomeBandsThatMeetAtTheirLevels) {
   SurfaceView view = view_of(cube);
   view.azimuth = -90.0;
   view.elevation = 0.0;
-  view.colours = {ColourBands::Map::sequential, 0.0, 1.0, 4, "height (m)", true};
+  view.colours = {0.0, 1.0, 4, "height (m)"};
   const std::string script = gnuplot_script(figure_of(view));
   // The front face, and over it its parts above 1/4, 1/2 and 3/4.
   const auto rows = rows_of(script, "$panel0_fill0");
@@ -110,8 +110,6 @@ TEST(Surface, ValuesBecomeBandsThatMeetAtTheirLevels) {
   EXPECT_NE(script.find("height (m)"), std::string::npos);
   const std::string svg = render(figure_of(view), PictureFormat::svg);
   EXPECT_NE(svg.find("height (m)"), std::string::npos);
-  view.colours.bar = false;
-  EXPECT_EQ(render(figure_of(view), PictureFormat::svg).find("height (m)"), std::string::npos);
 }
 
 TEST(Surface, MarksShowWhereTheirFacesDo) {
@@ -140,21 +138,6 @@ TEST(Surface, MidpointsOnStraightEdgesAreLeftOut) {
   view.elevation = 90.0;
   EXPECT_EQ(rows_of(gnuplot_script(figure_of(view)), "$panel0_fill0").size(),
             6u);  // four corners, one bend, closed
-}
-
-TEST(Surface, ThatIsNotValidIsRefused) {
-  const auto refused = [](auto change) {
-    SurfaceView view = view_of(unit_cube());
-    change(view);
-    EXPECT_THROW(figure_of(view), std::invalid_argument);
-  };
-  refused([](SurfaceView& view) { view.surfaces.clear(); });
-  refused([](SurfaceView& view) { view.surfaces[0].faces[0][1] = 8; });
-  refused([](SurfaceView& view) { view.surfaces[0].faces[0].resize(2); });
-  refused([](SurfaceView& view) { view.surfaces[0].values = {1.0}; });
-  refused([](SurfaceView& view) { view.surfaces[0].marks.push_back({"", {-1}, Colour::black, 1}); });
-  refused([](SurfaceView& view) { view.colours.upper = view.colours.lower; });
-  refused([](SurfaceView& view) { view.colours.bands = 1; });
 }
 
 }  // namespace

@@ -1,17 +1,12 @@
-#include <array>
-
 #include "figures.hpp"
 #include "jl14.hpp"
+#include "wavebalance/report/sketch.hpp"
 
 namespace wavebalance::jl14 {
 using app::Colour;
+using report::Polyline;
 
 namespace {
-
-struct Polyline {
-  std::string name;
-  std::vector<std::array<double, 2>> points;
-};
 
 /// The sketch in units of the bar's length.
 std::vector<Polyline> outline() {
@@ -31,13 +26,6 @@ std::vector<Polyline> outline() {
     lines.push_back({"hatching", {{1.42, y - 0.03}, {1.46, y + 0.02}}});
   }
   return lines;
-}
-
-Table points_table(const std::vector<Polyline>& lines) {
-  Table table({"line", "part", "x", "y"});
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].name, x, y});
-  return table;
 }
 
 void annotate(app::Panel& panel) {
@@ -70,24 +58,9 @@ void annotate(app::Panel& panel) {
 
 void fig01(report::Artefact& artefact) {
   const auto lines = outline();
-  app::Figure figure;
-  figure.panel_width = 760;
-  figure.panel_height = 270;
-  app::Panel& panel = figure.add_panel();
-  panel.frame = false;
-  panel.x = axis("", -0.1, 1.52);
-  panel.y = axis("", -0.26, 0.27);
-  panel.legend = false;
-  for (const Polyline& line : lines) {
-    Eigen::VectorXd x(line.points.size()), y(line.points.size());
-    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = line.points[i][0], y[i] = line.points[i][1];
-    Series series("", x, y);
-    series.colour = Colour::black;
-    series.width = line.name == "hatching" ? 0.8 : 1.6;
-    panel.add(std::move(series));
-  }
-  annotate(panel);
-  artefact.data(points_table(lines), "units of the bar's length");
+  auto figure = report::sketch(lines, axis("", -0.1, 1.52), axis("", -0.26, 0.27), 760, 270);
+  annotate(figure.panels.front());
+  artefact.data(report::polylines_table(lines), "units of the bar's length");
   artefact.picture(figure);
   artefact.caption(
       "The bar clamped at $x = 0$, the gap $g$ and the exponential spring $K_p$ of eq. (5), with the force at "

@@ -11,10 +11,7 @@ void fig03(report::Artefact& artefact) {
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
   artefact.caption("Of the 2ᴶ translates the one whose maximum lies at t = 1/2 is drawn.");
 
-  const double integral = largest_integral_error(table);
-  artefact.check({"section 3.3", "normalization by $\\int_0^1 \\phi_{J,k}(t)\\,dt = 1$",
-                  "mean of the samples within 1e-12 of 1 at every level",
-                  "largest deviation " + report::number(integral), integral < 1e-12});
+  check_integrals(artefact, table);
   const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);
   const double left_out = 2.0 * c.tail(50).cwiseAbs().sum() / c.cwiseAbs().maxCoeff();
   artefact.check({"section 3.3",

@@ -84,9 +84,6 @@ void state_suited(report::Artefact& artefact, const Case& here, const Readings& 
       percent(share), percent(other_share), percent(unevenness(here)), percent(unevenness(there)),
       percent(best(here).rms), percent(best(there).rms));
   statement.panel = "(c), (e)";
-  statement.earlier =
-      "There were two statements. The first compared rms errors over the whole period, which measure the slope of the "
-      "motion and not the plateau, and differed. That on the plateau agreed. Then 18 readings decided.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -112,7 +109,7 @@ void state_penetration(report::Artefact& artefact) {
           percent(report::tie_share)),
       text, lower({found[1], found[2]}, {found[0], found[1]})};
   statement.because = "The penetration does not fall with a stiffer spring: " + text + ".";
-  artefact.statement(reasoned(statement));
+  artefact.statement(statement);
 }
 
 /// Section 5.4 says it of Fig. 7 (c).
@@ -128,8 +125,7 @@ void state_no_plateau(report::Artefact& artefact, const Case& here) {
                   percent(unevenness(Case(artefact, 1)))),
       report::plain(varies > report::visible_share)};
   statement.because = "It varies by less: the plateau is flat to " + percent(varies) + " of the range.";
-  statement.earlier = report::not_judged;
-  artefact.statement(reasoned(statement));
+  artefact.statement(statement);
 }
 
 app::Figure case2_figure(const Case& study, const Values& u) {
@@ -148,10 +144,9 @@ app::Figure case2_figure(const Case& study, const Values& u) {
 
 void fig07(report::Artefact& artefact) {
   Case study(artefact, 2);
-  const auto responses = study.solve_all(pairs(), true);
+  const auto responses = study.solve_all(true);
   const auto u = drawn(responses, &app::Response::displacement);
-  artefact.attach("motion_case2.json",
-                  motion_json(study, responses, artefact.result("reference_case2_nodes.csv")), false);
+  attach_motion(artefact, study, responses);
   artefact.data(comparison_table(study.time(), study.reference().displacement(), u),
                 "time in periods, displacements in m",
                 {fmt::format("64 functions; reference: {}", reference_label)});

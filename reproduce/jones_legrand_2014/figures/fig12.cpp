@@ -35,16 +35,10 @@ std::string gap_text(const Resonance& resonance) {
 
 app::Panel first_panel(const Curves& curves, const std::string& title, bool enlarged) {
   app::Panel panel = sweep_panel(title, curves.first);
-  if (!enlarged) {
-    Series modulus = modulus_curve("Fourier, 63 functions, max |u|", curves.full);
-    modulus.colour = app::Colour::green;
-    modulus.dash = app::Dash::dash_dotted;
-    panel.add(std::move(modulus));
-  }
-  Series style;
-  style.label = "Fourier, by arc length";
-  style.colour = app::Colour::black;
-  add_stable_sweep(panel, style, curves.full);
+  if (!enlarged)
+    panel.add(report::styled(modulus_curve("Fourier, 63 functions, max |u|", curves.full), app::Colour::green,
+                             {.dash = app::Dash::dash_dotted}));
+  add_stable_sweep(panel, curves.full);
   // Every other point of either, so that the symbols do not cover each other.
   const int every = enlarged ? 1 : 6;
   for (std::size_t i = 0; i < curves.first.pairs.size(); ++i)
@@ -56,10 +50,7 @@ app::Panel first_panel(const Curves& curves, const std::string& title, bool enla
 
 app::Panel second_panel(const Resonance& resonance) {
   app::Panel panel = sweep_panel("second resonance, " + gap_text(resonance), resonance);
-  Series style;
-  style.label = "Fourier, by arc length";
-  style.colour = app::Colour::black;
-  add_stable_sweep(panel, style, resonance.sweeps[0]);
+  add_stable_sweep(panel, resonance.sweeps[0]);
   constexpr int every = 8;
   add_points(panel, resonance.pairs[1], resonance.pairs[1].label, resonance.sweeps[1], 0, every);
   add_special_points(panel, resonance.sweeps[0]);
@@ -107,8 +98,7 @@ void state_stiffening(report::Artefact& artefact, const Curves& curves) {
                                number(without, 5), number(peak(curves.full).frequency, 5), text),
        .verdict = report::plain(rise),
        .because = rise ? "" : "A peak is not above that without contact: " + text,
-       .panel = "(a)",
-       .earlier = "It had to rise by more than 1 %. It agreed."});
+       .panel = "(a)"});
 }
 
 /// The curves of all pairs under one reading, and whether those of `names` turn where the exact one does.
@@ -193,21 +183,12 @@ void state_agreement(report::Artefact& artefact, const Curves& curves, const std
       {.place = "section 5.6",
        .quote = "As shown, the stiffening behaviour of the unilateral contact condition is captured by both "
                 "trial:weighting function combinations",
-       .criterion = "Fourier:Fourier and Haar:Fourier: " + criterion,
-       .earlier =
-           "A limit of 1 Hz decided, with the steps of the scene, then 12 Hz with eight sizes of steps, with which it depended "
-           "on them: some curves end early with short steps. Those of the scene alone decide since this was seen. The folds of "
-           "Fourier:Fourier with 63 functions stood for the exact ones."},
+       .criterion = "Fourier:Fourier and Haar:Fourier: " + criterion},
       {"fourier_fourier", "haar_fourier"});
-  state(
-      {.place = "section 5.6",
-       .quote = "other combinations showed similar approximations",
-       .criterion = "the four other pairs: " + criterion,
-       .earlier =
-           "A limit of 1 Hz decided, with the steps of the scene, then 12 Hz with eight sizes of steps, with which it depended "
-           "on them: some curves end early with short steps. Those of the scene alone decide since this was seen. The folds of "
-           "Fourier:Fourier with 63 functions stood for the exact ones."},
-      {"bspline_bspline", "daubechies6_daubechies6", "daubechies6_fourier", "haar_bspline"});
+  state({.place = "section 5.6",
+         .quote = "other combinations showed similar approximations",
+         .criterion = "the four other pairs: " + criterion},
+        {"bspline_bspline", "daubechies6_daubechies6", "daubechies6_fourier", "haar_bspline"});
   state(
       {.place = "section 6",
        .quote =
@@ -215,22 +196,10 @@ void state_agreement(report::Artefact& artefact, const Curves& curves, const std
            "continuation framework to capture the nonlinear frequency response of the unilateral contact "
            "problem.",
        .criterion = "all six pairs: " + criterion,
-       .earlier = report::not_judged,
        .headline = fmt::format(
            "By arc length the curves of all six pairs fold at {} to {} Hz; without contact the resonance is at {} Hz.",
            number(lowest, 6), number(highest, 6), number(peak(curves.first.free).frequency, 5))},
       six);
-}
-
-void note_all_turning_points(report::Artefact& artefact) {
-  std::string text;
-  for (const auto& pair : pairs_named({"haar_fourier", "haar_bspline", "daubechies6_fourier"}))
-    text += (text.empty() ? "" : ", ") + all_turning_points_text(artefact, first_file, pair);
-  const app::Scene scene = artefact.scene(first_file);
-  artefact.note(fmt::format(
-      "The curve has a kink wherever one of the 256 points begins or ceases to touch. Reversals shorter than {} Hz are "
-      "such kinks and are not counted as turning points. With every one of them solved for, the turning points are: {}.",
-      number(1e-3 * std::abs(scene.analysis.frequency_to - scene.analysis.frequency_from)), text));
 }
 
 void state_second(report::Artefact& artefact, const Curves& curves) {
@@ -256,8 +225,7 @@ void state_second(report::Artefact& artefact, const Curves& curves) {
            verdict == Verdict::agrees
                ? ""
                : "Section 5.6 says “over the system's fundamental frequency”, and only there is contact.",
-       .panel = "(c)",
-       .earlier = "It differed."});
+       .panel = "(c)"});
   artefact.note(fmt::format(
       "Both resonances are drawn. With case 2's gap the largest displacement at the second one is {} of the gap "
       "(c). In (d) the gap is {} mm, the share {} of the peak without contact that {} mm is of the "
@@ -330,7 +298,6 @@ void fig12(report::Artefact& artefact) {
   note_nyquist_resonances(artefact, first_file);
   state_stiffening(artefact, curves);
   state_agreement(artefact, curves, all);
-  note_all_turning_points(artefact);
   state_second(artefact, curves);
 }
 

@@ -174,21 +174,6 @@ void explain(report::Artefact& artefact, const std::vector<Row>& rows) {
       "Left-end sums shift every cell by half a sample. That changes which cells are in contact, and it adds the damping "
       "matrix to the stiffness of the Nyquist coefficient. With the same sums at left ends the error is {}.",
       leads, listed_numbers(left), listed_numbers(middle), listed_numbers(sums), listed_numbers(early)));
-  const auto sine =
-      std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.sums.sine; })->one[0].force;
-  const bool grows = std::is_sorted(left.begin(), left.end());
-  const double apart = std::abs(middle.back() / sine - 1.0);
-  constexpr double same = 0.01;
-  artefact.check(
-      {"",
-       "Exact inner products take the saw tooth away by the lead of the force that goes with them, not by "
-       "being exact.",
-       fmt::format(
-           "the force error of Haar:Fourier with exact products grows as the lead shrinks, and at 1024 mid-points "
-           "it is that of the same sums with the sine to {}",
-           percent(same)),
-       fmt::format("{}; {} apart at the mid-points", listed_numbers(left), percent(apart)),
-       grows && apart < same});
 }
 
 }  // namespace

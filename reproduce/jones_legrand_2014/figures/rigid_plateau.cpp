@@ -39,7 +39,7 @@ Study::Study(report::Artefact& artefact, int case_number)
     : number(case_number),
       scene(artefact.scene(fmt::format("case{}_rigid.toml", number))),
       penalty(artefact, number),
-      soft(penalty.solve_all(pairs())) {
+      soft(penalty.solve_all()) {
   const std::string name = fmt::format("case{}_rigid.toml", number);
   for (const auto& pair : pairs()) {
     rigid.push_back(app::weighted_residual_response(
@@ -62,19 +62,9 @@ const std::vector<Group>& groups() {
   return all;
 }
 
-/// The time about contact with the exponential law, from t/T = -1/2 on.
-std::pair<double, double> contact_interval(const Study& study) {
-  const Eigen::VectorXd force = shifted_by_half_a_period(study.penalty.reference().force());
-  Eigen::Index first = 0, last = force.size() - 1;
-  while (force[first] <= 0.0) ++first;
-  while (force[last] <= 0.0) --last;
-  const auto n = static_cast<double>(force.size());
-  return {static_cast<double>(first) / n - 0.5, static_cast<double>(last) / n - 0.5};
-}
-
 app::Panel group_panel(const Study& study, const Group& group, double scale,
                        Eigen::VectorXd (app::Response::*history)() const, const std::string& label) {
-  const auto [from, to] = contact_interval(study);
+  const auto [from, to] = contact_interval(study.penalty, -0.5);
   app::Panel panel;
   const Eigen::VectorXd soft = scale * (study.penalty.reference().*history)(),
                         exact = scale * (study.exact.*history)();
@@ -86,10 +76,8 @@ app::Panel group_panel(const Study& study, const Group& group, double scale,
   for (const std::size_t member : group.members) {
     if (!study.rigid[member].converged) continue;
     const Eigen::VectorXd values = scale * (study.rigid[member].*history)();
-    auto series = periodic_series(pairs()[member].label, values, -0.5);
-    series.colour = pairs()[member].colour;
-    if (member == group.members.back()) series.width = 1.1;
-    panel.add(std::move(series));
+    panel.add(report::styled(periodic_series(pairs()[member].label, values, -0.5), pairs()[member].colour,
+                             {.width = member == group.members.back() ? 1.1 : 1.6}));
     shown.push_back(window(values, from, to));
   }
   auto exponential = reference_series(soft, -0.5);
@@ -158,31 +146,6 @@ void note_forces(report::Artefact& artefact, const Study& study) {
       study.exact.contacts.points(), report::number(drawn), report::number(*least), report::number(*most)));
 }
 
-void note_penetration(report::Artefact& artefact, const Study& study) {
-  double worst = 0.0;
-  for (const auto& response : study.rigid)
-    if (response.converged)
-      worst = std::max(worst, response.displacement().maxCoeff() / study.scene.contact.gap - 1.0);
-  const double soft = study.penalty.reference().displacement().maxCoeff() / study.scene.contact.gap - 1.0;
-  artefact.note(fmt::format(
-      "Case {}: with the exponential law the tip goes {} of the gap beyond it; with the rigid obstacle and 64 "
-      "functions up to {}.",
-      study.number, percent(soft, 2), percent(worst, 2)));
-  double apart = std::numeric_limits<double>::infinity();
-  std::string closest;
-  for (const auto& group : groups()) {
-    const auto &one = study.rigid[group.members[0]], &two = study.rigid[group.members[1]];
-    if (!one.converged || !two.converged) continue;
-    const double distance = app::relative_rms_error(one.force(), two.force());
-    if (distance >= apart) continue;
-    apart = distance;
-    closest = pairs()[group.members[0]].label + " and " + pairs()[group.members[1]].label;
-  }
-  artefact.note(
-      fmt::format("Case {}: of two curves in one panel those of {} lie closest, {} apart in the force (rms).",
-                  study.number, closest, percent(apart, 2)));
-}
-
 /// Errors of the force of all pairs, over that of Fourier:Fourier.
 struct RelativeErrors {
   std::vector<double> rms, mean;
@@ -231,45 +194,7 @@ void state_haar_rigid(report::Artefact& artefact, const std::vector<Study>& stud
       report::number(*soft_most, 2));
   statement.because =
       "Beside Fourier:Fourier the Haar pairs do not gain everywhere. " + statement.measured + ".";
-  artefact.statement(reasoned(statement));
-}
-
-/// Contact phases hold the obstacle, and balances come near them as their functions grow.
-void check_reference(report::Artefact& artefact, const Study& study) {
-  constexpr double rounding = 1e-12;
-  const double beyond = study.exact.rigid->max_penetration / study.scene.contact.gap,
-               pull = std::max(0.0, -study.exact.rigid->min_force / study.exact.force().maxCoeff());
-  artefact.check(
-      {"",
-       fmt::format("At {} the contact phases do not enter the rigid obstacle, nor pull at it.",
-                   study.penalty.frequency_text()),
-       fmt::format(
-           "at 1024 points the tip goes beyond the gap by less than {:g} of it, and no force is less than "
-           "minus {:g} of the largest",
-           rounding, rounding),
-       fmt::format("{} of the gap; {} of the largest force; the error of the displacement is estimated at {}",
-                   report::number(std::max(0.0, beyond)), report::number(pull),
-                   report::number(study.exact.phases->motion.estimated_error)),
-       beyond < rounding && pull < rounding});
-  std::vector<double> errors;
-  std::string text;
-  for (const int functions : {63, 255}) {
-    const auto balance = app::weighted_residual_response(
-        artefact.scene(fmt::format("case{}_rigid.toml", study.number),
-                       {fmt::format("time.functions={}", functions),
-                        fmt::format("time.quadrature_points={}", 4 * (functions + 1))}));
-    errors.push_back(balance.converged
-                         ? app::relative_rms_error(balance.displacement(), study.exact.displacement())
-                         : std::numeric_limits<double>::infinity());
-    text += fmt::format("{}{} with {}", text.empty() ? "" : ", ", percent(errors.back()), functions);
-  }
-  artefact.check(
-      {"",
-       fmt::format("At {} balances come near the contact phases as their functions grow.",
-                   study.penalty.frequency_text()),
-       "the error of the displacement of Fourier:Fourier falls to less than half with 255 functions "
-       "in place of 63 (relative rms)",
-       text, 2.0 * errors[1] < errors[0]});
+  artefact.statement(statement);
 }
 
 /// How far from the gap the tip is in contact, two cells away from its ends, over the gap.
@@ -338,9 +263,7 @@ void rigid_plateau(report::Artefact& artefact) {
     const Study& study = studies.emplace_back(artefact, number);
     add_panels(figure, study);
     append_rows(table, study);
-    note_penetration(artefact, study);
     note_forces(artefact, study);
-    check_reference(artefact, study);
   }
   artefact.data(table, "without unit");
   artefact.picture(figure);

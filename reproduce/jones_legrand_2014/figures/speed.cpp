@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -68,31 +69,27 @@ Cheapest cheapest(const std::vector<app::SolvePoint>& points, const Stair& stair
 struct Costs {
   std::string scene, title;
   bool rigid = false;
-  std::vector<std::vector<Cheapest>> displacement, force;
+  std::array<std::vector<std::vector<Cheapest>>, 2> by;  ///< the error of the displacement, of the force
 
-  const std::vector<std::vector<Cheapest>>& by(bool of_force) const {
-    return of_force ? force : displacement;
+  const Cheapest& at(bool of_force, std::size_t stair, int step) const {
+    return by[of_force][stair][static_cast<std::size_t>(step)];
   }
   /// Time over that of Fourier:Fourier; missing where either does not reach the error.
   double ratio(bool of_force, std::size_t stair, int step) const {
-    const auto& table = by(of_force);
-    const double own = table[stair][static_cast<std::size_t>(step)].seconds,
-                 fourier = table[0][static_cast<std::size_t>(step)].seconds;
+    const double own = at(of_force, stair, step).seconds, fourier = at(of_force, 0, step).seconds;
     return std::isfinite(own) && std::isfinite(fourier) ? own / fourier : solvers::missing;
   }
   /// Missing where the stair does not reach the error.
   double milliseconds(bool of_force, std::size_t stair, int step) const {
-    const double seconds = by(of_force)[stair][static_cast<std::size_t>(step)].seconds;
+    const double seconds = at(of_force, stair, step).seconds;
     return std::isfinite(seconds) ? 1e3 * seconds : solvers::missing;
   }
   /// The stair of the lowest time; none where no pair reaches the error.
   std::optional<std::size_t> best(bool of_force, int step) const {
     std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < by(of_force).size(); ++i) {
-      const double seconds = by(of_force)[i][static_cast<std::size_t>(step)].seconds;
-      if (std::isfinite(seconds) &&
-          (!found || seconds < by(of_force)[*found][static_cast<std::size_t>(step)].seconds))
-        found = i;
+    for (std::size_t i = 0; i < by[of_force].size(); ++i) {
+      const double seconds = at(of_force, i, step).seconds;
+      if (std::isfinite(seconds) && (!found || seconds < at(of_force, *found, step).seconds)) found = i;
     }
     return found;
   }
@@ -110,10 +107,10 @@ Costs costs_of(report::Artefact& artefact, const std::string& scene, const std::
       if (!pair.is_phases()) options.pairs.push_back(pair);
   const auto comparison = app::compare_responses(read, options);
   if (!comparison.reference.converged) throw report::NotConverged(scene + ": " + comparison.status());
-  Costs costs{scene, title, rigid, {}, {}};
+  Costs costs{scene, title, rigid, {}};
   for (const Stair& stair : stairs())
     for (const bool of_force : {false, true}) {
-      auto& list = (of_force ? costs.force : costs.displacement).emplace_back();
+      auto& list = costs.by[of_force].emplace_back();
       for (int step = 0; step < asked_steps; ++step)
         list.push_back(
             cheapest(comparison.points, stair,
@@ -131,7 +128,7 @@ Table costs_table(const std::vector<Costs>& all) {
     for (const bool of_force : {false, true})
       for (std::size_t i = 0; i < stairs().size(); ++i)
         for (int step = 0; step < asked_steps; ++step) {
-          const Cheapest& one = costs.by(of_force)[i][static_cast<std::size_t>(step)];
+          const Cheapest& one = costs.at(of_force, i, step);
           table.append_row({costs.scene, stairs()[i].label, std::string(of_force ? "force" : "displacement"),
                             error_asked(step), std::int64_t{one.functions}, known(one.seconds),
                             costs.ratio(of_force, i, step), known(one.once)});
@@ -180,16 +177,12 @@ app::Panel panel_of(const Costs& costs, bool of_force, const Range& range) {
     // What reaches the largest error asked holds beyond it, so that a stair of one step is seen.
     x.push_back(error_asked(-1));
     y.push_back(y.back());
-    Series series(stair.label, x, y, app::SeriesStyle::steps);
-    series.colour = stair.colour;
-    series.dash = stair.dash;
-    series.width = i + 1 == stairs().size() ? 2.4 : 1.4;
-    panel.add(std::move(series));
+    panel.add(report::styled({stair.label, x, y, app::SeriesStyle::steps}, stair.colour,
+                             {.dash = stair.dash, .width = i + 1 == stairs().size() ? 2.4 : 1.4}));
   }
   if (!std::isfinite(costs.milliseconds(of_force, 0, 0)))
     panel.texts.push_back({std::sqrt(error_asked(range.last) * error_asked(0)),
-                           std::sqrt(range.least * range.most),
-                           "Fourier:Fourier reaches none"});
+                           std::sqrt(range.least * range.most), "Fourier:Fourier reaches none"});
   return panel;
 }
 
@@ -252,18 +245,6 @@ std::function<double(const Costs&, int)> least_of(const std::function<bool(const
   };
 }
 
-/// The smallest error of the displacement that the stairs reach in any scene.
-double smallest_error(const std::vector<Costs>& all, const std::function<bool(const Stair&)>& chosen) {
-  int last = 0;
-  for (const Costs& costs : all)
-    for (std::size_t i = 0; i < stairs().size(); ++i)
-      for (int step = 0; step < asked_steps; ++step)
-        if (chosen(stairs()[i]) &&
-            std::isfinite(costs.displacement[i][static_cast<std::size_t>(step)].seconds))
-          last = std::max(last, step);
-  return error_asked(last);
-}
-
 /// The largest error asked from which on contact phases are the cheapest.
 std::string phases_win(const Costs& costs) {
   const std::size_t phases = stairs().size() - 1;
@@ -288,24 +269,11 @@ void take_away(report::Artefact& artefact, const std::vector<Costs>& all) {
                 " times that time.");
   artefact.note(fmt::format(
       "The better of the Haar pairs takes {} times that time with the exponential law and {} times against a rigid "
-      "obstacle. No error below {} was reached with Haar functions.",
-      span(all, false, least_of(haar)), span(all, true, least_of(haar)),
-      report::number(smallest_error(all, haar), 2)));
+      "obstacle.",
+      span(all, false, least_of(haar)), span(all, true, least_of(haar))));
   std::string wins;
   for (const Costs& costs : all) wins += (wins.empty() ? "" : "; ") + costs.title + " " + phases_win(costs);
   artefact.note("Contact phases are the cheapest of all: " + wins + ".");
-  int other = 0, compared = 0;
-  for (const Costs& costs : all)
-    for (int step = 0; step < asked_steps; step += per_decade) {
-      const auto by_displacement = costs.best(false, step), by_force = costs.best(true, step);
-      if (!by_displacement || !by_force) continue;
-      ++compared;
-      other += *by_displacement != *by_force ? 1 : 0;
-    }
-  artefact.note(fmt::format(
-      "By the error of the contact force another way is the cheapest in {} of {} cases, one for each scene and power "
-      "of ten.",
-      other, compared));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ def test_a_smaller_error_never_costs_less_and_fourier_is_its_own_measure(results
             assert float(row["seconds_with_plans"]) >= seconds, (stair, asked)
             if row["bases"] == "Fourier:Fourier":
                 assert float(row["over_fourier_fourier"]) == 1.0, (stair, asked)
-    assert len(results.record("speed")["notes"]) == 5
+    assert len(results.record("speed")["notes"]) == 4
 
 
 def test_a_pair_that_reaches_the_largest_error_alone_is_seen_in_its_panel(results):

@@ -97,8 +97,6 @@ def test_a_statement_on_the_rod_has_its_verdict(results, stem, words, verdict):
 @pytest.mark.parametrize("stem, words", [
     (FIG03, "initial gap amplitude"),
     (FIG03, "their work is identically zero"),
-    (FIG03, "Two solvers give one mode"),
-    (FIG03, "Every motion drawn satisfies its equations"),
     ("fig04_phase_space", "elliptic trajectories"),
     (FIG05, "standing wave"),
     (FIG05, "no more algebraically related"),

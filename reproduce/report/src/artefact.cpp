@@ -29,6 +29,7 @@ app::Scene Artefact::scene(const std::string& name, const std::vector<std::strin
 }
 
 void Artefact::statement(Statement statement) {
+  if (statement.verdict == Verdict::agrees) statement.because.clear();
   if (statement.verdict != Verdict::agrees && statement.because.empty())
     throw std::logic_error("\"" + statement.quote + "\" does not agree and gives no reason");
   if (statement.verdict == Verdict::depends &&
@@ -56,6 +57,12 @@ void Artefact::add_table(const std::string& name, const app::Table& table, std::
 void Artefact::attach(const std::string& name, std::string contents, bool listed) {
   texts_[name] = std::move(contents);
   if (!listed) unlisted_.insert(name);
+}
+
+void Artefact::script(const std::string& name, const std::string& suffix, const std::string& data) {
+  const std::string& stem = record_.identity.stem;
+  attach(stem + "." + suffix + ".js",
+         "((window.wavebalance ?\?= {})." + name + " ?\?= {})[\"" + stem + "\"] = " + data + ";\n", false);
 }
 
 void Artefact::picture(app::Figure figure) { figure_ = std::move(figure); }
@@ -86,6 +93,22 @@ void Artefact::write(double wall_seconds) {
   files.commit();
   scenes.commit();
   records.commit();
+}
+
+app::Axis axis(const std::string& label, double lower, double upper) {
+  app::Axis result;
+  result.label = label;
+  result.lower = lower;
+  result.upper = upper;
+  return result;
+}
+
+app::Series styled(app::Series series, app::Colour colour, const Look& look) {
+  series.colour = colour;
+  series.dash = look.dash;
+  series.width = look.width;
+  series.marker = look.marker;
+  return series;
 }
 
 TextTable text_table(const app::Table& table) {

@@ -1,21 +1,34 @@
 #include "wavebalance/report/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::report {
 
-NLOHMANN_JSON_SERIALIZE_ENUM(Verdict, {{Verdict::differs, "differs"},
-                                       {Verdict::agrees, "agrees"},
-                                       {Verdict::partly, "holds in part"},
-                                       {Verdict::ties, "ties"},
-                                       {Verdict::misprint, "misprint"},
-                                       {Verdict::depends, "depends"}})
+namespace {
+
+constexpr std::array<std::string_view, 6> verdict_names{"agrees", "differs",  "holds in part",
+                                                        "ties",   "misprint", "depends"};
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) { return verdict_names[static_cast<std::size_t>(verdict)]; }
+
+void to_json(nlohmann::json& json, Verdict verdict) { json = to_string(verdict); }
+
+/// Any other text differs.
+void from_json(const nlohmann::json& json, Verdict& verdict) {
+  const auto found = std::find(verdict_names.begin(), verdict_names.end(), json.get<std::string>());
+  verdict =
+      found == verdict_names.end() ? Verdict::differs : static_cast<Verdict>(found - verdict_names.begin());
+}
+
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reading, name, verdict, measured, of_text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Statement, place, quote, criterion, measured, verdict, because, readings,
-                                   panel, earlier, apart, headline)
+                                   panel, apart, headline)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Unjudged, place, quote, reason, found)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Slip, place, printed, meant, shown)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, place, sentence, criterion, measured, passes)
@@ -24,24 +37,6 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DataFile, name, units, notes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SceneUse, name, overrides)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Record, identity, caption, files, data, scenes, notes, statements, checks,
                                    unjudged, slips, table, program, wall_seconds, version)
-
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::agrees:
-      return "agrees";
-    case Verdict::differs:
-      return "differs";
-    case Verdict::partly:
-      return "holds in part";
-    case Verdict::ties:
-      return "ties";
-    case Verdict::misprint:
-      return "misprint";
-    case Verdict::depends:
-      return "depends";
-  }
-  return "";
-}
 
 std::string record_text(const Record& record) { return nlohmann::json(record).dump(2) + "\n"; }
 

@@ -17,7 +17,7 @@ def judged(**changes):
                 {"name": "x = 1", "verdict": "agrees", "measured": "1", "of_text": True}]
     statements = [statement("section 1", "holds", "x < 1", "0.5", "agrees"),
                   statement("section 2", "depends", "x < 1", "1.5", "depends", because="x is open. More.",
-                            readings=readings, panel="(b)", earlier="x < 2"),
+                            readings=readings, panel="(b)"),
                   statement("section 3", "fails", "x < 1", "3", "differs", because="x is large")]
     scenes = [{"name": "one.toml", "overrides": [["time.functions=8", "time.trial=haar"], ["time.functions=16"]]}]
     return record(STEM, number="JL14 Fig. 1", title='A < B & "C"', caption="caption with $x < 1$",
@@ -166,24 +166,12 @@ def test_a_card_says_what_decides_what_is_found_and_why(page, part):
     assert part in page()
 
 
-def test_a_page_states_the_rule_and_what_was_judged_otherwise_earlier(page):
-    rule = section(page(), "rule")
-    assert "Values within 10 % of each other tie." in rule
-    assert "<q>depends</q></td><td>x &lt; 2</td>" in rule
-    assert "<q>holds</q>" not in rule
-    assert "1 were judged by another criterion or had another verdict before, and 0 were not judged" in rule
-
-    def not_judged(one):
-        one["statements"][0]["earlier"] = "Not judged."
-
-    assert "verdict before, and 1 were not judged" in section(page(not_judged), "rule")
+def test_a_page_states_the_rule(page):
+    assert "Values within 10 % of each other tie." in section(page(), "rule")
 
 
-def test_a_page_opens_with_what_is_compared_and_its_history_is_folded(page):
+def test_a_page_opens_with_what_is_compared(page):
     assert page().index("sentences of the papers and not their curves") < page().index('id="brief"')
-    assert "<dt>Earlier</dt>" not in page()
-    rule = section(page(), "rule")
-    assert rule.index("Criteria and verdicts that have changed") < rule.index("The rule was proposed")
 
 
 def test_readings_are_open_where_the_verdict_depends_on_them(page):

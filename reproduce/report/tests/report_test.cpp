@@ -15,7 +15,7 @@ Record example() {
   record.data = {{"fig01_example.csv", "SI", {"a note of the data"}}};
   record.scenes = {{"one.toml", {{"time.functions=8"}}}};
   record.notes = {"a note"};
-  record.statements = {{"section 1", "holds", "x < 1", "0.5", Verdict::agrees, "", {}, "", ""},
+  record.statements = {{"section 1", "holds", "x < 1", "0.5", Verdict::agrees, "", {}, ""},
                        {"section 2",
                         "fails",
                         "x < 1",
@@ -23,8 +23,7 @@ Record example() {
                         Verdict::depends,
                         "x is open",
                         {{"x = 2", Verdict::differs, "2", false}},
-                        "(b)",
-                        "x < 2"}};
+                        "(b)"}};
   record.statements[1].apart = "elsewhere";
   record.unjudged = {{"section 3", "perhaps", "It names nothing.", ""}};
   record.slips = {{"eq. (1)", "+", "-", "eq. (2)"}};
@@ -107,7 +106,7 @@ TEST(Artefact, TheDataOfItsCurvesAreWrittenBesideThePicture) {
 
 TEST(Artefact, AStatementThatDoesNotAgreeNeedsAReasonAndOneThatDependsReadingsThatPart) {
   Artefact artefact({"some_paper", "SP Fig. 2", "title", "fig02"}, "nowhere", "nowhere");
-  Statement statement{"section 1", "quote", "x < 1", "2", Verdict::differs, "", {}, "", ""};
+  Statement statement{"section 1", "quote", "x < 1", "2", Verdict::differs, "", {}, ""};
   EXPECT_THROW(artefact.statement(statement), std::logic_error);
   statement.because = "x is large";
   artefact.statement(statement);

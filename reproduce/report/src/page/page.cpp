@@ -114,16 +114,9 @@ app::PageParts parts(const std::string& title, const std::string& assets, const 
   return page;
 }
 
-Section in_order(Section section) {
-  section.records = ordered(std::move(section.records), section.paper.order);
-  return section;
-}
-
 }  // namespace
 
-std::string page_html(const std::vector<Section>& given, const Origin& origin, bool measured) {
-  std::vector<Section> sections;
-  for (const Section& section : given) sections.push_back(in_order(section));
+std::string page_html(const std::vector<Section>& sections, const Origin& origin, bool measured) {
   const std::string brief = brief_html(sections);
   std::string main = fmt::format(
       "<h1>Two papers, reproduced and checked</h1>\n<p>Every figure and table below was computed from scene files by "
@@ -143,8 +136,7 @@ std::string page_html(const std::vector<Section>& given, const Origin& origin, b
                               layout(contents(sections, !brief.empty(), measured), main)));
 }
 
-std::string own_page_html(const Section& given, const Origin& origin) {
-  const Section section = in_order(given);
+std::string own_page_html(const Section& section, const Origin& origin) {
   const std::string main = fmt::format("<p><a href=\"../index.html\">← All results</a></p>\n<h1>{}</h1>\n",
                                        app::escaped(section.paper.name)) +
                            section_html({section, origin, "", "../assets/"});

@@ -40,6 +40,12 @@ std::string shortened(const std::string& text, std::size_t length);
 /// Records whose stems begin as `order` says come first, in that order.
 std::vector<Record> ordered(std::vector<Record> records, const std::vector<std::string>& order);
 
+/// A table with these heads below a summary that unfolds it. `attributes` of the element begin with a blank.
+std::string folded(const std::string& summary, const std::vector<std::string>& heads, const std::string& rows,
+                   const std::string& attributes = "");
+/// A row of a table, each text escaped and with its formulas.
+std::string row_of(const std::vector<std::string>& texts);
+
 /// The statements of a record as cards, and its checks, folded.
 std::string statements_html(const Record& record);
 std::string checks_html(const Record& record);
@@ -55,11 +61,9 @@ struct Place {
 /// The files of a record, the commands that compute it again, and their origin, folded.
 std::string origin_html(const Record& record, const Place& place);
 
-/// The motions that belong to a record, where their scripts have been written.
+/// The motions of a record: <stem>.motion.js, the motion of a bar, and a <name>.body.js for each series
+/// <name>.pvd.
 std::string moving_html(const Record& record, const Place& place);
-/// Writes the scripts of motions beside the files from which they are made: motion_<case>.json, the motion of
-/// a bar, and the series <stem>.pvd of the records. Throws app::IoError.
-void write_moving(const std::filesystem::path& folder, const std::vector<Record>& records);
 
 /// A figure or table with its statements.
 std::string artefact_html(const Record& record, const Place& place);
@@ -69,13 +73,8 @@ inline constexpr std::size_t most_agreeing = 6, most_others = 3;
 std::string brief_html(const std::vector<Section>& sections);
 /// Figure by statement, in colours and signs.
 std::string matrix_html(const std::vector<Section>& sections);
-/// All statements that do not agree, folded.
-std::string not_agreeing_html(const std::vector<Section>& sections);
-/// The rule, how it came about, and the statements whose criterion or verdict was another one earlier.
+/// The rule, what is not judged, and the misprints.
 std::string rule_html(const std::vector<Section>& sections);
-/// Sentences on results that are not judged, with the reasons, and the misprints of all papers. Both folded.
-std::string unjudged_html(const std::vector<Section>& sections);
-std::string misprints_html(const std::vector<Section>& sections);
 
 /// verdicts.csv: a row for each statement of the sections without a page of their own.
 app::Table verdicts_table(const std::vector<Section>& sections);
@@ -91,10 +90,5 @@ struct Found {
 /// Those of the sections without a page of their own.
 std::vector<Found> all_statements(const std::vector<Section>& sections,
                                   const std::function<bool(const Statement&)>& wanted);
-/// A link to a statement that shows the number of its figure, and cells with that link and the quotation.
-std::string link(const Found& found);
-std::string statement_cell(const Found& found);
-/// Sign and word of a verdict in its colour.
-std::string badge(const Statement& one);
 
 }  // namespace wavebalance::report

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -24,22 +25,16 @@ std::string word(const Statement& one) {
   return words + (one.apart.empty() ? "" : " · " + one.apart + ", not counted");
 }
 
-std::string reading_rows(const std::vector<Reading>& readings) {
+std::string reading_table(const std::string& summary, const std::vector<Reading>& readings, bool open) {
+  if (readings.empty()) return "";
   std::string rows;
   for (const Reading& reading : readings)
     rows +=
         fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{} {}</td></tr>\n",
                     kind(reading.verdict), app::with_formulas(reading.name),
                     app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
-  return rows;
-}
-
-std::string reading_table(const std::string& summary, const std::vector<Reading>& readings, bool open) {
-  if (readings.empty()) return "";
-  return fmt::format(
-      "<details class=\"readings\"{}><summary>{}</summary>\n<div class=\"wide\"><table>"
-      "<thead><tr><th>Reading</th><th>Found</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
-      open ? " open" : "", summary, reading_rows(readings));
+  return folded(summary, {"Reading", "Found", "Verdict"}, rows,
+                std::string(" class=\"readings\"") + (open ? " open" : ""));
 }
 
 /// Those of the text are open where the verdict depends on them.
@@ -74,6 +69,20 @@ std::string card(const Record& record, std::size_t index) {
 
 }  // namespace
 
+std::string folded(const std::string& summary, const std::vector<std::string>& heads, const std::string& rows,
+                   const std::string& attributes) {
+  return fmt::format(
+      "<details{}><summary>{}</summary>\n<div class=\"wide\"><table>\n<thead><tr><th>{}</th></tr></thead>\n<tbody>{}"
+      "</tbody></table></div></details>\n",
+      attributes, summary, fmt::join(heads, "</th><th>"), rows);
+}
+
+std::string row_of(const std::vector<std::string>& texts) {
+  std::string row = "<tr>";
+  for (const auto& text : texts) row += "<td>" + app::with_formulas(text) + "</td>";
+  return row + "</tr>\n";
+}
+
 std::string statements_html(const Record& record) {
   if (record.statements.empty()) return "";
   std::string text = "<h4>What the paper says</h4>\n<ol class=\"cards\">\n";
@@ -93,15 +102,13 @@ std::string checks_html(const Record& record) {
   const auto count = record.checks.size();
   const auto failed =
       std::count_if(record.checks.begin(), record.checks.end(), [](const Check& c) { return !c.passes; });
-  return fmt::format(
-      "<details class=\"checks\"{}><summary>{} of the code, not counted: {}</summary>\n<div class=\"wide\">"
-      "<table>\n<thead><tr><th>Checked</th><th>Decided by</th><th>Found</th><th></th></tr></thead>\n<tbody>{}</tbody>"
-      "</table></div></details>\n",
-      failed ? " open" : "", count == 1 ? "One check" : fmt::format("{} checks", count),
-      failed       ? fmt::format("{} of {} fail", failed, count)
-      : count == 1 ? "it passes"
-                   : "all pass",
-      rows);
+  return folded(fmt::format("{} of the code, not counted: {}",
+                            count == 1 ? "One check" : fmt::format("{} checks", count),
+                            failed       ? fmt::format("{} of {} fail", failed, count)
+                            : count == 1 ? "it passes"
+                                         : "all pass"),
+                {"Checked", "Decided by", "Found", ""}, rows,
+                std::string(" class=\"checks\"") + (failed ? " open" : ""));
 }
 
 }  // namespace wavebalance::report

@@ -18,24 +18,38 @@ std::vector<Found> all_statements(const std::vector<Section>& sections,
   return found;
 }
 
+namespace {
+
+bool counted(const Statement& one) { return one.apart.empty(); }
+
+/// A link to a statement that shows the number of its figure.
 std::string link(const Found& found) {
   return fmt::format("<a href=\"#{}\">{}</a>", anchor(found.record, found.index),
                      app::escaped(found.record.identity.number));
 }
 
+/// Sign and word of a verdict in its colour.
 std::string badge(const Statement& one) {
   return fmt::format("<span class=\"badge {}\">{} {}</span>", kind(one.verdict),
                      sign(one.verdict, one.readings), to_string(one.verdict));
 }
 
-std::string statement_cell(const Found& found) {
-  return fmt::format("<td>{}</td><td><q>{}</q></td>", link(found),
-                     app::with_formulas(found.statement().quote));
+/// All statements that do not agree.
+std::string not_agreeing_html(const std::vector<Section>& sections) {
+  const auto list =
+      all_statements(sections, [](const Statement& one) { return one.verdict != Verdict::agrees; });
+  if (list.empty()) return "";
+  std::string rows;
+  for (const Found& found : list) {
+    const Statement& one = found.statement();
+    rows +=
+        fmt::format("<tr><td>{}</td><td><q>{}</q></td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                    link(found), app::with_formulas(one.quote), app::with_formulas(one.criterion),
+                    app::with_formulas(one.measured), app::with_formulas(one.because), badge(one));
+  }
+  return folded(fmt::format("All {} statements that do not simply agree, with reasons", list.size()),
+                {"Figure", "The paper says", "Decided by", "Found", "Because", "Verdict"}, rows);
 }
-
-namespace {
-
-bool counted(const Statement& one) { return one.apart.empty(); }
 
 /// The findings of statements that agree, or of the others.
 std::string headlines(const std::vector<Section>& sections, bool agrees, std::size_t most) {
@@ -109,24 +123,6 @@ std::string brief_html(const std::vector<Section>& sections) {
       counts_text(sections),
       agreeing.empty() && others.empty() ? "" : "<ul class=\"brief\">\n" + agreeing + others + "</ul>\n",
       not_agreeing_html(sections));
-}
-
-std::string not_agreeing_html(const std::vector<Section>& sections) {
-  const auto list =
-      all_statements(sections, [](const Statement& one) { return one.verdict != Verdict::agrees; });
-  if (list.empty()) return "";
-  std::string rows;
-  for (const Found& found : list) {
-    const Statement& one = found.statement();
-    rows += fmt::format("<tr>{}<td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", statement_cell(found),
-                        app::with_formulas(one.criterion), app::with_formulas(one.measured),
-                        app::with_formulas(one.because), badge(one));
-  }
-  return fmt::format(
-      "<details><summary>All {} statements that do not simply agree, with reasons</summary>\n<div class=\"wide\""
-      "><table>\n<thead><tr><th>Figure</th><th>The paper says</th><th>Decided by</th><th>Found</th>"
-      "<th>Because</th><th>Verdict</th></tr></thead>\n<tbody>{}</tbody></table></div></details>\n",
-      list.size(), rows);
 }
 
 std::string matrix_html(const std::vector<Section>& sections) {

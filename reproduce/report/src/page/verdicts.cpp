@@ -6,6 +6,24 @@
 #include "wavebalance/report/rule.hpp"
 
 namespace wavebalance::report {
+namespace {
+
+struct Words {
+  const char *sign, *one, *many;
+};
+
+const Words& words_of(Verdict verdict) {
+  static constexpr std::array<Words, all_verdicts.size()> all{
+      {{"✓", "agrees", "agree"},
+       {"✗", "differs", "differ"},
+       {"½", "holds in part", "hold in part"},
+       {"≈", "ties", "tie"},
+       {"m", "is a misprint", "are misprints"},
+       {"?", "depends on what the paper leaves open", "depend on what the paper leaves open"}}};
+  return all[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace
 
 void Tally::add(const Record& record) {
   for (const Statement& one : record.statements)
@@ -20,21 +38,9 @@ std::string_view kind(Verdict verdict) {
 }
 
 std::string sign(Verdict verdict, const std::vector<Reading>& readings) {
-  switch (verdict) {
-    case Verdict::agrees:
-      return "✓";
-    case Verdict::differs:
-      return "✗";
-    case Verdict::partly:
-      return "½";
-    case Verdict::ties:
-      return "≈";
-    case Verdict::misprint:
-      return "m";
-    case Verdict::depends:
-      break;
-  }
-  return readings.empty() ? "?" : fmt::format("{}/{}", agreeing(readings), of_text(readings).size());
+  if (verdict == Verdict::depends && !readings.empty())
+    return fmt::format("{}/{}", agreeing(readings), of_text(readings).size());
+  return std::string(words_of(verdict).sign);
 }
 
 std::string anchor(const Record& record, std::size_t index) {
@@ -48,19 +54,12 @@ std::string short_number(const Record& record, const Paper& paper) {
 }
 
 std::string tally_text(const Tally& tally) {
-  constexpr std::array<std::array<const char*, 2>, all_verdicts.size()> words{
-      {{"agrees", "agree"},
-       {"differs", "differ"},
-       {"holds in part", "hold in part"},
-       {"ties", "tie"},
-       {"is a misprint", "are misprints"},
-       {"depends on what the paper leaves open", "depend on what the paper leaves open"}}};
   std::string text;
   for (const Verdict verdict : all_verdicts) {
     const int count = tally.of(verdict);
     if (count == 0) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count,
-                        words[static_cast<std::size_t>(verdict)][count == 1 ? 0 : 1]);
+                        count == 1 ? words_of(verdict).one : words_of(verdict).many);
   }
   return text;
 }

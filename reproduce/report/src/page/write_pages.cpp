@@ -13,8 +13,7 @@ void list_files(const std::filesystem::path& folder, const std::string& prefix,
 }
 
 Section read_section(const Paper& paper, const std::filesystem::path& folder) {
-  Section section{paper, read_records(folder / "records"), {}, {}};
-  write_moving(folder, section.records);
+  Section section{paper, ordered(read_records(folder / "records"), paper.order), {}, {}};
   list_files(folder, "", section.files);
   list_files(folder / "scenes", "scenes/", section.files);
   for (const auto& [name, bytes] : section.files)
@@ -35,10 +34,7 @@ void write_pages(const std::filesystem::path& results, const Origin& origin) {
   for (const Section& section : sections)
     if (section.paper.own_page)
       app::write_file(results / section.paper.folder / "index.html", own_page_html(section, origin));
-  std::vector<Section> in_order = sections;
-  for (Section& section : in_order)
-    section.records = ordered(std::move(section.records), section.paper.order);
-  app::write_file(results / "verdicts.csv", app::csv_text(verdicts_table(in_order)));
+  app::write_file(results / "verdicts.csv", app::csv_text(verdicts_table(sections)));
   app::write_file(results / "index.html",
                   page_html(sections, origin, std::filesystem::exists(results / "bench" / "index.html")));
 }

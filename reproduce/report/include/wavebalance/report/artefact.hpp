@@ -41,6 +41,8 @@ class Artefact {
   void more_data(const std::string& suffix, const app::Table& table, std::string units);
   /// Any other file beside stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
+  /// The script stem.suffix.js, which sets wavebalance.<name>[stem] to `data`, JSON, where a page loads it.
+  void script(const std::string& name, const std::string& suffix, const std::string& data);
   void picture(app::Figure figure);
   /// The command that makes this artefact, for the record: "jl14 fig06".
   void made_by(std::string program) { record_.program = std::move(program); }
@@ -48,8 +50,8 @@ class Artefact {
   void printed(const app::Table& table);
   void caption(std::string text) { record_.caption = std::move(text); }
   void note(std::string text) { record_.notes.push_back(std::move(text)); }
-  /// A statement of the paper. Throws std::logic_error for one that does not agree and gives no reason, and
-  /// for one that depends on readings of which none agrees or all do.
+  /// A statement of the paper; one that agrees loses its reason. Throws std::logic_error for one that does
+  /// not agree and gives no reason, and for one that depends on readings of which none agrees or all do.
   void statement(Statement statement);
   const std::vector<Statement>& statements() const { return record_.statements; }
   /// A check of the code, or a sentence of this project's own.
@@ -72,6 +74,17 @@ class Artefact {
   std::set<std::string> unlisted_;
   std::optional<app::Figure> figure_;
 };
+
+/// An axis with its limits.
+app::Axis axis(const std::string& label, double lower, double upper);
+
+/// How a series is drawn, beside its colour.
+struct Look {
+  app::Dash dash = app::Dash::solid;
+  double width = 1.6;  ///< points
+  int marker = 0;
+};
+app::Series styled(app::Series series, app::Colour colour, const Look& look = {});
 
 /// The cells of `table`, numbers as the CSV file has them.
 TextTable text_table(const app::Table& table);

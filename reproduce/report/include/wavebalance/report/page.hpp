@@ -26,7 +26,7 @@ const std::vector<Paper>& papers();
 /// The results of one paper.
 struct Section {
   Paper paper;
-  std::vector<Record> records;
+  std::vector<Record> records;  ///< in the order of the page
   std::map<std::string, std::uintmax_t>
       files;  ///< what its folder holds, "scenes/" too, and the bytes of each
   std::map<std::string, std::string> sizes{};  ///< app::picture_size() of its pictures

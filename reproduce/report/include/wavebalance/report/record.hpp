@@ -28,9 +28,6 @@ struct Reading {
   bool of_text = true;
 };
 
-/// What stands as Statement::earlier where earlier versions did not judge the sentence.
-inline constexpr const char* not_judged = "Not judged.";
-
 /// A statement of a paper and what this run finds. See rule.hpp for what decides.
 struct Statement {
   std::string place;          ///< "section 5.5"
@@ -41,7 +38,6 @@ struct Statement {
   std::string because = {};            ///< the reason; needed unless it agrees
   std::vector<Reading> readings = {};  ///< empty where the paper leaves nothing open
   std::string panel = {};              ///< which part of the picture shows it, "(e)"; empty: the whole
-  std::string earlier = {};            ///< the criterion or verdict of earlier versions, where it has changed
   std::string apart = {};     ///< why it is judged but not counted, "on another blade"; empty: counted
   std::string headline = {};  ///< what was found in one sentence, for the opening of the page
 };

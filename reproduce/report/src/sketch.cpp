@@ -1,12 +1,12 @@
-#include "sketch.hpp"
+#include "wavebalance/report/sketch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace wavebalance::ll10 {
+namespace wavebalance::report {
 
-Table polylines_table(const std::vector<Polyline>& lines) {
-  Table table({"line", "part", "x", "y"});
+app::Table polylines_table(const std::vector<Polyline>& lines) {
+  app::Table table({"line", "part", "x", "y"});
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const auto& [x, y] : lines[i].points) table.append_row({std::int64_t(i + 1), lines[i].part, x, y});
   return table;
@@ -28,7 +28,7 @@ app::Figure sketch(const std::vector<Polyline>& lines, const app::Axis& x, const
       xs.push_back(point[0]);
       ys.push_back(point[1]);
     }
-    Series series("", xs, ys);
+    app::Series series("", xs, ys);
     series.colour = app::Colour::black;
     series.width = line.part == "hatching" ? 0.8 : 1.6;
     panel.add(std::move(series));
@@ -47,4 +47,4 @@ std::vector<Polyline> hatching(const Polyline& line, double length) {
   return strokes;
 }
 
-}  // namespace wavebalance::ll10
+}  // namespace wavebalance::report

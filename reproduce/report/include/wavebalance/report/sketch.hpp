@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "ll10.hpp"
+#include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/plot/plot.hpp"
 
 /// Sketches made of lines, which are written as data too.
-namespace wavebalance::ll10 {
+namespace wavebalance::report {
 
 /// A line of a sketch. Parts named "hatching" are drawn thin.
 struct Polyline {
@@ -15,7 +16,7 @@ struct Polyline {
 };
 
 /// line, part, x, y.
-Table polylines_table(const std::vector<Polyline>& lines);
+app::Table polylines_table(const std::vector<Polyline>& lines);
 
 /// A figure of one panel without frame that shows the lines. `x` and `y` bound it, in pixels per unit
 /// panel_width over the range of x.
@@ -26,4 +27,4 @@ app::Figure sketch(const std::vector<Polyline>& lines, const app::Axis& x, const
 /// mark what holds or stops a body. The normal is to the right of the direction of the line.
 std::vector<Polyline> hatching(const Polyline& line, double length);
 
-}  // namespace wavebalance::ll10
+}  // namespace wavebalance::report
