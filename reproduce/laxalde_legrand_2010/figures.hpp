@@ -7,7 +7,6 @@ namespace wavebalance::ll10 {
 void fig01(report::Artefact& artefact);
 void fig02(report::Artefact& artefact);
 void fig03(report::Artefact& artefact);
-void fig03_convergence(report::Artefact& artefact);
 void fig03_sampling(report::Artefact& artefact);
 void algorithms(report::Artefact& artefact);
 void fig04(report::Artefact& artefact);
