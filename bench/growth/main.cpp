@@ -5,8 +5,8 @@
 #include "data_file.hpp"
 #include "memory.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -65,14 +65,14 @@ Measured measure(const app::Scene& scene) {
   measured.run = true;
   const solvers::AnyContactLaw law = app::make_law(scene.contact);
   measured.bytes = peak_bytes([&] { solve_once(smallest(scene)); }, [&] { solve_once(scene); });
-  measured.construction_seconds = least_seconds([&] { condensed_problem(scene); });
+  measured.construction_seconds = app::least_seconds([&] { condensed_problem(scene); });
   solvers::CondensedProblem problem = condensed_problem(scene);
-  measured.condensation_seconds = least_seconds([&] {
+  measured.condensation_seconds = app::least_seconds([&] {
     problem.forget_condensation();
     problem.set_frequency(scene.forcing.frequency);
   });
   solvers::PeriodicResponse response;
-  measured.seconds = least_seconds(
+  measured.seconds = app::least_seconds(
       [&] {
         problem.forget_condensation();
         problem.set_frequency(scene.forcing.frequency);
@@ -175,7 +175,7 @@ void fit(Results& results, const SizeSeries& one) {
 
 void measure_all(Results& results, const SizeSeries& one) {
   Measured last;
-  TimeLimit limit(longest);
+  app::TimeLimit limit(longest);
   for (std::size_t i = 0; i < one.sizes.size(); ++i) {
     const app::Scene scene = sized(one, one.sizes[i]);
     const double growth = i == 0 ? 1.0 : double(one.sizes[i]) / one.sizes[i - 1];

@@ -9,7 +9,7 @@
 
 #include "dense_system.hpp"
 #include "solver_scenes.hpp"
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/fft.hpp"
@@ -26,7 +26,7 @@ double fft_pair_seconds(int points) {
   spectral::RealFft fft(points);
   std::vector<double> samples(static_cast<std::size_t>(points), 1.0);
   std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(fft.harmonics()));
-  return least_seconds([&] {
+  return app::least_seconds([&] {
     fft.forward(samples, spectrum);
     fft.inverse(spectrum, samples);
     for (double& sample : samples) sample /= points;
@@ -40,12 +40,12 @@ void solve_points(benchmark::State& state, solvers::CondensedProblem& problem, c
   solvers::PeriodicResponse response;
   double quickest = std::numeric_limits<double>::infinity();
   for (auto _ : state) {
-    const double start = processor_seconds();
+    const double start = app::processor_seconds();
     problem.forget_condensation();
     problem.set_frequency(scene.frequency);
     response = solvers::forced_response(problem, law, {});
     benchmark::DoNotOptimize(response.displacement.data());
-    quickest = std::min(quickest, processor_seconds() - start);
+    quickest = std::min(quickest, app::processor_seconds() - start);
   }
   if (!response.converged()) state.SkipWithError("not converged");
   state.counters["newton"] = response.iterations;

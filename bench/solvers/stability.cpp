@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -33,9 +33,9 @@ StabilityCase stability_case(const std::string& file, double frequency,
   solvers::FrequencySweepOptions options;
   options.from = scene.analysis.frequency_from;
   options.to = scene.analysis.frequency_to;
-  const double start = processor_seconds();
+  const double start = app::processor_seconds();
   const auto sweep = solvers::frequency_sweep(problem, laws, options);
-  const double seconds = (processor_seconds() - start) / double(sweep.points.size());
+  const double seconds = (app::processor_seconds() - start) / double(sweep.points.size());
   problem.set_frequency(frequency);
   auto response = solvers::forced_response(problem, laws, {});
   solvers::ContactDynamics dynamics(problem.structure());

@@ -4,7 +4,7 @@
 #include "data_file.hpp"
 #include "program.hpp"
 #include "random_motions.hpp"
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
@@ -33,10 +33,10 @@ double true_error(const tolerance::RandomMotion& motion, solvers::RefinementResu
 
 void append(app::Table& table, std::uint64_t seed, double tolerance) {
   const tolerance::RandomMotion motion(seed);
-  const double start = processor_seconds();
+  const double start = app::processor_seconds();
   auto found = motion.refine(
-      tolerance, [&](const solvers::Progress&) { return processor_seconds() - start < max_seconds; });
-  const double seconds = processor_seconds() - start;
+      tolerance, [&](const solvers::Progress&) { return app::processor_seconds() - start < max_seconds; });
+  const double seconds = app::processor_seconds() - start;
   const double error = true_error(motion, found, tolerance);
   table.append_row({std::to_string(seed), motion.scene.contact.law, motion.scene.forcing.frequency,
                     motion.scene.structure.stiffness_damping, motion.scene.contact.gap, tolerance,

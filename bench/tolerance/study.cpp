@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "stopwatch.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int output_points = 4096;
 constexpr int reference_functions = (1 << 14) - 1;
-constexpr Repetition repetition{.budget = 0.003};
+constexpr app::Repetition repetition{.budget = 0.003};
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -55,13 +55,13 @@ ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const 
 
 bool ToleranceStudy::measure(FixedChoice& choice) const {
   constexpr double hardly_swings = 0.01;  // s
-  const double start = processor_seconds();
+  const double start = app::processor_seconds();
   const Solution found = solve(choice);
-  choice.seconds = processor_seconds() - start;
+  choice.seconds = app::processor_seconds() - start;
   if (!found.response.converged()) return false;
   choice.error = error_of(found.problem, found.response);
   if (choice.seconds < hardly_swings)
-    choice.seconds = std::min(choice.seconds, least_seconds([&] { solve(choice); }, repetition));
+    choice.seconds = std::min(choice.seconds, app::least_seconds([&] { solve(choice); }, repetition));
   return true;
 }
 
@@ -114,12 +114,12 @@ Beside ToleranceStudy::time_beside(const Asked& asked, const FixedChoice& choice
   std::vector<double> of_asked, of_fixed;
   for (double total = 0.0; total < budget || of_asked.size() < least;
        total += of_asked.back() + of_fixed.back()) {
-    const double start = processor_seconds();
+    const double start = app::processor_seconds();
     refine(asked.tolerance);
-    const double middle = processor_seconds();
+    const double middle = app::processor_seconds();
     if (!choice.trial.empty()) solve(choice);
     of_asked.push_back(middle - start);
-    of_fixed.push_back(processor_seconds() - middle);
+    of_fixed.push_back(app::processor_seconds() - middle);
   }
   return {median(of_asked), choice.trial.empty() ? std::nan("") : median(of_fixed)};
 }

@@ -2,9 +2,9 @@
 
 #include "dense_system.hpp"
 #include "points.hpp"
-#include "stopwatch.hpp"
 #include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
@@ -32,12 +32,12 @@ Point dense_point(const Study& study, int functions, double max_seconds) {
   point.points = 4 * (functions + 1);
   const spectral::FourierBasis basis(functions);
   const Eigen::Vector2cd cosine(0.0, 1.0);
-  const double start = processor_seconds();
+  const double start = app::processor_seconds();
   dense::DenseSystem system(app::make_structure(study.scene()), app::make_law(study.scene().contact),
                             dense::discretise(basis, basis, {.quadrature_points = point.points}, cosine));
-  point.construction_seconds = processor_seconds() - start;
+  point.construction_seconds = app::processor_seconds() - start;
   dense::Solution solution;
-  point.seconds = least_seconds(
+  point.seconds = app::least_seconds(
       [&] {
         system.set_frequency(study.scene().forcing.frequency);
         solution = system.newton(system.linear_response(), {.tolerance = 1e-11});
@@ -73,7 +73,7 @@ std::vector<Point> time_stepping_points(const Study& study, const std::vector<do
     options.period_tolerance = tolerance;
     options.step_tolerance = 1e-3 * tolerance;
     solvers::TimeSteppingResult result;
-    point.seconds = least_seconds(
+    point.seconds = app::least_seconds(
         [&] {
           result = solvers::integrate_to_periodic(structure, law, study.scene().forcing.frequency, options);
         },

@@ -8,7 +8,7 @@
 #include "picture.hpp"
 #include "points.hpp"
 #include "program.hpp"
-#include "stopwatch.hpp"
+#include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 
@@ -85,22 +85,25 @@ class Results {
 
   void add(const std::vector<Study>& studies, const std::string& title, const std::string& picture_name,
            const Method& method) {
-    WorkPrecisionPicture picture(title);
+    app::Figure picture;
+    picture.title = title;
+    picture.panel_width = 900;
+    picture.panel_height = 460;
     for (const Study& study : studies) {
-      const double start = processor_seconds();
+      const double start = app::processor_seconds();
       const std::vector<Point> points = method(study);
       append(table_, study, points);
-      picture.add(study, points);
+      add_panel(picture, study, points);
       cheapest_.add(study, points);
       notes_.push_back("reference of " + study.name + ": " + study.reference.text + ", own error about " +
                        app::cell_text(study.reference.error));
-      report(study, points, processor_seconds() - start);
+      report(study, points, app::processor_seconds() - start);
       write_data(program_.output, "work_precision", table_,
                  {"Error over solve time of every pair of bases", "SI; a column's name ends in its unit",
                   "reproduce/scenes", notes_});
     }
     write_cheapest();
-    write_pictures(program_.output / picture_name, picture.figure());
+    write_pictures(program_.output / picture_name, picture);
   }
 
  private:

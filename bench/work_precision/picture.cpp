@@ -23,15 +23,8 @@ app::Series baseline(const std::string& method, const std::string& label, int ma
 
 }  // namespace
 
-WorkPrecisionPicture::WorkPrecisionPicture(const std::string& title) {
-  figure_.title = title;
-  figure_.columns = 1;
-  figure_.panel_width = 900;
-  figure_.panel_height = 460;
-}
-
-void WorkPrecisionPicture::add(const Study& study, const std::vector<Point>& points) {
-  app::Panel& panel = figure_.add_panel(study.title);
+void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>& points) {
+  app::Panel& panel = figure.add_panel(study.title);
   panel.x.label = "Solve time (processor seconds)";
   panel.y.label = "Relative rms error of the tip displacement";
   panel.x.logarithmic = panel.y.logarithmic = true;

@@ -1,5 +1,4 @@
 #pragma once
-#include <string>
 #include <vector>
 
 #include "points.hpp"
@@ -7,17 +6,9 @@
 
 namespace wavebalance::bench {
 
-/// Error over solve time, a panel a study: the front over everything, what Fourier:Fourier and the four pairs
+/// Adds a panel of error over solve time: the front over everything, what Fourier:Fourier and the four pairs
 /// with the most points on the front reach at best, contact phases and the baselines. Points that have not
 /// converged are not drawn.
-class WorkPrecisionPicture {
- public:
-  explicit WorkPrecisionPicture(const std::string& title);
-  void add(const Study& study, const std::vector<Point>& points);
-  const app::Figure& figure() const { return figure_; }
-
- private:
-  app::Figure figure_;
-};
+void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>& points);
 
 }  // namespace wavebalance::bench
