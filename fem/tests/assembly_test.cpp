@@ -1,9 +1,6 @@
 #include "wavebalance/fem/assembly.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <stdexcept>
+#include "testing.hpp"
 
 namespace wavebalance::fem {
 namespace {

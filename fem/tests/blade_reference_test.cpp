@@ -1,9 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cmath>
-#include <string>
 
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"

@@ -1,11 +1,9 @@
 #include "block_lanczos.hpp"
-
-#include <gtest/gtest.h>
-
-#include <limits>
+#include "blade_of.hpp"
 
 #include "dense_algebra.hpp"
 #include "sparse_product.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 
@@ -14,14 +12,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-Blade lanczos_blade() {
-  BladeOptions options;
-  options.element = SolidElement::hexahedron8;
-  options.chord_elements = 4;
-  options.thickness_elements = 2;
-  options.span_elements = 8;
-  return blade(options);
-}
+Blade lanczos_blade() { return blade(blade_of(SolidElement::hexahedron8, 4, 2, 8)); }
 
 /// The eigenvalues of K^-1 M, descending, by the dense solver.
 Eigen::VectorXd dense_values(const Matrices& matrices) {

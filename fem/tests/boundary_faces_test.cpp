@@ -1,14 +1,11 @@
 #include "wavebalance/fem/boundary_faces.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <map>
-#include <stdexcept>
 #include <tuple>
-#include <vector>
 
 #include "print.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {
@@ -22,10 +19,7 @@ StructuredMesh skewed_box(SolidElement element) {
 
 class Faces : public testing::TestWithParam<SolidElement> {};
 INSTANTIATE_TEST_SUITE_P(Boundary, Faces,
-                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20),
-                         [](const auto& chosen) {
-                           return chosen.param == SolidElement::hexahedron8 ? "hexahedron8" : "hexahedron20";
-                         });
+                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20), case_name);
 
 TEST_P(Faces, OfABlockAreThoseOfItsSixSides) {
   const StructuredMesh block = skewed_box(GetParam());

@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <sstream>
-#include <string>
 
+#include "blade_of.hpp"
 #include "hexahedron.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
@@ -14,13 +13,7 @@ namespace {
 
 constexpr double seven_digits = 5e-7;
 
-BladeOptions coarse(SolidElement element) {
-  BladeOptions options;
-  options.element = element;
-  options.chord_elements = 4;
-  options.span_elements = 5;
-  return options;
-}
+BladeOptions coarse(SolidElement element) { return blade_of(element, 4, 1, 5); }
 
 void expect_frequencies(const Eigen::SparseMatrix<double>& stiffness, const Eigen::SparseMatrix<double>& mass,
                         const std::vector<double>& published) {

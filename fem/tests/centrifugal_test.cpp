@@ -1,13 +1,10 @@
 #include "wavebalance/fem/centrifugal.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
-#include <stdexcept>
 
 #include "beam.hpp"
 #include "print.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
@@ -24,10 +21,7 @@ SolidModel clamped(SolidElement element) {
 
 class EveryRotor : public testing::TestWithParam<SolidElement> {};
 INSTANTIATE_TEST_SUITE_P(Solid, EveryRotor,
-                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20),
-                         [](const auto& chosen) {
-                           return chosen.param == SolidElement::hexahedron8 ? "hexahedron8" : "hexahedron20";
-                         });
+                         testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20), case_name);
 
 // A bar about an axis at its root pulls itself out by rho L^3/(3 E), at radius R by rho R L^2/(2 E) more;
 // without lateral contraction that is exact. Six cells carry the parabolic stress to 1/(2 6^2) at most.

@@ -1,12 +1,7 @@
 #include "wavebalance/fem/check_structure.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "expect_error.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/blade.hpp"
 

@@ -1,20 +1,13 @@
 #include "wavebalance/fem/craig_bampton.hpp"
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
-
-#include "constants.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/bar.hpp"
 
 namespace wavebalance::fem {
 namespace {
 
 Matrices damped_bar(int elements) {
-  BarOptions options;
-  options.elements = elements;
-  options.stiffness_damping = 1e-4;
+  BarOptions options{.elements = elements, .stiffness_damping = 1e-4};
   return bar(options);
 }
 

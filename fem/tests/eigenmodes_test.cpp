@@ -1,11 +1,6 @@
 #include "wavebalance/fem/eigenmodes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <stdexcept>
-
-#include "constants.hpp"
+#include "testing.hpp"
 #include "uniform_bar.hpp"
 
 namespace wavebalance::fem {
@@ -15,8 +10,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 EigenmodesResult modes_of(const BarOptions& options, int count, int dense_up_to = 200) {
   const Matrices matrices = bar(options);
-  EigenmodesOptions solver;
-  solver.dense_up_to = dense_up_to;
+  EigenmodesOptions solver{.dense_up_to = dense_up_to};
   return eigenmodes(matrices.stiffness, matrices.mass, count, solver);
 }
 
@@ -39,9 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Eigenmodes, BothSolvers, testing::Values(1000, 0),
 TEST_P(BothSolvers, GiveTheDiscreteDispersionOfTheUniformBar) {
   for (int elements : {20, 25, 100})
     for (double lumped : {0.0, 0.5, 1.0}) {
-      BarOptions options;
-      options.elements = elements;
-      options.lumped_fraction = lumped;
+      BarOptions options{.elements = elements, .lumped_fraction = lumped};
       const EigenmodesResult found = modes_of(options, 8, GetParam());
       ASSERT_EQ(found.status, EigenmodesStatus::converged);
       ASSERT_EQ(found.omega.size(), 8);
@@ -65,8 +57,7 @@ TEST_P(BothSolvers, GiveSinesAsShapes) {
 }
 
 TEST_P(BothSolvers, GiveMassOrthonormalShapesThatDiagonaliseTheStiffness) {
-  BarOptions options;
-  options.elements = 300;
+  BarOptions options{.elements = 300};
   const Matrices matrices = bar(options);
   const EigenmodesResult found = modes_of(options, 12, GetParam());
   const Eigen::MatrixXd mass = found.shapes.transpose() * (matrices.mass * found.shapes);
@@ -79,11 +70,9 @@ TEST_P(BothSolvers, GiveMassOrthonormalShapesThatDiagonaliseTheStiffness) {
 }
 
 TEST_P(BothSolvers, FindBothCopiesOfADoubleMode) {
-  BarOptions options;
-  options.elements = 60;
+  BarOptions options{.elements = 60};
   const Matrices matrices = bar(options);
-  EigenmodesOptions solver;
-  solver.dense_up_to = GetParam();
+  EigenmodesOptions solver{.dense_up_to = GetParam()};
   const EigenmodesResult found = eigenmodes(twice(matrices.stiffness), twice(matrices.mass), 6, solver);
   ASSERT_EQ(found.status, EigenmodesStatus::converged);
   for (int i = 0; i < 6; ++i)
@@ -93,8 +82,7 @@ TEST_P(BothSolvers, FindBothCopiesOfADoubleMode) {
 // A coarse tolerance accepts the first copies before the others appear; the count of modes sends it back for
 // them.
 TEST(Eigenmodes, AreCompleteAtACoarseToleranceToo) {
-  BarOptions options;
-  options.elements = 500;
+  BarOptions options{.elements = 500};
   const Matrices matrices = bar(options);
   const Sparse stiffness = twice(matrices.stiffness);
   const Sparse mass = twice(matrices.mass);
@@ -117,8 +105,7 @@ TEST_P(BothSolvers, FindTheRigidModeOfAFreeBarWithANegativeShift) {
     mass.insert(i, i) = end ? 0.5 : 1.0;
     if (i + 1 < nodes) stiffness.insert(i, i + 1) = stiffness.insert(i + 1, i) = -1.0;
   }
-  EigenmodesOptions solver;
-  solver.dense_up_to = GetParam();
+  EigenmodesOptions solver{.dense_up_to = GetParam()};
   EXPECT_THROW(eigenmodes(stiffness, mass, 3, solver), std::domain_error);
   solver.shift = -0.01;
   const EigenmodesResult found = eigenmodes(stiffness, mass, 3, solver);
@@ -129,15 +116,13 @@ TEST_P(BothSolvers, FindTheRigidModeOfAFreeBarWithANegativeShift) {
 }
 
 TEST_P(BothSolvers, AllowNodesWithoutMass) {
-  BarOptions options;
-  options.elements = 60;
+  BarOptions options{.elements = 60};
   Matrices matrices = bar(options);
   options.lumped_fraction = 1.0;
   matrices.mass = bar(options).mass;
   for (int i = 0; i < 60; i += 2) matrices.mass.coeffRef(i, i) = 0.0;  // statically between their neighbours
   for (int i = 1; i < 60; i += 2) matrices.mass.coeffRef(i, i) *= 2.0;
-  EigenmodesOptions solver;
-  solver.dense_up_to = GetParam();
+  EigenmodesOptions solver{.dense_up_to = GetParam()};
   const EigenmodesResult found = eigenmodes(matrices.stiffness, matrices.mass, 4, solver);
   options.elements = 30;  // the same chain of every second node
   for (int mode = 1; mode <= 4; ++mode)
@@ -145,8 +130,7 @@ TEST_P(BothSolvers, AllowNodesWithoutMass) {
 }
 
 TEST(Eigenmodes, FitABarOfOneHundredThousandElements) {
-  BarOptions options;
-  options.elements = 100'000;
+  BarOptions options{.elements = 100'000};
   const EigenmodesResult found = modes_of(options, 3);
   ASSERT_EQ(found.status, EigenmodesStatus::converged);
   for (int mode = 1; mode <= 3; ++mode)
@@ -181,11 +165,9 @@ TEST(Eigenmodes, OfAWideSpectrumAreOrthogonalAtItsUpperEndToo) {
 }
 
 TEST(Eigenmodes, SayWhenTheIterationEndedEarly) {
-  BarOptions options;
-  options.elements = 5000;
+  BarOptions options{.elements = 5000};
   const Matrices matrices = bar(options);
-  EigenmodesOptions solver;
-  solver.max_restarts = 1;
+  EigenmodesOptions solver{.max_restarts = 1};
   solver.tolerance = 1e-15;
   const EigenmodesResult found = eigenmodes(matrices.stiffness, matrices.mass, 9, solver);
   EXPECT_EQ(found.status, EigenmodesStatus::not_converged);

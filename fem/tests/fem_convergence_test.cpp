@@ -7,9 +7,7 @@ namespace wavebalance::fem {
 namespace {
 
 double relative_error(int elements, double lumped_fraction, int mode) {
-  BarOptions options;
-  options.elements = elements;
-  options.lumped_fraction = lumped_fraction;
+  BarOptions options{.elements = elements, .lumped_fraction = lumped_fraction};
   const Matrices matrices = bar(options);
   const EigenmodesResult found = eigenmodes(matrices.stiffness, matrices.mass, mode);
   return found.omega[mode - 1] / continuous_omega(options, mode) - 1.0;

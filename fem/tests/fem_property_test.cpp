@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <cmath>
 
 #include "dense_algebra.hpp"
 #include "random_values.hpp"
+#include "testing.hpp"
 #include "uniform_bar.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 
@@ -48,9 +46,7 @@ RC_GTEST_PROP(EigenmodesProperty, DenseAndSparseAgreeWithTheStandardProblem, ())
 }
 
 RC_GTEST_PROP(BarProperty, FrequenciesScaleWithTheWaveSpeedOverTheLength, ()) {
-  BarOptions options;
-  options.elements = *rc::gen::inRange(2, 40);
-  options.lumped_fraction = any_between(0, 1);
+  BarOptions options{.elements = *rc::gen::inRange(2, 40), .lumped_fraction = any_between(0, 1)};
   options.youngs_modulus = std::pow(10.0, any_between(-6, 13));
   options.density = std::pow(10.0, any_between(-6, 5));
   options.area = std::pow(10.0, any_between(-9, 6));

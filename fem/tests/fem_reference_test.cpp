@@ -13,12 +13,11 @@ EigenmodesResult first_modes(const BarOptions& options, int count) {
 
 // The rod of Laxalde & Legrand 2010, section 4.
 BarOptions rod(double lumped_fraction) {
-  BarOptions options;
-  options.youngs_modulus = 2.1e11;
-  options.density = 7800;
-  options.area = 0.03 * 0.03;
-  options.elements = 20;
-  options.lumped_fraction = lumped_fraction;
+  BarOptions options{.youngs_modulus = 2.1e11,
+                     .density = 7800,
+                     .area = 0.03 * 0.03,
+                     .elements = 20,
+                     .lumped_fraction = lumped_fraction};
   return options;
 }
 

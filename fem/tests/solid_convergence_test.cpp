@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "beam.hpp"
+#include "blade_of.hpp"
 #include "dense_algebra.hpp"
 #include "print.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
@@ -29,12 +26,7 @@ class EveryBeam : public testing::TestWithParam<SolidElement> {};
 INSTANTIATE_TEST_SUITE_P(Solid, EveryBeam,
                          testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20,
                                          SolidElement::hexahedron20_reduced),
-                         [](const auto& chosen) {
-                           return std::string(chosen.param == SolidElement::hexahedron8 ? "hexahedron8"
-                                              : chosen.param == SolidElement::hexahedron20
-                                                  ? "hexahedron20"
-                                                  : "hexahedron20_reduced");
-                         });
+                         case_name);
 
 // Slenderness 50: shear and rotatory inertia take 0.1 % of the frequency.
 TEST_P(EveryBeam, HasTheFrequencyOfEulerAndBernoulliWhenSlender) {
@@ -95,12 +87,7 @@ TEST(SolidFrequencies, ConvergeWithAtLeastOrderFourWithTwentyNodesAndReducedInte
 }
 
 double first_of_blade(SolidElement element, int chord, int thickness, int span) {
-  BladeOptions options;
-  options.element = element;
-  options.chord_elements = chord;
-  options.thickness_elements = thickness;
-  options.span_elements = span;
-  return lowest(blade(options).model);
+  return lowest(blade(blade_of(element, chord, thickness, span)).model);
 }
 
 // Plain trilinear hexahedra are 35 % too stiff here.

@@ -1,11 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
 #include <sstream>
 
 #include "random_values.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 #include "wavebalance/fem/solid.hpp"
 

@@ -1,14 +1,10 @@
 #include "wavebalance/fem/solid.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
-#include <stdexcept>
 
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "print.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 
 namespace wavebalance::fem {
@@ -21,16 +17,7 @@ class EverySolid : public testing::TestWithParam<SolidElement> {};
 INSTANTIATE_TEST_SUITE_P(Solid, EverySolid,
                          testing::Values(SolidElement::hexahedron8, SolidElement::hexahedron20,
                                          SolidElement::hexahedron20_reduced),
-                         [](const auto& chosen) {
-                           switch (chosen.param) {
-                             case SolidElement::hexahedron8:
-                               return "hexahedron8";
-                             case SolidElement::hexahedron20:
-                               return "hexahedron20";
-                             default:
-                               return "hexahedron20_reduced";
-                           }
-                         });
+                         case_name);
 
 // Straight edges, no two faces parallel.
 Eigen::Vector3d skewed(const Eigen::Vector3d& at) {

@@ -1,12 +1,10 @@
 #include "symmetric_factor.hpp"
+#include "blade_of.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <random>
 #include <thread>
 
 #include "dense_algebra.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/blade.hpp"
 #include "wavebalance/fem/static_displacements.hpp"
 
@@ -17,14 +15,7 @@ using detail::inertia;
 using detail::SymmetricFactor;
 using Sparse = Eigen::SparseMatrix<double>;
 
-Matrices small_blade() {
-  BladeOptions options;
-  options.element = SolidElement::hexahedron8;
-  options.chord_elements = 4;
-  options.thickness_elements = 2;
-  options.span_elements = 6;
-  return solid_matrices(blade(options).model);
-}
+Matrices small_blade() { return solid_matrices(blade(blade_of(SolidElement::hexahedron8, 4, 2, 6)).model); }
 
 /// A symmetric matrix of random entries, about four beside the diagonal of each row.
 Sparse random_matrix(int size, unsigned seed) {

@@ -1,16 +1,12 @@
 #include "wavebalance/fem/vtu.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "print.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::fem {
 namespace {

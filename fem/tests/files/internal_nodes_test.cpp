@@ -1,9 +1,6 @@
 #include "wavebalance/fem/internal_nodes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
+#include "testing.hpp"
 #include "wavebalance/fem/bar.hpp"
 
 namespace wavebalance::fem {

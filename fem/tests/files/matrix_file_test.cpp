@@ -1,7 +1,6 @@
 #include "wavebalance/fem/matrix_file.hpp"
 
 #include <gtest/gtest.h>
-
 #include <cstdio>
 #include <sstream>
 
@@ -28,9 +27,7 @@ Sparse harwell_boeing(const std::string& text) {
 
 /// A stiffness with negative entries and many digits.
 Sparse sample_matrix() {
-  BarOptions options;
-  options.length = 1.0 / 3.0;
-  options.elements = 7;
+  BarOptions options{.length = 1.0 / 3.0, .elements = 7};
   return bar(options).stiffness;
 }
 

@@ -1,9 +1,7 @@
 #include "wavebalance/fem/matrix_market.hpp"
 
 #include <gtest/gtest.h>
-
 #include <sys/stat.h>
-
 #include <sstream>
 
 #include "expect_error.hpp"
@@ -34,8 +32,7 @@ TEST(MatrixMarket, ReadsGeneralAndSymmetricMatrices) {
 }
 
 TEST(MatrixMarket, GivesBackWhatItWroteToTheLastBit) {
-  BarOptions options;
-  options.length = 1.0 / 3.0;
+  BarOptions options{.length = 1.0 / 3.0};
   const Eigen::SparseMatrix<double> matrix = bar(options).stiffness;
   for (auto symmetry : {MatrixMarketSymmetry::general, MatrixMarketSymmetry::symmetric}) {
     std::stringstream file;

@@ -1,12 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "expect_error.hpp"
 #include "temporary_folder.hpp"
+#include "testing.hpp"
 #include "wavebalance/fem/mesh.hpp"
 #include "wavebalance/fem/vtu.hpp"
 
