@@ -1,16 +1,8 @@
 // Every law of the catalogue, made of values that its own description allows.
 #include "wavebalance/contact/catalogue.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include "constants.hpp"
 #include "temporary_folder.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
 
-#include "constants.hpp"
 #include "laws_under_test.hpp"
 #include "random_values.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

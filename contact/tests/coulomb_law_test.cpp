@@ -1,14 +1,8 @@
 // Elastic Coulomb friction over a period: exact hysteresis, the derivative by differences, order in the
 // points with lift-off and with two tangents, a period that closes, bad input.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <stdexcept>
 
 #include "wavebalance/contact/coulomb_law.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

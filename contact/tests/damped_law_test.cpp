@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <stdexcept>
-
 #include "random_values.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
 

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include "constants.hpp"
 #include "quadratic_program.hpp"
 #include "random_values.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

@@ -1,14 +1,7 @@
 #include "wavebalance/contact/multipliers.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include "constants.hpp"
 #include "quadratic_program.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

@@ -1,10 +1,8 @@
 #include "wavebalance/contact/ring_law.hpp"
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <cmath>
-#include <stdexcept>
+
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <stdexcept>
-#include <string>
 
-#include "constants.hpp"
 #include "random_values.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/bilinear_law.hpp"
 #include "wavebalance/contact/clearance_law.hpp"
 #include "wavebalance/contact/cubic_law.hpp"

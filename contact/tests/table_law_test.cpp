@@ -1,14 +1,10 @@
 #include "wavebalance/contact/table_law.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
-
-#include <cmath>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
 
 #include "temporary_folder.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::contact {
 namespace {

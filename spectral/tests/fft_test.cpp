@@ -1,15 +1,8 @@
 #include "wavebalance/spectral/fft.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <stdexcept>
 #include <thread>
-#include <vector>
 
-#include "constants.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::spectral {
 namespace {

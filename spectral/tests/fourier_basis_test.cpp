@@ -1,12 +1,6 @@
 #include "wavebalance/spectral/fourier_basis.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <stdexcept>
-
-#include "constants.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::spectral {
 namespace {

@@ -1,13 +1,7 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
-#include "constants.hpp"
+#include "testing.hpp"
 #include "wavebalance/spectral/aft.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
