@@ -1,8 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include "pairs.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/spectral/aft.hpp"
 
@@ -86,19 +83,13 @@ struct Resolution {
 };
 constexpr Resolution resolutions[] = {{4, 64}, {7, 81}, {15, 256}, {31, 256}};
 
-TEST(AftOracle, GivesTheForcesOfTheBalance) {
+TEST(AftOracle, GivesTheForcesOfTheBalanceWhichFulfilTheEquationOfMotionOfEachHarmonic) {
   for (const Case& scene : cases)
     for (const auto& [harmonics, points] : resolutions) {
       SCOPED_TRACE(std::string(scene.name) + ", H " + std::to_string(harmonics));
-      Balance(scene, harmonics, points).expect_equal_samples();
-    }
-}
-
-TEST(AftOracle, ItsForcesFulfilTheEquationOfMotionOfEachHarmonic) {
-  for (const Case& scene : cases)
-    for (const auto& [harmonics, points] : resolutions) {
-      SCOPED_TRACE(std::string(scene.name) + ", H " + std::to_string(harmonics));
-      Balance(scene, harmonics, points).expect_equation_of_motion();
+      Balance balance(scene, harmonics, points);
+      balance.expect_equal_samples();
+      balance.expect_equation_of_motion();
     }
 }
 

@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "dense_algebra.hpp"
 #include "pairs.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 // Orders of convergence on a smooth scene: no contact, three harmonics of load, exact inner products. The

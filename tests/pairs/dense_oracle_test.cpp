@@ -1,13 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/QR>
-#include <complex>
-#include <numbers>
-#include <random>
-#include <unsupported/Eigen/AutoDiff>
-
 #include "dense_algebra.hpp"
 #include "oracle.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
@@ -28,30 +21,21 @@ TEST(DenseOracle, CoversEveryPairAndFormulationThatIsAdmissible) {
   EXPECT_EQ(admissible_settings().size(), 6u * 3u + 3u + 3u + 1u + 1u + 2u + 1u);
 }
 
-TEST(DenseOracle, EqualsTheSymbolsForEveryPairAndFormulation) {
+TEST(DenseOracle, EqualsTheSymbolsForEveryPairAndFormulationAtLeftEndsAndMiddles) {
   int all = 0, with_contact = 0;
   for (const Setting& setting : admissible_settings())
     for (const Case& scene : cases)
-      for (const Sizes& size : {Sizes{5, 8, 64}, Sizes{7, 16, 256}}) {
+      for (const auto& [size, offset] : {std::pair{Sizes{5, 8, 64}, 0.0},
+                                         {Sizes{7, 16, 256}, 0.0},
+                                         {Sizes{4, 8, 64}, 0.5},
+                                         {Sizes{5, 16, 256}, 0.5}}) {
         SCOPED_TRACE(describe(setting) + ", " + scene.name + ", M " + std::to_string(size.functions));
-        with_contact += Oracle(setting, scene, size.elements, size.functions, size.points).expect_equal();
+        with_contact +=
+            Oracle(setting, scene, size.elements, size.functions, size.points, offset).expect_equal();
         ++all;
       }
   // Sums over 64 points for 8 functions leave Daubechies:Daubechies in the weak form short of the obstacle.
-  EXPECT_GE(with_contact, all - 1);
-}
-
-TEST(DenseOracle, EqualsTheSymbolsAtTheMiddlesForEveryPairAndFormulation) {
-  int all = 0, with_contact = 0;
-  for (const Setting& setting : admissible_settings())
-    for (const Case& scene : cases)
-      for (const Sizes& size : {Sizes{4, 8, 64}, Sizes{5, 16, 256}}) {
-        SCOPED_TRACE(describe(setting) + ", " + scene.name + ", M " + std::to_string(size.functions));
-        with_contact +=
-            Oracle(setting, scene, size.elements, size.functions, size.points, 0.5).expect_equal();
-        ++all;
-      }
-  EXPECT_GE(with_contact, all - 1);
+  EXPECT_GE(with_contact, all - 2);
 }
 
 TEST(DenseOracle, EqualsTheSymbolsForTheWholeBar) {
@@ -77,8 +61,12 @@ TEST(DenseOracle, EqualsTheSymbolsForManyContacts) {
 // Without mass along its contact directions, as rigid obstacles need it.
 solvers::LinearStructure massless_at_contacts(solvers::LinearStructure structure) {
   const Eigen::MatrixXd rows(structure.contact_directions);
-  const Eigen::MatrixXd across = Eigen::MatrixXd::Identity(rows.cols(), rows.cols()) -
-                                 rows.completeOrthogonalDecomposition().pseudoInverse() * rows;
+  // Directions along which no contact acts, also where one is that of another.
+  const auto along =
+      oracle::generalized_eigen(rows.transpose() * rows, Eigen::MatrixXd::Identity(rows.cols(), rows.cols()));
+  Eigen::Index free = 0;
+  while (free < along.values.size() && along.values[free] < 1e-9 * along.values.tail(1)[0]) ++free;
+  const Eigen::MatrixXd basis = along.vectors.leftCols(free), across = basis * basis.transpose();
   const Eigen::MatrixXd mass = across.transpose() * (structure.mass * across);
   structure.mass = Eigen::MatrixXd(0.5 * (mass + mass.transpose())).sparseView();
   return structure;
@@ -170,37 +158,6 @@ TEST(DenseOracle, ExactInnerProductsAreThoseOfFineSums) {
     for (std::size_t d = 0; d <= 2; ++d)
       EXPECT_LE((exact.products[d] - fine[d]).norm(), 1e-5 * exact.products[d].norm())
           << pair.name << " " << d;
-  }
-}
-
-using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
-
-TEST(DenseOracle, JacobianIsTheDerivativeOfTheResidual) {
-  const Case& scene = cases[0];
-  const int elements = 2, functions = 8, points = 32;
-  for (const Pair& pair : table_2) {
-    const auto how = options(pair, functions, points, InnerProducts::exact);
-    const auto time =
-        dense::discretise(basis(pair.trial, functions), basis(pair.weight, functions), how, cosine_load());
-    dense::DenseSystem system(scene.structure(elements), scene.law(), time);
-    system.set_frequency(scene.frequency_hz);
-    std::mt19937 generator(3);
-    std::normal_distribution<double> normal;
-    const Eigen::VectorXd a =
-        Eigen::VectorXd::NullaryExpr(elements * functions, [&] { return scene.gap * normal(generator); });
-    Eigen::MatrixXd expected = system.matrix();
-    const int first = (elements - 1) * functions;
-    for (int l = 0; l < points; ++l) {
-      Dual u(0.0, Eigen::VectorXd::Zero(a.size()));
-      for (int j = 0; j < functions; ++j)
-        u += time.trial(l, j) * Dual(a[first + j], Eigen::Index(a.size()), first + j);
-      if (u.value() <= scene.gap) continue;
-      const Dual force = 1e8 * (exp(scene.exponent * (u - scene.gap)) - 1.0);
-      for (int i = 0; i < functions; ++i)
-        expected.row(first + i) += time.weight(l, i) / points * force.derivatives().transpose();
-    }
-    EXPECT_LE((system.jacobian(a) - expected).norm(), 1e-13 * expected.norm()) << pair.name;
-    EXPECT_GT((expected - system.matrix()).norm(), 1e-6 * expected.norm()) << "no sample is in contact";
   }
 }
 

@@ -1,12 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <iterator>
 
 #include "dense_system.hpp"
 #include "pairs.hpp"
 #include "paper_values.hpp"
 #include "period_oracle/shooting.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
@@ -22,8 +20,7 @@ using solvers::InnerProducts;
 
 const oracle::ShootingResult& reference(const Case& scene) {
   static const auto run = [](const Case& c) {
-    oracle::ShootingOptions how;
-    how.full_history = true;
+    oracle::ShootingOptions how{.full_history = true};
     return oracle::shoot(c.structure(), c.law(), c.frequency_hz, how);
   };
   static const oracle::ShootingResult results[] = {run(cases[0]), run(cases[1])};

@@ -1,10 +1,8 @@
 // The sweep of [JL14, Fig. 12] with the Nyquist coefficient dropped, in every pair, number of functions and
 // length of step.
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 #include "pairs.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::pairs {

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <stdexcept>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_law.hpp"
@@ -24,9 +25,9 @@ struct ShootingOptions {
   double tolerance = 1e-11;   ///< on the relative change of the state over one period, in the energy norm
   /// Bound on a step's error in the contact impulse, relative to the period times the largest force.
   double step_tolerance = 1e-12;
-  bool full_history = false;             ///< also keep every degree of freedom
-  Eigen::VectorXd initial_displacement;  ///< n, m, at t = 0; empty: that of the response without contact
-  Eigen::VectorXd initial_velocity;      ///< n, m/s, at t = 0; empty: that of the response without contact
+  bool full_history = false;               ///< also keep every degree of freedom
+  Eigen::VectorXd initial_displacement{};  ///< n, m, at t = 0; empty: that of the response without contact
+  Eigen::VectorXd initial_velocity{};      ///< n, m/s, at t = 0; empty: that of the response without contact
 };
 
 /// The periodic motion and its stability.
@@ -60,5 +61,13 @@ struct ShootingResult {
 /// is not positive and finite, or the force depends on the velocity. Options are not checked.
 ShootingResult shoot(const solvers::LinearStructure& structure, const solvers::AnyContactLaw& law,
                      double frequency_hz, const ShootingOptions& options = {});
+
+/// The motion at so many points that a test needs: without one, std::runtime_error.
+inline ShootingResult shot_motion(const solvers::LinearStructure& structure,
+                                  const solvers::AnyContactLaw& law, double frequency_hz, int points) {
+  ShootingResult result = shoot(structure, law, frequency_hz, {.output_points = points});
+  if (result.status != ShootingStatus::converged) throw std::runtime_error("shooting found no motion");
+  return result;
+}
 
 }  // namespace wavebalance::oracle

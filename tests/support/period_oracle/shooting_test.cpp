@@ -1,14 +1,9 @@
 #include "period_oracle/shooting.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include "constants.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
+#include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::oracle {
 namespace {
@@ -22,9 +17,7 @@ TEST(Shooting, GivesTheClosedFormOfALinearOscillator) {
   const double critical = 2.0 * std::sqrt(oscillator.stiffness * oscillator.mass);
   for (const double damping : {0.0, 30.0, critical, 100.0 * critical}) {
     oscillator.damping = damping;
-    ShootingOptions options;
-    options.output_points = 60;
-    options.initial_displacement = Eigen::VectorXd::Constant(1, 3e-3);
+    ShootingOptions options{.output_points = 60, .initial_displacement = Eigen::VectorXd::Constant(1, 3e-3)};
     const ShootingResult result =
         shoot(oscillator.structure(), AnyContactLaw(), oscillator.frequency, options);
     ASSERT_EQ(result.status, ShootingStatus::converged) << damping;
@@ -64,9 +57,7 @@ TEST(Shooting, SamplesDoNotDependOnTheirNumber) {
 }
 
 TEST(Shooting, FullHistoryHoldsTheContactSamplesAndTheInitialState) {
-  ShootingOptions options;
-  options.output_points = 32;
-  options.full_history = true;
+  ShootingOptions options{.output_points = 32, .full_history = true};
   const ShootingResult result = shoot(jl14_bar(4, 1e-4), testing::ExponentialLaw{}, 150.0, options);
   ASSERT_EQ(result.status, ShootingStatus::converged);
   ASSERT_EQ(result.structure.displacement.rows(), 4);
@@ -85,9 +76,7 @@ TEST(Shooting, StartsOnEitherBranchOfABistableResponse) {
   const LinearStructure bar = scene.structure();
   const ShootingResult below = shoot(bar, scene.law, 1300.0);
   ASSERT_EQ(below.status, ShootingStatus::converged);
-  ShootingOptions options;
-  options.initial_displacement = below.displacement;
-  options.initial_velocity = below.velocity;
+  ShootingOptions options{.initial_displacement = below.displacement, .initial_velocity = below.velocity};
   const ShootingResult contact = shoot(bar, scene.law, 1320.0, options);
   const ShootingResult free = shoot(bar, scene.law, 1320.0);
   ASSERT_EQ(contact.status, ShootingStatus::converged);
@@ -100,9 +89,7 @@ TEST(Shooting, StartsOnEitherBranchOfABistableResponse) {
 
 TEST(Shooting, TooFewIterationsAreNotConverged) {
   const testing::Jl14Case& scene = testing::jl14_case_2;
-  ShootingOptions options;
-  options.settling_periods = 0;
-  options.max_iterations = 1;
+  ShootingOptions options{.settling_periods = 0, .max_iterations = 1};
   const ShootingResult result = shoot(scene.structure(6), scene.law, scene.frequency_hz, options);
   EXPECT_EQ(result.status, ShootingStatus::iteration_limit);
   EXPECT_GT(result.residual, options.tolerance);
@@ -126,13 +113,9 @@ TEST(Shooting, TakesDampingOfWhichRoundingAloneCouplesTheModes) {
   const auto damped = [](double coupling) {
     Eigen::Matrix3d damping = Eigen::Vector3d(10.0, 1e5, 1e5).asDiagonal();
     damping(1, 2) = damping(2, 1) = 1e5 * coupling;
-    LinearStructure structure;
-    structure.mass = Eigen::MatrixXd(Eigen::Matrix3d::Identity()).sparseView();
-    structure.stiffness = Eigen::MatrixXd(Eigen::Vector3d(1e5, 1e13, 2e13).asDiagonal()).sparseView();
-    structure.damping = Eigen::MatrixXd(damping).sparseView();
-    structure.load = Eigen::Vector3d(1.0, 0.0, 0.0);
-    structure.contact_directions = contact_rows({0}, 3);
-    return structure;
+    return testing::structure(Eigen::Matrix3d::Identity(), damping,
+                              Eigen::Vector3d(1e5, 1e13, 2e13).asDiagonal(), Eigen::Vector3d(1.0, 0.0, 0.0),
+                              contact_rows({0}, 3));
   };
   EXPECT_EQ(shoot(damped(2e-9), AnyContactLaw(), 30.0).status, ShootingStatus::converged);
   EXPECT_THROW(shoot(damped(2e-8), AnyContactLaw(), 30.0), std::invalid_argument);
