@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 

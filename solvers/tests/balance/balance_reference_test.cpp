@@ -1,10 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <ostream>
 
 #include "period_oracle/shooting.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
@@ -16,9 +14,8 @@ namespace {
 constexpr int output_points = 1024;
 
 PeriodicResponse solve(const testing::Jl14Case& reference, int functions, int points, Eigen::VectorXd& tip) {
-  CondensedProblem problem(testing::fourier_pair(functions, points), reference.structure(),
-                           testing::cosine_load());
-  problem.set_frequency(reference.frequency_hz);
+  CondensedProblem problem =
+      testing::fourier_problem(reference.structure(), functions, points, reference.frequency_hz);
   const PeriodicResponse response = forced_response(problem, reference.law, {});
   TrialEvaluator evaluate(problem.pair().trial(), output_points, 0);
   tip = evaluate(response.coefficients);
@@ -27,8 +24,7 @@ PeriodicResponse solve(const testing::Jl14Case& reference, int functions, int po
 
 const Eigen::VectorXd& shooting_tip(bool second_case) {
   static const auto run = [](const testing::Jl14Case& reference) {
-    oracle::ShootingOptions options;
-    options.output_points = output_points;
+    oracle::ShootingOptions options{.output_points = output_points};
     const oracle::ShootingResult result =
         oracle::shoot(reference.structure(), reference.law, reference.frequency_hz, options);
     EXPECT_EQ(result.status, oracle::ShootingStatus::converged);
@@ -73,45 +69,6 @@ INSTANTIATE_TEST_SUITE_P(Case2, HarmonicBalanceError,
                                            ErrorCase{true, 63, 1024, 1.842e-5},
                                            ErrorCase{true, 127, 1024, 9.33e-6},
                                            ErrorCase{true, 127, 4096, 1.06e-6}));
-
-// Seven digits are given; the maxima are read off a fine grid of the converged trial functions.
-TEST(HarmonicBalance, ReachesTheReferenceValuesOfBothCases) {
-  for (const auto& reference : {testing::jl14_case_1, testing::jl14_case_2}) {
-    CondensedProblem problem(testing::fourier_pair(1023, 4096), reference.structure(),
-                             testing::cosine_load());
-    problem.set_frequency(reference.frequency_hz);
-    Eigen::VectorXd coarse;
-    solve(reference, 255, 4096, coarse);
-    const PeriodicResponse response = forced_response(problem, reference.law, {});
-    ASSERT_TRUE(response.converged());
-    TrialEvaluator evaluate(problem.pair().trial(), 1 << 17, 0);
-    const Eigen::VectorXd tip = evaluate(response.coefficients);
-    const double rms = tip.norm() / std::sqrt(double(tip.size()));
-    EXPECT_NEAR(rms, reference.rms_displacement, 1e-6 * rms);
-    EXPECT_NEAR(tip.maxCoeff(), reference.max_displacement, 1e-6 * reference.max_displacement);
-    EXPECT_NEAR(tip.cwiseAbs().maxCoeff(), reference.max_abs_displacement,
-                1e-6 * reference.max_abs_displacement);
-    const double contact = double((response.contact_force.array() > 0.0).count()) / 4096;
-    EXPECT_NEAR(contact, reference.contact_fraction, 1.5 / 4096);
-    EXPECT_NEAR(response.contact_force.maxCoeff() / 250e3, reference.max_force_ratio,
-                1e-3 * reference.max_force_ratio);
-  }
-}
-
-TEST(HarmonicBalance, SweepTurnsWhereAnIndependentComputationDoes) {
-  for (const bool rising : {true, false}) {
-    CondensedProblem problem(testing::fourier_pair(63, 1024), testing::jl14_case_2.structure(),
-                             testing::cosine_load());
-    FrequencySweepOptions options;
-    options.from = rising ? 1100.0 : 1700.0;
-    options.to = rising ? 1700.0 : 1100.0;
-    const FrequencySweep sweep = frequency_sweep(problem, testing::jl14_case_2.law, options);
-    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
-    ASSERT_EQ(sweep.turning_points.size(), 2u);
-    EXPECT_NEAR(sweep.turning_points[rising ? 0 : 1].frequency, 1337.748, 0.1);
-    EXPECT_NEAR(sweep.turning_points[rising ? 1 : 0].frequency, 1315.067, 0.1);
-  }
-}
 
 }  // namespace
 }  // namespace wavebalance::solvers

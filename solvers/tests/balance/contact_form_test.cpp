@@ -1,22 +1,17 @@
 // The force form: the resolvents of laws, and responses to rigid and stiff laws with them.
-#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/balance/resolvent_law.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
@@ -37,8 +32,10 @@ struct TwoSided {
   }
   double gap() const { return start; }
 };
+// It does not say that it acts on both sides.
 struct Cubic {
   double stiffness = 1e11, begin = 0.0;
+
   double force(double u) const { return stiffness * u * u * u; }
   double tangent(double u) const { return 3.0 * stiffness * u * u; }
   double potential(double u) const { return 0.25 * stiffness * u * u * u * u; }
@@ -98,39 +95,19 @@ Eigen::VectorXd tip_motion(CondensedProblem& problem, const PeriodicResponse& re
 TEST(RigidContact, OfTheBarConvergesInDisplacement) {
   const testing::Jl14Case& one = testing::jl14_case_2;
   CondensedProblem fine = bar_problem(one, testing::fourier_pair(511, 1024));
-  const PeriodicResponse reference = forced_response(fine, Rigid{one.law.start}, {});
-  ASSERT_TRUE(reference.converged());
+  const PeriodicResponse reference = testing::solved_response(fine, Rigid{one.law.start});
   EXPECT_EQ(reference.strategy, Strategy::newton);
   const Eigen::VectorXd exact = tip_motion(fine, reference);
   for (const auto& [functions, bound] :
        {std::pair{31, 6.1e-3}, std::pair{63, 2.9e-3}, std::pair{127, 7.5e-4}, std::pair{255, 3e-4}}) {
     SCOPED_TRACE(functions);
     CondensedProblem problem = bar_problem(one, testing::fourier_pair(functions, 2 * (functions + 1)));
-    const PeriodicResponse response = forced_response(problem, Rigid{one.law.start}, {});
-    ASSERT_TRUE(response.converged()) << to_string(response.status);
+    const PeriodicResponse response = testing::solved_response(problem, Rigid{one.law.start});
     EXPECT_GT(response.series_flexibility.size(), 0);
     EXPECT_LE(response.iterations, 20);
     EXPECT_GE(response.contact_force.minCoeff(), 0.0);
     EXPECT_LE((tip_motion(problem, response) - exact).norm(), bound * exact.norm());
   }
-}
-
-std::vector<TimePair> pairs_without_nyquist() {
-  const spectral::FourierBasis fourier(63);
-  return {testing::fourier_pair(63, 128), testing::fourier_pair(63, 256),
-          testing::make_pair(testing::CubicBasis{64}, testing::CubicBasis{64}, 128)};
-}
-
-TEST(RigidContact, IsSolvedInEveryKindOfPair) {
-  for (const testing::Jl14Case* one : {&testing::jl14_case_1, &testing::jl14_case_2})
-    for (const TimePair& pair : pairs_without_nyquist()) {
-      CondensedProblem problem = bar_problem(*one, pair);
-      const PeriodicResponse response = forced_response(problem, Rigid{one->law.start}, {});
-      ASSERT_TRUE(response.converged()) << to_string(response.status);
-      EXPECT_GE(response.contact_force.minCoeff(), 0.0);
-      EXPECT_LE(response.displacement.maxCoeff(), 1.03 * one->law.start);
-      EXPECT_GT(response.contact_force.maxCoeff(), 0.2 * 250e3);
-    }
 }
 
 TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
@@ -149,50 +126,13 @@ TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
   EXPECT_GT((motions[0] - motions[1]).norm(), 0.0);
 }
 
-TEST(RigidContact, IsTheLimitOfStiffSprings) {
-  const testing::Jl14Case& one = testing::jl14_case_2;
-  CondensedProblem problem = bar_problem(one, testing::fourier_pair(63, 128));
-  const PeriodicResponse rigid = forced_response(problem, Rigid{one.law.start}, {});
-  ASSERT_TRUE(rigid.converged());
-  for (const double stiffness : {1e13, 1e16, 1e19}) {
-    ForcedResponseOptions options;
-    options.form = ContactForm::force;
-    const PeriodicResponse stiff =
-        forced_response(problem, testing::LinearContact{stiffness, one.law.start}, options);
-    ASSERT_TRUE(stiff.converged()) << stiffness;
-    EXPECT_LE((stiff.displacement - rigid.displacement).norm(),
-              1e13 / stiffness * 1e-3 * rigid.displacement.norm());
-  }
-}
-
-// Turning points by an independent computation: 1331.0 and 1314.839 Hz.
-TEST(RigidContact, IsSweptThroughBothTurningPoints) {
-  CondensedProblem problem(testing::fourier_pair(127, 512),
-                           testing::massless_tip(testing::jl14_case_2.structure()), testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 1100.0;
-  options.to = 1700.0;
-  const FrequencySweep sweep = frequency_sweep(problem, Rigid{testing::jl14_case_2.law.start}, options);
-  EXPECT_EQ(sweep.status, SweepStatus::reached_end);
-  EXPECT_EQ(sweep.form, ContactForm::force);
-  ASSERT_EQ(sweep.turning_points.size(), 2u);
-  EXPECT_NEAR(sweep.turning_points[0].frequency, 1331.0, 0.2);
-  EXPECT_NEAR(sweep.turning_points[1].frequency, 1314.839, 0.02);
-  for (const SweepPoint& point : sweep.points)
-    EXPECT_LE(point.max_displacement, 1.005 * testing::jl14_case_2.law.start);
-}
-
 // With 30 times the stiffness at low harmonics Newton's method converges over short steps only: 454 points.
 TEST(RigidContact, IsSweptWithManyFunctionsInFewPoints) {
-  CondensedProblem problem(testing::fourier_pair(511, 2048),
-                           testing::massless_tip(testing::jl14_case_2.structure()), testing::cosine_load());
-  problem.set_frequency(1275.0);
+  CondensedProblem problem =
+      testing::fourier_problem(testing::massless_tip(testing::jl14_case_2.structure()), 511, 2048, 1275.0);
   EXPECT_LT(2.0 * problem.high_frequency_compliance()[0], problem.contact_compliance()[0] / 30.0);
-  FrequencySweepOptions options;
-  options.from = 1280.0;
-  options.to = 1400.0;
-  const FrequencySweep sweep = frequency_sweep(problem, Rigid{testing::jl14_case_2.law.start}, options);
-  EXPECT_EQ(sweep.status, SweepStatus::reached_end);
+  const FrequencySweep sweep = testing::complete_sweep(problem, Rigid{testing::jl14_case_2.law.start},
+                                                       testing::between(1280.0, 1400.0));
   EXPECT_LE(sweep.points.size(), 200u);
   ASSERT_EQ(sweep.turning_points.size(), 2u);
   EXPECT_NEAR(sweep.turning_points[0].frequency, 1331.0, 0.2);
@@ -201,18 +141,13 @@ TEST(RigidContact, IsSweptWithManyFunctionsInFewPoints) {
 
 // Three masses in a row; S selects or combines their displacements.
 LinearStructure row_of_masses(const Eigen::Vector3d& masses, const Eigen::MatrixXd& directions) {
-  LinearStructure row;
-  row.mass = Eigen::MatrixXd(masses.asDiagonal()).sparseView();
-  row.stiffness = Eigen::MatrixXd(Eigen::Matrix3d{{2, -1, 0}, {-1, 2, -1}, {0, -1, 1}}).sparseView();
-  row.damping = 0.1 * row.stiffness;
-  row.load = Eigen::Vector3d(1.0, 0.0, 0.0);
-  row.contact_directions = directions.sparseView();
-  return row;
+  const Eigen::Matrix3d stiffness{{2, -1, 0}, {-1, 2, -1}, {0, -1, 1}};
+  return testing::structure(masses.asDiagonal(), 0.1 * stiffness, stiffness, Eigen::Vector3d(1.0, 0.0, 0.0),
+                            directions);
 }
 
 std::string refusal_of_rigid(const LinearStructure& structure, const ContactLaws& laws) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-  problem.set_frequency(0.1);
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 64, 0.1);
   return testing::refusal([&] { forced_response(problem, laws, {}); });
 }
 
@@ -273,7 +208,7 @@ TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
   const Eigen::Matrix3d stiffness{{2 * k, -k, 0}, {-k, 2 * k, -k}, {0, -k, k}};
   LinearStructure chain{Eigen::Matrix3d::Identity().sparseView(), 1e-4 * stiffness.sparseView(),
                         stiffness.sparseView(), Eigen::Vector3d(0, 0, 50), contact_rows({2}, 3)};
-  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(chain, 63, 256);
   int solved = 0;
   const auto solve = [&](const AnyContactLaw& law, double frequency) {
     problem.set_frequency(frequency);

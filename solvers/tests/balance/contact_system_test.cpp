@@ -1,43 +1,11 @@
 #include "wavebalance/solvers/balance/contact_system.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <unsupported/Eigen/AutoDiff>
-
-#include "dense_algebra.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-using Dual = Eigen::AutoDiffScalar<Eigen::VectorXd>;
-
-// f_c = a_c (exp(alpha (u - g0)) - 1) in contact, for any scalar, so that its derivative is not typed in.
-template <class Scalar>
-Scalar law_force(const testing::ExponentialLaw& law, const Scalar& u) {
-  using std::exp;
-  if (!(u > Scalar(law.start))) return Scalar(0.0 * u);
-  return Scalar(law.constant * (exp(law.exponent * (u - law.start)) - 1.0));
-}
-
-// dR/du of R = u - u0 + K f(u), row by row.
-Eigen::MatrixXd differentiated(const Eigen::MatrixXd& compliance, const testing::ExponentialLaw& law,
-                               const Eigen::VectorXd& u) {
-  const Eigen::Index points = u.size();
-  std::vector<Dual> variables, forces;
-  for (Eigen::Index l = 0; l < points; ++l) variables.emplace_back(u[l], points, l);
-  for (const Dual& variable : variables) forces.push_back(law_force(law, variable));
-  Eigen::MatrixXd jacobian(points, points);
-  for (Eigen::Index l = 0; l < points; ++l) {
-    Dual residual = variables[static_cast<std::size_t>(l)];
-    for (Eigen::Index m = 0; m < points; ++m)
-      residual += compliance(l, m) * forces[static_cast<std::size_t>(m)];
-    jacobian.row(l) = residual.derivatives();
-  }
-  return jacobian;
-}
 
 class ContactSystemTest : public ::testing::TestWithParam<int> {
  protected:
@@ -61,41 +29,6 @@ class ContactSystemTest : public ::testing::TestWithParam<int> {
   ContactSystem system_;
   Eigen::MatrixXd compliance_;
 };
-
-TEST_P(ContactSystemTest, SolveInvertsTheDifferentiatedJacobian) {
-  for (const double shift : {-9.0, -0.5, 0.0, 0.5, 9.0}) {
-    const Eigen::VectorXd u = state(shift);
-    system_.evaluate(u);
-    const Eigen::MatrixXd jacobian = differentiated(compliance_, law_, u);
-    const Eigen::VectorXd r = testing::random_vector(u.size(), generator_);
-    ASSERT_TRUE(system_.factorize());
-    Eigen::VectorXd x;
-    system_.solve(r, x);
-    const double scale = jacobian.norm() * x.norm() + r.norm();
-    EXPECT_LE((jacobian * x - r).norm(), 1e-12 * scale) << "shift " << shift;
-  }
-}
-
-TEST_P(ContactSystemTest, BorderedSolveEqualsTheBorderedDenseMatrix) {
-  for (const double shift : {-9.0, 0.0, 1.0}) {
-    const Eigen::VectorXd u = state(shift);
-    const Eigen::Index points = u.size();
-    system_.evaluate(u);
-    const Eigen::VectorXd b = testing::random_vector(points, generator_);
-    const Eigen::VectorXd c = testing::random_vector(points, generator_);
-    const Eigen::VectorXd r = testing::random_vector(points, generator_);
-    Eigen::MatrixXd matrix(points + 1, points + 1);
-    matrix << differentiated(compliance_, law_, u), b, c.transpose(), 0.7;
-    Eigen::VectorXd right(points + 1);
-    right << r, -0.4;
-    const Eigen::VectorXd expected = oracle::solve(matrix, right);
-    ASSERT_TRUE(system_.factorize_bordered(b, c, 0.7));
-    Eigen::VectorXd x;
-    double y = 0.0;
-    system_.solve_bordered(r, -0.4, x, y);
-    EXPECT_LE((x - expected.head(points)).norm() + std::abs(y - expected[points]), 1e-10 * expected.norm());
-  }
-}
 
 TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
   const Eigen::VectorXd u = state(0.0);
@@ -129,17 +62,6 @@ TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
               1e-12 * relative);
 }
 
-TEST_P(ContactSystemTest, ColumnsRepeatWithTheShiftPeriod) {
-  ContactOperator contact(problem_);
-  const Eigen::MatrixXd& columns = contact.columns();
-  const int points = problem_.points(), period = problem_.pair().shift_period();
-  ASSERT_EQ(columns.cols(), period);
-  for (int m = 0; m < points; ++m)
-    for (int l = 0; l < points; ++l)
-      EXPECT_NEAR(compliance_(l, m), columns((l - m + m % period + points) % points, m % period),
-                  1e-14 * compliance_.cwiseAbs().maxCoeff());
-}
-
 TEST_P(ContactSystemTest, FrequencySlopeIsTheDerivativeOfTheResidual) {
   const Eigen::VectorXd u = state(0.0);
   const FrequencyParameter frequency;
@@ -159,8 +81,7 @@ TEST_P(ContactSystemTest, FrequencySlopeIsTheDerivativeOfTheResidual) {
 INSTANTIATE_TEST_SUITE_P(PairKinds, ContactSystemTest, ::testing::Range(0, testing::pair_kind_count));
 
 TEST(ContactSystem, TangentOnTheKinkIsTheRightHandSlopeUntilToldOtherwise) {
-  CondensedProblem problem(testing::fourier_pair(3, 6), testing::jl14_bar(1, 1e-4), testing::cosine_load());
-  problem.set_frequency(150.0);
+  CondensedProblem problem = testing::fourier_problem(testing::jl14_bar(1, 1e-4), 3, 6, 150.0);
   const testing::ExponentialLaw law;
   ContactSystem system(problem, law);
   system.evaluate(Eigen::VectorXd::Constant(6, law.start));
@@ -171,8 +92,7 @@ TEST(ContactSystem, TangentOnTheKinkIsTheRightHandSlopeUntilToldOtherwise) {
 }
 
 TEST(ContactSystem, OverflowingForceMakesAnInfiniteResidual) {
-  CondensedProblem problem(testing::fourier_pair(3, 6), testing::jl14_bar(1, 1e-4), testing::cosine_load());
-  problem.set_frequency(150.0);
+  CondensedProblem problem = testing::fourier_problem(testing::jl14_bar(1, 1e-4), 3, 6, 150.0);
   ContactSystem system(problem, testing::ExponentialLaw{});
   EXPECT_EQ(system.evaluate(Eigen::VectorXd::Constant(6, 1e3)), std::numeric_limits<double>::infinity());
 }

@@ -1,15 +1,11 @@
 // A limit of operations, which no scene has as a key, leaves the fallbacks of Newton's method room.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
 #include <cstddef>
-#include <random>
-#include <vector>
 
 #include "support/friction_scenes.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -63,12 +59,10 @@ FrictionScene random_chain_that_rubs(std::mt19937& generator) {
 TEST(Fallbacks, HaveRoomForIterationsWhateverTheLimit) {
   std::mt19937 generator(44);
   const FrictionScene scene = random_chain_that_rubs(generator);
-  CondensedProblem problem(testing::fourier_pair(31, 256), scene.structure, testing::cosine_load());
-  problem.set_frequency(scene.frequency());
+  CondensedProblem problem = testing::fourier_problem(scene.structure, 31, 256, scene.frequency());
   ForcedResponseOptions options;
   options.max_fallback_operations = 1.0;
-  const PeriodicResponse response = forced_response(problem, scene.contact_laws(), options);
-  EXPECT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, scene.contact_laws(), options);
   EXPECT_NE(response.strategy, Strategy::newton);
 }
 

@@ -1,18 +1,13 @@
 // The reduction of J = I + K D to the coefficients of the functions, against LU of the active samples.
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
-#include <numbers>
-#include <random>
-#include <string>
-#include <vector>
 
 #include "balance/dense_block.hpp"
 #include "balance/function_reduction.hpp"
 #include "support/friction_scenes.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/solvers/balance/contact_system.hpp"
 
@@ -116,8 +111,7 @@ TEST(FunctionReduction, TakesWhatAForceRemembersOfOtherSamples) {
 TEST(FunctionReduction, IsTakenForLawsWithMemoryWhereFunctionsAreFewerThanSamples) {
   const testing::FrictionScene scene = testing::lift_off(1.0, 1.0, 0.5, 0.5, 1.1);
   constexpr int functions = 31;
-  CondensedProblem problem(testing::fourier_pair(functions, 512), scene.structure, testing::cosine_load());
-  problem.set_frequency(scene.frequency());
+  CondensedProblem problem = testing::fourier_problem(scene.structure, functions, 512, scene.frequency());
   ContactSystem system(problem, scene.contact_laws());
   system.evaluate(moving(problem));
   const double before = system.operations(), expected = 2.0 / 3.0 * std::pow(2.0 * functions, 3.0);

@@ -1,13 +1,11 @@
-#include <gtest/gtest.h>
-
 #include <numeric>
 
 #include "balance/harmonic_coarse_space.hpp"
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "linalg/gmres.hpp"
+#include "support/newton_checks.hpp"
 #include "support/oscillator.hpp"
-#include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
@@ -201,28 +199,7 @@ TEST_P(LinearSolverTest, GmresLeavesTheResidualThatWasAskedFor) {
 }
 
 TEST_P(LinearSolverTest, SolutionsByGmresAndByLuAreEqual) {
-  const Eigen::Index points = problem_.points();
-  const Eigen::VectorXd r = testing::random_vector(points, generator_);
-  const Eigen::VectorXd b = testing::random_vector(points, generator_);
-  const Eigen::VectorXd c = testing::random_vector(points, generator_);
-  struct Solution {
-    Eigen::VectorXd plain, bordered;
-    double last = 0.0;
-  };
-  const auto solve = [&](LinearSolver method) {
-    Solution found;
-    system_.set_linear_solver(method);
-    EXPECT_TRUE(system_.factorize());
-    EXPECT_TRUE(system_.solve(r, found.plain, 1e-12));
-    EXPECT_TRUE(system_.factorize_bordered(b, c, 0.7));
-    EXPECT_TRUE(system_.solve_bordered(r, -0.4, found.bordered, found.last, 1e-12));
-    return found;
-  };
-  const Solution lu = solve(LinearSolver::dense), gmres = solve(LinearSolver::krylov);
-  EXPECT_LE((lu.plain - gmres.plain).norm(), 1e-9 * lu.plain.norm());
-  EXPECT_LE((lu.bordered - gmres.bordered).norm(), 1e-9 * lu.bordered.norm());
-  EXPECT_NEAR(lu.last, gmres.last, 1e-9 * std::abs(lu.last));
-  EXPECT_NEAR(c.dot(gmres.bordered) + 0.7 * gmres.last, -0.4, 1e-9 * c.norm() * gmres.bordered.norm());
+  testing::expect_gmres_equals_lu(system_, problem_.points(), generator_);
 }
 
 TEST_P(LinearSolverTest, ConditionOfGmresIsALowerBound) {
@@ -303,8 +280,7 @@ TEST(LinearSolver, ManyContactsTakeATenthOfTheOperationsOfLu) {
   std::vector<int> all(24);
   std::iota(all.begin(), all.end(), 0);
   chain.contact_directions = contact_rows(all, chain.size());
-  CondensedProblem problem(testing::fourier_pair(31, 128), chain, testing::cosine_load());
-  problem.set_frequency(0.05);
+  CondensedProblem problem = testing::fourier_problem(chain, 31, 128, 0.05);
   const testing::LinearContact law{0.5, 0.1};
   ContactSystem dense(problem, law), automatic(problem, law);
   dense.set_linear_solver(LinearSolver::dense);
@@ -327,9 +303,7 @@ TEST(LinearSolver, ManyContactsTakeATenthOfTheOperationsOfLu) {
 }
 
 TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
-  CondensedProblem problem(testing::fourier_pair(127, 512), testing::jl14_bar(1, 1e-4),
-                           testing::cosine_load());
-  problem.set_frequency(150.0);
+  CondensedProblem problem = testing::fourier_problem(testing::jl14_bar(1, 1e-4), 127, 512, 150.0);
   for (const auto method : {LinearSolver::dense, LinearSolver::krylov, LinearSolver::automatic}) {
     for (const double stiffness : {std::numeric_limits<double>::infinity(), std::nan("")}) {
       ContactSystem system(problem, Destabilising{1e6});
@@ -343,20 +317,13 @@ TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
 
 // Newton by GMRES takes the steps of Newton by LU, in both cases of JL14 and against a stiff linear stop.
 TEST(LinearSolver, ResponsesByGmresAndByLuAreEqual) {
-  struct Stop {
-    double start;
-    double force(double u) const { return u > start ? 1e10 * (u - start) : 0.0; }
-    double tangent(double u) const { return u >= start ? 1e10 : 0.0; }
-    double potential(double u) const { return u > start ? 0.5e10 * (u - start) * (u - start) : 0.0; }
-    double gap() const { return start; }
-  };
   int converged = 0;
   for (const auto& reference : {testing::jl14_case_1, testing::jl14_case_2})
     for (const TimePair& pair : testing::pair_kinds(256, 1024)) {
       CondensedProblem problem(pair, reference.structure(), testing::cosine_load());
       problem.set_frequency(reference.frequency_hz);
       for (const AnyContactLaw& law :
-           {AnyContactLaw(reference.law), AnyContactLaw(Stop{reference.law.start})}) {
+           {AnyContactLaw(reference.law), AnyContactLaw(testing::LinearContact{1e10, reference.law.start})}) {
         ForcedResponseOptions options;
         options.fallbacks = false;
         options.newton.linear_solver = LinearSolver::dense;

@@ -9,7 +9,7 @@ namespace wavebalance::solvers {
 namespace {
 
 CondensedProblem unit_problem(double damping) {
-  return {testing::fourier_pair(7, 16), testing::unit_oscillator(damping, 1.0), testing::cosine_load()};
+  return testing::fourier_problem(testing::unit_oscillator(damping, 1.0), 7, 16);
 }
 
 TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
@@ -50,7 +50,7 @@ TEST(RepeatedFrequency, IsFollowedByTheOperatorOfAForm) {
 TEST(RepeatedFrequency, ThatHasNoCondensationThrowsEachTime) {
   LinearStructure undamped = testing::unit_oscillator(0.0, 1.0);
   undamped.stiffness.coeffRef(0, 0) = 0.0;  // singular at harmonic 0
-  CondensedProblem problem(testing::fourier_pair(7, 16), undamped, testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(undamped, 7, 16);
   EXPECT_THROW(problem.set_frequency(0.3), SingularSystem);
   EXPECT_THROW(problem.set_frequency(0.3), SingularSystem);
 }

@@ -1,17 +1,13 @@
 // Balances with rigid Coulomb friction at contacts without mass, which no structure of scenes has: at the end
 // of a spring against event-driven exact motions of the elastic slider.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
-#include <limits>
-#include <string>
 #include <utility>
 
 #include "support/friction_scenes.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -68,10 +64,8 @@ TEST(RigidFriction, AtTheEndOfASpringHasTheMotionsOfTheElasticSlider) {
                           {rubbing_masses(1.0, 2.0, 0.3, 1.7), 2.0, 2.410075263},
                           {lift_off(2.0, 2.0, 0.6, 0.5, 3.0), 5.0, 0.8394928991}}) {
     const FrictionScene rigid = with_spring_in_structure(one.scene, one.kt);
-    CondensedProblem problem(testing::fourier_pair(63, 1024), rigid.structure, testing::cosine_load());
-    problem.set_frequency(rigid.frequency());
-    const PeriodicResponse response = forced_response(problem, rigid.contact_laws(), {});
-    ASSERT_TRUE(response.converged()) << one.amplitude << " " << to_string(response.status);
+    CondensedProblem problem = testing::fourier_problem(rigid.structure, 63, 1024, rigid.frequency());
+    const PeriodicResponse response = testing::solved_response(problem, rigid.contact_laws());
     const Eigen::VectorXd mass =
         response.displacement.tail(1024) + response.contact_force.tail(1024) / one.kt;
     EXPECT_NEAR(std::abs(first_harmonic(mass)), one.amplitude, 3e-4 * one.amplitude);
@@ -81,8 +75,7 @@ TEST(RigidFriction, AtTheEndOfASpringHasTheMotionsOfTheElasticSlider) {
 TEST(RigidFriction, AtAContactWithMassIsRefused) {
   FrictionScene scene = testing::slider_on_oscillator(2.0, 1.0, 1.2);
   scene.laws = {contact::CoulombLaw({1.0, std::numeric_limits<double>::infinity(), 1.0})};
-  CondensedProblem problem(testing::fourier_pair(15, 64), scene.structure, testing::cosine_load());
-  problem.set_frequency(scene.frequency());
+  CondensedProblem problem = testing::fourier_problem(scene.structure, 15, 64, scene.frequency());
   const auto solve = [&](ContactForm form) {
     ForcedResponseOptions options;
     options.form = form;

@@ -1,18 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <random>
-
-#include "constants.hpp"
 #include "dense_system.hpp"
 #include "period_oracle/shooting.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -45,17 +38,11 @@ double driven_displacement(const Oscillator& oscillator, double periods) {
 TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
   const Oscillator oscillator;
   const LinearStructure structure = driven_oscillator(oscillator);
-  CondensedProblem problem(testing::fourier_pair(9, load_points), structure, testing::cosine_load());
-  problem.set_frequency(oscillator.frequency);
-  oracle::ShootingOptions shooting;
-  shooting.output_points = load_points;
+  CondensedProblem problem = testing::fourier_problem(structure, 9, load_points, oscillator.frequency);
   const oracle::ShootingResult shot =
-      oracle::shoot(structure, AnyContactLaw(), oscillator.frequency, shooting);
-  ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
-  TimeSteppingOptions stepping;
-  stepping.output_points = load_points;
-  const auto stepped = integrate_to_periodic(structure, AnyContactLaw(), oscillator.frequency, stepping);
-  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+      oracle::shot_motion(structure, AnyContactLaw(), oscillator.frequency, load_points);
+  const TimeSteppingResult stepped =
+      testing::stepped_motion(structure, AnyContactLaw(), oscillator.frequency, load_points);
   const double scale = std::abs(oscillator.amplitude());
   for (int l = 0; l < load_points; ++l) {
     const double expected = driven_displacement(oscillator, double(l) / load_points);
@@ -73,7 +60,7 @@ TEST(SeveralLoads, OfAMovingBaseTransmitItByTheClosedForm) {
   base[1] = 1e-3;
   structure.forces = {{Eigen::VectorXd::Constant(1, oscillator.stiffness), base, 0},
                       {Eigen::VectorXd::Constant(1, oscillator.damping), base, 1}};
-  CondensedProblem problem(testing::fourier_pair(5, load_points), structure, testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(structure, 5, load_points);
   for (const double frequency : {7.0, 25.0, 60.0}) {
     problem.set_frequency(frequency);
     const double omega = two_pi * frequency;
@@ -131,8 +118,7 @@ TEST(SeveralLoads, GiveTheMotionOfTheAssembledSystemWithContactInEveryKindOfPair
     problem.set_load_scale(scale);
     problem.set_frequency(frequency);
     const LinearContact law{4.0, 0.3 * problem.contact_free_response().maxCoeff()};
-    const PeriodicResponse response = forced_response(problem, ContactLaws(law), {});
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, ContactLaws(law));
     EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
     TimePairOptions options{pair.formulation(), pair.inner_products(), pair.points()};
     options.sample_offset = pair.first_sample() * pair.points();
@@ -160,40 +146,23 @@ LinearStructure pressed_oscillator() {
   return structure;
 }
 
-TEST(SeveralLoads, AgainstAStopGiveTheMotionOfShootingAndTimeStepping) {
+TEST(SeveralLoads, AgainstAStopGiveTheMotionOfShootingTimeSteppingAndSettling) {
   const LinearStructure structure = pressed_oscillator();
   const LinearContact stop{2e5, 2e-4};
-  CondensedProblem problem(testing::fourier_pair(255, 2048), structure, testing::cosine_load());
-  problem.set_frequency(25.0);
-  const PeriodicResponse response = forced_response(problem, stop, {});
-  ASSERT_TRUE(response.converged());
+  CondensedProblem problem = testing::fourier_problem(structure, 255, 2048, 25.0);
+  const PeriodicResponse response = testing::solved_response(problem, stop);
   const double touching = (response.contact_force.array() > 0.0).cast<double>().mean();
   EXPECT_GT(touching, 0.2);
   EXPECT_LT(touching, 0.8);
-  oracle::ShootingOptions shooting;
-  shooting.output_points = 2048;
-  const oracle::ShootingResult shot = oracle::shoot(structure, stop, 25.0, shooting);
-  ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
+  const oracle::ShootingResult shot = oracle::shot_motion(structure, stop, 25.0, 2048);
   const Eigen::VectorXd reference = shot.contacts.displacement.row(0).transpose();
   EXPECT_LE((response.displacement - reference).norm(), 1e-5 * reference.norm());
-  TimeSteppingOptions stepping;
-  stepping.output_points = 2048;
-  const auto stepped = integrate_to_periodic(structure, stop, 25.0, stepping);
-  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  const TimeSteppingResult stepped = testing::stepped_motion(structure, stop, 25.0, 2048);
   EXPECT_LE((stepped.contacts.displacement.row(0).transpose() - reference).norm(), 1e-4 * reference.norm());
-}
-
-TEST(SeveralLoads, AgainstAStopSettleToTheMotionOfTheBalance) {
-  const LinearStructure structure = pressed_oscillator();
-  const LinearContact stop{2e5, 2e-4};
-  CondensedProblem problem(testing::fourier_pair(127, 1024), structure, testing::cosine_load());
-  problem.set_frequency(25.0);
-  const PeriodicResponse response = forced_response(problem, stop, {});
-  ASSERT_TRUE(response.converged());
   const SettledMotion settled = settle(problem, stop, {});
   ASSERT_EQ(settled.attractor_periods, 1);
-  const Eigen::VectorXd samples = resample(settled.last.displacement, 1024, settled.start);
-  EXPECT_LE((samples - response.displacement).norm(), 2e-2 * response.displacement.norm());
+  const Eigen::VectorXd samples = resample(settled.last.displacement, 2048, settled.start);
+  EXPECT_LE((samples - reference).norm(), 2e-2 * reference.norm());
 }
 
 // A load that comes later gives the same motion later, in a basis whose points it moves onto each other.
@@ -211,8 +180,7 @@ TEST(SeveralLoads, ThatComeLaterGiveTheSameMotionLater) {
   const auto solve = [&](const LinearStructure& one, const Eigen::VectorXcd& harmonics) {
     CondensedProblem problem(testing::fourier_pair(63, samples), one, harmonics);
     problem.set_frequency(25.0);
-    const PeriodicResponse response = forced_response(problem, LinearContact{2e5, 2e-4}, {});
-    EXPECT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, LinearContact{2e5, 2e-4});
     return response.displacement;
   };
   const Eigen::VectorXd first = solve(structure, cosine), second = solve(later, delayed);
@@ -222,7 +190,7 @@ TEST(SeveralLoads, ThatComeLaterGiveTheSameMotionLater) {
 
 TEST(SeveralLoads, OverTwoPeriodsHaveTheMotionOfOneTwice) {
   const LinearStructure structure = pressed_oscillator();
-  CondensedProblem one(testing::fourier_pair(31, 128), structure, testing::cosine_load());
+  CondensedProblem one = testing::fourier_problem(structure, 31, 128);
   Eigen::VectorXcd twice = Eigen::VectorXcd::Zero(3);
   twice[2] = 1.0;
   CondensedProblem two(testing::fourier_pair(63, 256), structure, twice);
@@ -233,7 +201,7 @@ TEST(SeveralLoads, OverTwoPeriodsHaveTheMotionOfOneTwice) {
 }
 
 TEST(SeveralLoads, AScaleThatIsNotFiniteIsRefused) {
-  CondensedProblem problem(testing::fourier_pair(3, 8), Oscillator{}.structure(), testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(Oscillator{}.structure(), 3, 8);
   EXPECT_EQ(testing::refusal([&] { problem.set_load_scale(std::nan("")); }),
             "CondensedProblem::set_load_scale: scale is nan; it must be finite");
 }

@@ -1,23 +1,16 @@
 // Laws whose force depends on the velocity: R, J and its solves, and responses against independent solutions.
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <random>
-#include <stdexcept>
 
-#include "constants.hpp"
 #include "linalg/dense.hpp"
+#include "support/newton_checks.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
-#include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
 #include "wavebalance/solvers/continuation/arc_length.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers {
@@ -87,8 +80,7 @@ TEST(VelocityLaw, ADamperIsTheDampingOfTheStructure) {
         with_damping(pair, damped, testing::cosine_load());
     with_law.set_frequency(0.13);
     with_damping.set_frequency(0.13);
-    const PeriodicResponse response = forced_response(with_law, Damper{}, {});
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(with_law, Damper{});
     EXPECT_LE(response.iterations, 2);
     EXPECT_LE((response.displacement - with_damping.contact_free_response()).norm(),
               1e-10 * response.displacement.norm());
@@ -122,18 +114,10 @@ class VelocitySystem : public ::testing::Test {
 TEST_F(VelocitySystem, TheSolveInvertsTheDerivativeOfTheResidual) {
   for (const TimePair& pair : smooth_pairs()) {
     CondensedProblem problem = this->problem(pair);
-    const Eigen::VectorXd u = motion(problem), r = testing::random_vector(problem.samples(), generator_);
+    const Eigen::VectorXd u = motion(problem);
     for (const AnyContactLaw& law : everywhere_and_at_few_samples(u)) {
       ContactSystem system(problem, law);
-      system.evaluate(u);
-      ASSERT_TRUE(system.factorize());
-      Eigen::VectorXd x;
-      ASSERT_TRUE(system.solve(r, x));
-      const double step = 1e-6 / x.cwiseAbs().maxCoeff();
-      system.evaluate(u + step * x);
-      const Eigen::VectorXd ahead = system.residual();
-      system.evaluate(u - step * x);
-      EXPECT_LE(((ahead - system.residual()) / (2.0 * step) - r).norm(), 1e-6 * (r.norm() + x.norm()));
+      testing::expect_solve_inverts_derivative(system, u, generator_, 1e-6);
     }
   }
 }
@@ -176,16 +160,11 @@ TEST_F(VelocitySystem, TheBorderedSolveHasTheResidualAndTheSignOfTheWholeMatrix)
 TEST_F(VelocitySystem, SolutionsByGmresAndByLuAreEqual) {
   for (const TimePair& pair : {testing::fourier_pair(31, 128), testing::pair_kinds(32, 128)[5]}) {
     CondensedProblem problem = this->problem(pair);
-    const Eigen::VectorXd u = motion(problem), r = testing::random_vector(problem.samples(), generator_);
+    const Eigen::VectorXd u = motion(problem);
     for (const AnyContactLaw& law : everywhere_and_at_few_samples(u)) {
       ContactSystem system(problem, law);
       system.evaluate(u);
-      Eigen::VectorXd by_lu, by_gmres;
-      system.set_linear_solver(LinearSolver::dense);
-      ASSERT_TRUE(system.factorize() && system.solve(r, by_lu));
-      system.set_linear_solver(LinearSolver::krylov);
-      ASSERT_TRUE(system.factorize() && system.solve(r, by_gmres, 1e-12));
-      EXPECT_LE((by_lu - by_gmres).norm(), 1e-9 * by_lu.norm());
+      testing::expect_gmres_equals_lu(system, problem.samples(), generator_);
     }
   }
 }
@@ -216,9 +195,7 @@ TEST(VelocityLaw, IsRefusedWhereTheVelocityHasNoValuesAtPoints) {
                            testing::unit_oscillator(0.1, 1.0), testing::cosine_load());
   problem.set_frequency(0.2);
   EXPECT_THROW(forced_response(problem, Damper{}, {}), std::invalid_argument);
-  CondensedProblem smooth(testing::fourier_pair(7, 32), testing::unit_oscillator(0.1, 1.0),
-                          testing::cosine_load());
-  smooth.set_frequency(0.2);
+  CondensedProblem smooth = testing::fourier_problem(testing::unit_oscillator(0.1, 1.0), 7, 32, 0.2);
   ForcedResponseOptions force;
   force.form = ContactForm::force;
   EXPECT_THROW(forced_response(smooth, Damper{}, force), std::invalid_argument);
@@ -238,14 +215,9 @@ TEST(VelocityLaw, ResponsesAreThoseOfTimeStepping) {
         Case{contact::HuntCrossleyLaw(200.0, 1.0, 0.5, 0.5), 0.16, 2e-3},
         Case{contact::KelvinVoigtLaw(10.0, 1.0, 0.3, 0.1), 0.2, 5e-4},
         Case{contact::KelvinVoigtLaw(10.0, 0.5, 0.3), 0.15, 5e-3}}) {
-    CondensedProblem problem(testing::fourier_pair(127, 512), oscillator, testing::cosine_load());
-    problem.set_frequency(frequency);
-    const PeriodicResponse response = forced_response(problem, law, {});
-    ASSERT_TRUE(response.converged()) << to_string(response.status) << " " << response.residual;
-    TimeSteppingOptions options;
-    options.output_points = 512;
-    const TimeSteppingResult reference = integrate_to_periodic(oscillator, law, frequency, options);
-    ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+    CondensedProblem problem = testing::fourier_problem(oscillator, 127, 512, frequency);
+    const PeriodicResponse response = testing::solved_response(problem, law);
+    const TimeSteppingResult reference = testing::stepped_motion(oscillator, law, frequency, 512);
     const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();
     EXPECT_LE((response.displacement.transpose() - reference.contacts.displacement).cwiseAbs().maxCoeff(),
               tolerance * size);
@@ -263,10 +235,8 @@ TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {
   const double damping = 0.1, load = 0.8, frequency = 0.2;
   const LinearStructure oscillator = testing::unit_oscillator(damping, load);
   const contact::HuntCrossleyLaw law(10.0, 1.5, 2.0, 0.3);
-  CondensedProblem problem(testing::fourier_pair(63, 256), oscillator, testing::cosine_load());
-  problem.set_frequency(frequency);
-  const PeriodicResponse response = forced_response(problem, law, {});
-  ASSERT_TRUE(response.converged());
+  CondensedProblem problem = testing::fourier_problem(oscillator, 63, 256, frequency);
+  const PeriodicResponse response = testing::solved_response(problem, law);
   const Motion motion = contact_motion(problem, response, law, 256);
   const Eigen::ArrayXd v = motion.velocity.row(0).transpose().array();
   const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(256, 0.0, 255.0) * (two_pi / 256.0);
@@ -281,13 +251,8 @@ TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {
 TEST(VelocityLaw, ASweepFollowsTheResonanceAcrossTheFirstContact) {
   const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.1);
   const contact::HuntCrossleyLaw law(10.0, 1.5, 1.0, 0.3);
-  CondensedProblem problem(testing::fourier_pair(31, 128), oscillator, testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 0.1;
-  options.to = 0.3;
-  options.keep_unknowns = true;
-  const FrequencySweep sweep = frequency_sweep(problem, law, options);
-  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  CondensedProblem problem = testing::fourier_problem(oscillator, 31, 128);
+  const FrequencySweep sweep = testing::complete_sweep(problem, law, testing::between(0.1, 0.3));
   ContactSystem system(problem, law);
   double peak = 0.0;
   for (const SweepPoint& point : sweep.points) {
@@ -313,14 +278,9 @@ TEST(VelocityLaw, ActsBesideLawsOfTheDisplacement) {
   const ContactLaws laws(std::vector<AnyContactLaw>{contact::HuntCrossleyLaw(8.0, 1.5, 1.0, 0.2),
                                                     testing::LinearContact{10.0, 0.3}});
   const double frequency = 0.17;
-  CondensedProblem problem(testing::fourier_pair(95, 512), masses, testing::cosine_load());
-  problem.set_frequency(frequency);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
-  TimeSteppingOptions options;
-  options.output_points = 512;
-  const TimeSteppingResult reference = integrate_to_periodic(masses, laws, frequency, options);
-  ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+  CondensedProblem problem = testing::fourier_problem(masses, 95, 512, frequency);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
+  const TimeSteppingResult reference = testing::stepped_motion(masses, laws, frequency, 512);
   EXPECT_GT(reference.contacts.force.row(0).maxCoeff(), 0.05);
   EXPECT_GT(reference.contacts.force.row(1).maxCoeff(), 0.05);
   const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();

@@ -1,8 +1,6 @@
 #include "wavebalance/solvers/continuation/curve_corrector.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {

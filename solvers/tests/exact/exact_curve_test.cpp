@@ -1,17 +1,9 @@
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include "constants.hpp"
-#include "support/jl14_bar.hpp"
-#include "support/oscillator.hpp"
+#include "support/duffing_spring.hpp"
 #include "support/phase_cases.hpp"
 #include "support/refusal.hpp"
-#include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
@@ -132,8 +124,7 @@ TEST(ExactCurve, CountsItsUnstableMultipliers) {
 TEST(ExactCurve, EndsBehindItsStartWhereItTurns) {
   Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.1);
   const ExactCurve whole = traced.over_frequency(0.1, 0.35);
-  ExactCurveOptions options;
-  options.behind = 0.16;
+  ExactCurveOptions options{.behind = 0.16};
   const ExactCurve part = traced.over_frequency(0.17, 0.19, options);
   ASSERT_FALSE(part.points.empty());
   EXPECT_NE(part.status, SweepStatus::lost);
@@ -173,18 +164,8 @@ TEST(ExactCurve, OfRandomStructuresConsistsOfMotionsThatPhasesFindWithoutIt) {
   }
 }
 
-/// c u^3, which acts always.
-struct CubicSpring {
-  double cubic;
-  double force(double u) const { return cubic * u * u * u; }
-  double tangent(double u) const { return 3.0 * cubic * u * u; }
-  double potential(double u) const { return 0.25 * cubic * u * u * u * u; }
-  double gap() const { return infinity; }
-  bool unilateral() const { return false; }
-};
-
 TEST(ExactCurve, TurnsWithALawThatAlwaysActs) {
-  Traced traced(unit_oscillator(0.02, 0.1), CubicSpring{0.1}, 0.05);
+  Traced traced(unit_oscillator(0.02, 0.1), testing::DuffingSpring{.cubic = 0.1}, 0.05);
   const ExactCurve curve = traced.over_frequency(0.05, 0.4);
   expect_curve(curve);
   ASSERT_EQ(curve.events.size(), 2u);

@@ -1,13 +1,9 @@
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
 #include "support/impact_scenes.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 
 namespace wavebalance::solvers {

@@ -1,15 +1,11 @@
 // Motions in time by events against event-driven integrations that share nothing with them.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numbers>
 
 #include "linalg/index.hpp"
 #include "phases/phase_loads.hpp"
 #include "support/friction_table.hpp"
-#include "support/impact_table.hpp"
+#include "support/impact_scenes.hpp"
+#include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/clearance_law.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
@@ -53,12 +49,8 @@ std::complex<double> first_harmonic(const Eigen::MatrixXd& displacement, Index r
 Vibrating mixture(double omega) {
   const Eigen::Matrix3d stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 2.0}},
       unit = Eigen::Matrix3d::Identity();
-  LinearStructure structure;
-  structure.mass = unit.sparseView();
-  structure.damping = Eigen::Matrix3d(0.02 * stiffness + 0.02 * unit).sparseView();
-  structure.stiffness = stiffness.sparseView();
-  structure.load = Eigen::Vector3d(0.0, 1.0, 0.3);
-  structure.contact_directions = unit.sparseView();
+  LinearStructure structure = testing::structure(unit, Eigen::Matrix3d(0.02 * stiffness + 0.02 * unit),
+                                                 stiffness, Eigen::Vector3d(0.0, 1.0, 0.3), unit);
   return {structure,
           ContactLaws(std::vector<AnyContactLaw>{contact::CoulombLaw({1.0, 3.0, 0.4}),
                                                  contact::LinearLaw(4.0, 0.3), contact::RigidLaw(0.3, 0.7)}),
@@ -78,25 +70,6 @@ TEST(ContactFlow, SettlesToTheExactMotionsOfFrictionAndTheirMultipliers) {
     EXPECT_NEAR(std::abs(found), row.amplitude, harmonic * row.amplitude) << row.name;
     EXPECT_NEAR(std::abs(motion.multipliers[0]), row.largest, 10 * digits) << row.name;
     EXPECT_NEAR(std::abs(motion.multipliers[1]), row.second, 10 * digits) << row.name;
-  }
-}
-
-TEST(ContactFlow, HasTheInstantsAndImpulsesOfExactMotionsWithImpacts) {
-  for (const testing::KnownImpacts& known : testing::known_impacts()) {
-    const bool stable = std::abs(known.multipliers.front()) < 1.0;
-    if (!stable || known.periods > 1 || known.scene.contacts.rows() > 1 || known.instants.size() > 1)
-      continue;
-    const FlowMotion motion =
-        Vibrating(known.scene.structure(), contact::RigidLaw(known.scene.gaps[0], known.scene.restitution),
-                  known.scene.frequency())
-            .motion(64);
-    ASSERT_EQ(motion.stepping.status, TimeSteppingStatus::converged);
-    ASSERT_EQ(motion.events.size(), 1u);
-    const double period = 1.0 / known.scene.frequency();
-    EXPECT_NEAR(motion.events[0].time / period, known.instants[0], 2e-10);
-    EXPECT_NEAR(motion.events[0].speed, known.velocities[0], 2e-9);
-    EXPECT_NEAR(motion.events[0].impulse, known.impulses[0], 2e-9);
-    EXPECT_NEAR(std::abs(motion.multipliers[0]), std::abs(known.multipliers[0]), 2e-8);
   }
 }
 
@@ -186,13 +159,10 @@ struct Sphere {
 TEST(ContactFlow, TakesALawOfThreeRowsAsAStopAlongALine) {
   constexpr double frequency = 0.15, load = 0.9;
   const auto of = [&](int rows, ContactLaws laws) {
-    LinearStructure structure;
     const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(rows, rows);
-    structure.mass = structure.stiffness = unit.sparseView();
-    structure.damping = Eigen::MatrixXd(0.1 * unit).sparseView();
-    structure.load = Eigen::VectorXd::Constant(rows, load / std::sqrt(double(rows)));
-    structure.contact_directions = unit.sparseView();
-    return Vibrating(structure, std::move(laws), frequency).motion(64);
+    const Eigen::VectorXd along = Eigen::VectorXd::Constant(rows, load / std::sqrt(double(rows)));
+    return Vibrating(testing::structure(unit, 0.1 * unit, unit, along, unit), std::move(laws), frequency)
+        .motion(64);
   };
   const FlowMotion ball = of(3, Sphere{5.0}), line = of(1, contact::ClearanceLaw(5.0, 1.0));
   ASSERT_EQ(ball.stepping.status, TimeSteppingStatus::converged);

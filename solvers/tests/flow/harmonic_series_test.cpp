@@ -1,12 +1,6 @@
 #include "flow/harmonic_series.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <random>
-
-#include "constants.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {

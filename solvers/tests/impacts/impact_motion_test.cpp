@@ -1,58 +1,17 @@
+// What motions with impacts refuse; a table of them is in tests/impacts/impact_table.py.
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "constants.hpp"
 #include "impacts/impact_parts.hpp"
-#include "linalg/multipliers.hpp"
-#include "support/impact_table.hpp"
+#include "support/impact_scenes.hpp"
 #include "support/refusal.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 #include "wavebalance/solvers/problem/coexisting_motions.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using testing::ImpactScene, testing::impact_oscillator, testing::known_impacts, testing::KnownImpacts,
-    testing::refusal;
-using Complex = std::complex<double>;
-
-// The first two digits of a table, from which Newton's method has its way to go.
-std::vector<ImpactGuess> rough_start(const KnownImpacts& known) {
-  std::vector<ImpactGuess> start;
-  for (std::size_t i = 0; i < known.instants.size(); ++i)
-    start.push_back({known.contacts[i], std::round(100.0 * known.instants[i]) / 100.0 / known.periods,
-                     std::round(100.0 * known.impulses[i]) / 100.0});
-  return start;
-}
-
-PhaseMotion motion_of_table(const KnownImpacts& known, const ContactDynamics& dynamics) {
-  return impact_motion(over_periods(known.scene.problem(dynamics), known.periods), rough_start(known));
-}
-
-// Unstable ones too, of which a scene shows the stable ones and the leading multiplier.
-TEST(ImpactMotionTest, HasTheImpactsAndAllTheMultipliersOfTheTable) {
-  for (const KnownImpacts& known : known_impacts()) {
-    const ContactDynamics dynamics(known.scene.structure());
-    const PhaseMotion motion = motion_of_table(known, dynamics);
-    ASSERT_EQ(motion.status, PhasesStatus::converged) << to_string(motion.status);
-    ASSERT_EQ(motion.impacts.size(), known.instants.size());
-    for (std::size_t i = 0; i < known.instants.size(); ++i) {
-      EXPECT_NEAR(motion.impacts[i].time * known.periods, known.instants[i], 1e-9);
-      EXPECT_NEAR(motion.impacts[i].velocity_before, known.velocities[i], 1e-9);
-      EXPECT_NEAR(motion.impacts[i].impulse, known.impulses[i], 1e-9);
-      EXPECT_EQ(motion.impacts[i].contact, known.contacts[i]);
-    }
-    const Eigen::VectorXcd found = motion.multipliers();
-    for (const Complex expected : known.multipliers) {
-      const double nearest = (found.array() - expected).abs().minCoeff();
-      EXPECT_LE(nearest, 1e-8 * std::max(1.0, std::abs(expected)));
-    }
-  }
-}
+using testing::ImpactScene, testing::impact_oscillator, testing::refusal;
 
 TEST(ImpactMotionTest, RefusesMotionsThatPassTheObstacleOrArePulled) {
   const ImpactScene scene = impact_oscillator(0.05, 0.0, 0.8, 3.7);

@@ -1,13 +1,10 @@
 // Contacts that stay closed after impacts without rebound.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "flow/flow_start.hpp"
 #include "linalg/dense.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "support/impact_scenes.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 
 namespace wavebalance::solvers {

@@ -1,12 +1,7 @@
 #include "linalg/dense.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <random>
-
 #include "linalg/multipliers.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {

@@ -1,12 +1,11 @@
 #include "linalg/gsl_errors.hpp"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <latch>
 #include <optional>
 #include <thread>
-#include <vector>
+
+#include "testing.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {

@@ -2,19 +2,13 @@
 // forms of linear structures, and differences of their own Jacobian.
 #include "wavebalance/solvers/modes/damped_mode.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-
 #include "linalg/dense.hpp"
 #include "modes/damped_equations.hpp"
 #include "support/friction_scenes.hpp"
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -29,9 +23,8 @@ FrictionScene undamped_slider() {
 }
 
 DampedPoint at_amplitude(const DampedMode& mode, double amplitude) {
-  DampedBackboneOptions options;
-  options.first_amplitude = 0.5 * std::min(amplitude, mode.linear_amplitude());
-  options.last_amplitude = amplitude;
+  DampedBackboneOptions options{.first_amplitude = 0.5 * std::min(amplitude, mode.linear_amplitude()),
+                                .last_amplitude = amplitude};
   options.initial_step = options.max_step = 0.5;
   DampedBackbone curve = mode.backbone(options);
   EXPECT_EQ(curve.status, DampedBackboneStatus::reached_amplitude);
@@ -51,9 +44,8 @@ struct Dashpot {
 double turning_point(const DampedPoint& point) { return point.displacement.row(0).maxCoeff(); }
 
 DampedBackbone fine_curve(const DampedMode& mode) {
-  DampedBackboneOptions options;
-  options.first_amplitude = 0.5 * mode.linear_amplitude();
-  options.last_amplitude = 12.0 * mode.linear_amplitude();
+  DampedBackboneOptions options{.first_amplitude = 0.5 * mode.linear_amplitude(),
+                                .last_amplitude = 12.0 * mode.linear_amplitude()};
   options.initial_step = options.max_step = 0.02;
   return mode.backbone(options);
 }
@@ -192,9 +184,7 @@ TEST(DampedMode, ADashpotAddsItsDamping) {
   const Dashpot dashpot{0.3};
   const DampedMode mode(scene.structure, testing::fourier_pair(7, 32), dashpot);
   EXPECT_EQ(mode.linear_amplitude(), 0.0);
-  DampedBackboneOptions options;
-  options.first_amplitude = 0.1;
-  options.last_amplitude = 10.0;
+  DampedBackboneOptions options{.first_amplitude = 0.1, .last_amplitude = 10.0};
   const DampedBackbone curve = mode.backbone(options);
   ASSERT_EQ(curve.status, DampedBackboneStatus::reached_amplitude);
   for (const DampedPoint& point : curve.points) {

@@ -1,28 +1,18 @@
 #include "modes/mode_equations.hpp"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
+#include "support/duffing_spring.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-struct CubicLaw {
-  double force(double u) const { return 0.3 * u * u * u; }
-  double tangent(double u) const { return 0.9 * u * u; }
-  double potential(double u) const { return 0.075 * u * u * u * u; }
-  double gap() const { return 0.0; }
-  bool unilateral() const { return false; }
-};
 
 TEST(ModeEquations, JacobianIsTheDerivativeOfTheResidual) {
   ModeProblem problem;
   problem.model = {Eigen::Vector3d(1.0, 5.0, 11.0), Eigen::MatrixXd{{0.8, -0.5, 0.3}, {0.4, 0.9, -0.2}},
                    Eigen::Vector2d(1.0, 1.5)};
   problem.transform = make_pair_transform(testing::fourier_pair(7, 32), false);
-  problem.laws = CubicLaw{};
+  problem.laws = testing::DuffingSpring{.cubic = 0.3, .start = 0.0};
   problem.amplitude = 1.3;
   problem.unit = 0.7;
   for (const bool force_form : {false, true}) {

@@ -1,17 +1,13 @@
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <functional>
-#include <stdexcept>
 
-#include "constants.hpp"
 #include "ll10_rod.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
+#include "support/runge_kutta.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -111,23 +107,18 @@ double growth_in_time(const Twins& twins, const ModePoint& point, int periods) {
   for (Eigen::Index n = 1; n < point.amplitudes.cols(); ++n) start += 2.0 * point.amplitudes(0, n).real();
   Eigen::Vector4d state(start * std::sqrt(0.5) + 1e-8, start * std::sqrt(0.5) - 1e-8, 0.0, 0.0);
   const double coupling = 0.5 * (twins.second_squared - 1.0);
-  const auto rate = [&](const Eigen::Vector4d& y) {
+  const auto rate = [&](double, const Eigen::Vector4d& y) {
     const double difference = y[0] - y[1];
     const auto push = [&](double u) { return u + twins.stop * std::max(u - 1.0, 0.0); };
     return Eigen::Vector4d(y[2], y[3], -push(y[0]) - coupling * difference,
                            -push(y[1]) + coupling * difference);
   };
-  const double h = two_pi / point.omega / steps;
   const auto size = [&] {
     return std::hypot(state[0] - state[1], (state[2] - state[3]) / std::sqrt(twins.second_squared));
   };
   double early = 0.0;
   for (int period = 1; period <= periods; ++period) {
-    for (int i = 0; i < steps; ++i) {
-      const Eigen::Vector4d a = rate(state), b = rate(state + 0.5 * h * a), c = rate(state + 0.5 * h * b),
-                            d = rate(state + h * c);
-      state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-    }
+    state = testing::runge_kutta(rate, state, two_pi / point.omega, steps);
     if (period == periods / 2) early = size();
   }
   return std::pow(size() / early, 1.0 / (periods - periods / 2));
@@ -261,14 +252,6 @@ TEST(ModeStability, MotionOfTooFewHarmonicsHasAnUnknownStability) {
       backbone_stability(mode, mode.backbone(up_to(3.0)), {.max_closure = 0.01});
   EXPECT_EQ(stability.status(), StabilityStatus::too_few_harmonics);
   for (const ModeStability& point : stability.points) EXPECT_EQ(point.unstable >= 0, point.closure <= 0.01);
-}
-
-TEST(ModeStability, RigidContactWithMassHasNone) {
-  const UnitRod rod(4);
-  const ElasticMode mode(rod.model, fourier_pair(11, 80), testing::Rigid{1.0});
-  const ModeStability found = ModeMultipliers(mode)(mode.at_energy(1.2, up_to(1.2)));
-  EXPECT_EQ(found.status, StabilityStatus::no_finite_stiffness);
-  EXPECT_EQ(found.unstable, -1);
 }
 
 /// The rod with a spring at its tip, without mass.

@@ -1,13 +1,9 @@
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <ostream>
 
 #include "ll10_rod.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {

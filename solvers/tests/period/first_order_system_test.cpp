@@ -1,17 +1,36 @@
 #include "wavebalance/solvers/period/first_order_system.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <stdexcept>
-
 #include "support/jl14_bar.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using testing::jl14_bar;
 using testing::jl14_case_1;
+
+// In contact and out of it.
+TEST(FirstOrderSystem, JacobianIsThatOfDifferences) {
+  const LinearStructure bar = jl14_bar(4, 1e-4);
+  const FirstOrderSystem system(bar, jl14_case_1.law, jl14_case_1.frequency_hz);
+  for (const double depth : {-4e-4, 1e-5, 2e-3}) {
+    Eigen::Vector4d displacement(1e-3, -7e-4, 3e-4, jl14_case_1.law.start + depth);
+    const Eigen::VectorXd state = system.state(displacement, Eigen::Vector4d(0.4, -0.2, 0.7, 1.3));
+    const auto rate = [&](Eigen::VectorXd at) {
+      Eigen::VectorXd result(8);
+      system.derivative(0.37, {at.data(), 8}, {result.data(), 8});
+      return result;
+    };
+    Eigen::VectorXd by_time(8);
+    Eigen::Matrix<double, 8, 8, Eigen::RowMajor> by_state;
+    system.jacobian(0.37, {state.data(), 8}, {by_state.data(), 64}, {by_time.data(), 8});
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::VectorXd step = 1e-6 * Eigen::VectorXd::Unit(8, i);
+      const Eigen::VectorXd difference = (rate(state + step) - rate(state - step)) / 2e-6;
+      EXPECT_LT((by_state.col(i) - difference).norm(), 1e-6 * by_state.norm()) << depth << ' ' << i;
+    }
+  }
+}
 
 TEST(FirstOrderSystem, TimeDerivativeIsThatOfTheLoad) {
   const FirstOrderSystem system(jl14_bar(3, 1e-4), jl14_case_1.law, jl14_case_1.frequency_hz);

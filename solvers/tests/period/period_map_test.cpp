@@ -1,16 +1,11 @@
 // The two maps over a period of the load, and after how many periods a motion repeats.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <numbers>
 
 #include "period/bdf_map.hpp"
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
-#include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -30,8 +25,7 @@ void expect_near(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected, 
 TEST(PeriodMap, ModesAndBackwardDifferencesTakeABarThroughTheSameImpacts) {
   const testing::Jl14Case& scene = testing::jl14_case_2;
   const LinearStructure bar = scene.structure();
-  CondensedProblem problem(testing::fourier_pair(7, 32), bar, testing::cosine_load());
-  problem.set_frequency(scene.frequency_hz);
+  CondensedProblem problem = testing::fourier_problem(bar, 7, 32, scene.frequency_hz);
   const ContactLaws laws(testing::LinearContact{1e8, 0.3 * scene.max_displacement});
   ModalMap modes = modal_map(problem, laws);
   BdfMap differences(bar, laws, scene.frequency_hz, samples, 1e-2);
@@ -59,8 +53,7 @@ TEST(PeriodMap, TakesTheBilinearOscillatorBackToItsStart) {
   oscillator.load = 0.0;
   const ContactLaws laws(testing::LinearContact{3.0 * oscillator.stiffness, 0.0});
   const double frequency = std::sqrt(oscillator.stiffness / oscillator.mass) / (1.5 * std::numbers::pi);
-  CondensedProblem problem(testing::fourier_pair(7, 32), oscillator.structure(), testing::cosine_load());
-  problem.set_frequency(frequency);
+  CondensedProblem problem = testing::fourier_problem(oscillator.structure(), 7, 32, frequency);
   ModalMap modes = modal_map(problem, laws);
   BdfMap differences(oscillator.structure(), laws, frequency, samples, 1e-2);
   for (PeriodMap* map : std::initializer_list<PeriodMap*>{&modes, &differences}) {
@@ -75,8 +68,7 @@ TEST(PeriodMap, TakesTheBilinearOscillatorBackToItsStart) {
 
 TEST(PeriodMap, EndsWhereTheOperationsAreUsedUp) {
   const testing::Oscillator oscillator;
-  CondensedProblem problem(testing::fourier_pair(7, 32), oscillator.structure(), testing::cosine_load());
-  problem.set_frequency(25.0);
+  CondensedProblem problem = testing::fourier_problem(oscillator.structure(), 7, 32, 25.0);
   const ContactLaws none;
   ModalMap modes = modal_map(problem, none);
   BdfMap differences(oscillator.structure(), none, 25.0, samples, 1e-2);

@@ -1,20 +1,14 @@
 // Structures that settle against stops with brief impacts, with forces that jump and with contacts that stay
 // closed. The periods are held against the integration of variable step.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <complex>
-#include <vector>
-
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/exponential_law.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -26,14 +20,6 @@ struct ImpactCase {
   ContactLaws laws;
   double frequency = 0.0;  // Hz
 };
-
-LinearStructure structure_of(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& damping,
-                             const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& contacts,
-                             const Eigen::VectorXd& load) {
-  LinearStructure structure{mass.sparseView(), damping.sparseView(), stiffness.sparseView(), load, {}};
-  structure.contact_directions = ContactDirections(Eigen::SparseMatrix<double>(contacts.sparseView()));
-  return structure;
-}
 
 // Five impacts per period, each a hundredth of it.
 ImpactCase exponential_oscillator() {
@@ -82,7 +68,7 @@ ImpactCase five_masses_between_damped_stops() {
   contacts << 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0;
   const Eigen::VectorXd load = 19.62968366675098 * Eigen::VectorXd::Unit(5, 0);
   return {
-      structure_of(mass, damping, stiffness, contacts, load),
+      testing::structure(mass, damping, stiffness, load, contacts),
       ContactLaws({contact::KelvinVoigtLaw(2755886.357316102, 3218.888317007048, 8.513757003834608e-05),
                    contact::KelvinVoigtLaw(5797048.625604386, 184.80879999898036, 0.0007371992129435768)}),
       4.347472126367738};
@@ -94,8 +80,8 @@ ImpactCase two_masses_before_damped_stops() {
                                 {-15.000898805438226, 33.15048563061004}};
   const Eigen::Matrix2d stiffness{{26769.868193757728, -16690.770671322567},
                                   {-16690.770671322567, 16690.770671322567}};
-  return {structure_of(mass, damping, stiffness, -Eigen::Matrix2d::Identity(),
-                       Eigen::Vector2d(0.0, 1.5 * 22.6105257256964)),
+  return {testing::structure(mass, damping, stiffness, Eigen::Vector2d(0.0, 1.5 * 22.6105257256964),
+                             Eigen::MatrixXd(-Eigen::Matrix2d::Identity())),
           ContactLaws(
               {contact::KelvinVoigtLaw(10016228.727020187, 632.0689858520601, 0.0009428975171644093),
                contact::HuntCrossleyLaw(507848825.0698899, 2.5, 1.4480338776274324, 0.0013314989930147305)}),
@@ -103,9 +89,7 @@ ImpactCase two_masses_before_damped_stops() {
 }
 
 CondensedProblem problem_of(const ImpactCase& one, int functions, int points) {
-  CondensedProblem problem(testing::fourier_pair(functions, points), one.structure, testing::cosine_load());
-  problem.set_frequency(one.frequency);
-  return problem;
+  return testing::fourier_problem(one.structure, functions, points, one.frequency);
 }
 
 TimeSteppingResult stepped(const ImpactCase& one) {
@@ -154,8 +138,7 @@ TEST(SettlingImpacts, NothingIsSaidOfPeriodsWhereTheOperationsRunOut) {
 TEST(SettlingImpacts, TheSettledMotionStartsTheBalance) {
   const ImpactCase one = exponential_oscillator();
   CondensedProblem problem = problem_of(one, 255, 2048);
-  const PeriodicResponse response = forced_response(problem, one.laws, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, one.laws);
   EXPECT_EQ(response.strategy, Strategy::settling);
   EXPECT_EQ(response.attractor_periods, 1);
   EXPECT_NEAR(response.displacement.maxCoeff(), stepped_exponential().contacts.displacement.maxCoeff(),
@@ -169,12 +152,10 @@ TEST(SettlingImpacts, AnExponentialStopThatStaysClosedIsSolvedWithAnyNumberOfFun
   structure.forces.push_back({-Eigen::VectorXd::Ones(1), Eigen::VectorXcd::Ones(1)});
   const ImpactCase one{structure, contact::ExponentialLaw(0.01, 1e4, -5e-3), 4.0};
   CondensedProblem few = problem_of(one, 63, 512);
-  const PeriodicResponse known = forced_response(few, one.laws, {});
-  ASSERT_TRUE(known.converged());
+  const PeriodicResponse known = testing::solved_response(few, one.laws);
   for (const int functions : {127, 255}) {
     CondensedProblem problem = problem_of(one, functions, 1024);
-    const PeriodicResponse response = forced_response(problem, one.laws, {});
-    ASSERT_TRUE(response.converged()) << functions;
+    const PeriodicResponse response = testing::solved_response(problem, one.laws);
     EXPECT_NEAR(response.displacement.maxCoeff(), known.displacement.maxCoeff(), 1e-9);
   }
 }
@@ -184,18 +165,18 @@ TEST(SettlingImpacts, AnExponentialStopThatStaysClosedIsSolvedWithAnyNumberOfFun
 // Three stops of laws of the velocity, in contact for nearly the whole period.
 ImpactCase closed_damped_stops() {
   ImpactCase one;
-  one.structure =
-      structure_of(Eigen::Matrix3d{{0.81104509065602937, -0.21642970430800249, 0.18611908966275201},
-                                   {-0.21642970430800249, 1.7530606253947627, -0.53997127749341034},
-                                   {0.18611908966275201, -0.53997127749341034, 1.358089385098056}},
-                   Eigen::Matrix3d{{9.2861529048050606, -0.82615204179352231, -0.67748505948193127},
-                                   {0.23695897011480638, 3.1630762072900103, 0.85473534641256588},
-                                   {-0.11295904353177683, -2.0313528042597815, 3.6452756751926523}},
-                   Eigen::Matrix3d{{31047.11720036254, 0.0, -3078.9864094969125},
-                                   {0.0, 1615.0983394445434, 0.0},
-                                   {-3078.9864094969125, 0.0, 3078.9864094969125}},
-                   Eigen::Matrix3d{{0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.6}},
-                   Eigen::Vector3d(0.0, 0.7096901995947826, 0.0));
+  one.structure = testing::structure(
+      Eigen::Matrix3d{{0.81104509065602937, -0.21642970430800249, 0.18611908966275201},
+                      {-0.21642970430800249, 1.7530606253947627, -0.53997127749341034},
+                      {0.18611908966275201, -0.53997127749341034, 1.358089385098056}},
+      Eigen::Matrix3d{{9.2861529048050606, -0.82615204179352231, -0.67748505948193127},
+                      {0.23695897011480638, 3.1630762072900103, 0.85473534641256588},
+                      {-0.11295904353177683, -2.0313528042597815, 3.6452756751926523}},
+      Eigen::Matrix3d{{31047.11720036254, 0.0, -3078.9864094969125},
+                      {0.0, 1615.0983394445434, 0.0},
+                      {-3078.9864094969125, 0.0, 3078.9864094969125}},
+      Eigen::Vector3d(0.0, 0.7096901995947826, 0.0),
+      Eigen::MatrixXd(Eigen::Matrix3d{{0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}, {-1.0, 0.0, 0.6}}));
   Eigen::VectorXcd third = Eigen::VectorXcd::Zero(4);
   third[3] = std::polar(0.6010694728806378, -46.79134340006354 * two_pi / 360.0);
   one.structure.forces = {{Eigen::Vector3d::UnitX(), third, 0}};
@@ -218,8 +199,7 @@ TEST(SettlingImpacts, DampedStopsThatStayClosedAreSolvedFromTheSettledMotion) {
   ForcedResponseOptions newton_alone;
   newton_alone.fallbacks = false;
   newton_alone.newton.max_operations = newton_alone.max_fallback_operations;
-  const PeriodicResponse response = forced_response(problem, one.laws, newton_alone, settled);
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  const PeriodicResponse response = testing::solved_response(problem, one.laws, newton_alone, settled);
   // The truncation by 127 functions, of forces that jump.
   EXPECT_LE((response.displacement - settled).norm(), 5e-3 * settled.norm());
 }

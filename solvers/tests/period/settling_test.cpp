@@ -1,15 +1,12 @@
 // Motions that structures at rest settle to, and continuation from approximate motions.
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
+#include "wavebalance/solvers/period/settling.hpp"
 #include "period/modal_flow.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/continuation/residual_homotopy.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {
@@ -57,10 +54,7 @@ TEST(ModalFlow, KeepsTheStaticDeflectionOfOmittedModes) {
 }
 
 CondensedProblem oscillator_problem(double frequency) {
-  CondensedProblem problem(testing::fourier_pair(63, 256), testing::Oscillator{}.structure(),
-                           testing::cosine_load());
-  problem.set_frequency(frequency);
-  return problem;
+  return testing::fourier_problem(testing::Oscillator{}.structure(), 63, 256, frequency);
 }
 
 TEST(Settling, WithoutContactArrivesAtTheResponseOfTheLoad) {
@@ -76,8 +70,7 @@ TEST(Settling, AgainstAStopArrivesAtTheForcedResponse) {
   const LinearContact stop{2e4, 0.4e-3};
   const SettledMotion motion = settle(problem, stop);
   ASSERT_EQ(motion.attractor_periods, 1);
-  const PeriodicResponse response = forced_response(problem, stop, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, stop);
   EXPECT_LE((resample(motion.last.displacement, 256) - response.displacement).norm(),
             1e-3 * response.displacement.norm());
   EXPECT_LE((resample(motion.last.force, 256) - response.contact_force).norm(),
@@ -138,7 +131,7 @@ TEST_F(TwoMotions, RefuseAStateThatIsNotOfTheStructure) {
 // The preloaded impact oscillator has ranges of frequency with motions of two and more periods.
 TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
   testing::Oscillator one{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};
-  CondensedProblem problem(testing::fourier_pair(31, 64), one.structure(), testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(one.structure(), 31, 64);
   int subharmonic = 0;
   for (double omega = 2.2; omega < 4.4; omega += 0.2) {
     problem.set_frequency(omega / (2.0 * std::numbers::pi));
@@ -154,8 +147,7 @@ TEST(Settling, DoesNotTakeASpiralForASubharmonicMotion) {
   constexpr double omega = 2.0 * std::numbers::pi;
   const testing::Oscillator one{
       .mass = 1.0, .damping = 0.04 * omega, .stiffness = omega * omega, .load = 1.0};
-  CondensedProblem problem(testing::fourier_pair(7, 32), one.structure(), testing::cosine_load());
-  problem.set_frequency(4.0);
+  CondensedProblem problem = testing::fourier_problem(one.structure(), 7, 32, 4.0);
   EXPECT_EQ(settle(problem, AnyContactLaw()).attractor_periods, 1);
 }
 
@@ -166,8 +158,7 @@ TEST(Settling, ReportsWhatItCannotIntegrateAndStopsWhenAsked) {
   EXPECT_EQ(settle(problem, AnyContactLaw(), small).attractor_periods, SettledMotion::unknown);
   testing::Oscillator undamped;
   undamped.damping = 0.0;
-  CondensedProblem resonant(testing::fourier_pair(7, 32), undamped.structure(), testing::cosine_load());
-  resonant.set_frequency(25.0);
+  CondensedProblem resonant = testing::fourier_problem(undamped.structure(), 7, 32, 25.0);
   EXPECT_EQ(settle(resonant, AnyContactLaw()).attractor_periods, 0);  // it beats for ever
   SettlingOptions stopped;
   int periods = 0;

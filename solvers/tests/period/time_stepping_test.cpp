@@ -1,16 +1,10 @@
 #include "wavebalance/solvers/period/time_stepping.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "constants.hpp"
 #include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -1,24 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "constants.hpp"
 #include "period_oracle/shooting.hpp"
-#include "support/condensation_cases.hpp"
-#include "support/jl14_bar.hpp"
+#include "support/duffing_spring.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
-#include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using testing::DampedStop, testing::distance, testing::expect_motion, testing::LinearStop,
+using testing::DampedStop, testing::distance, testing::expect_motion, testing::LinearContact,
     testing::RandomCase, testing::uniform_times;
 
 using testing::Jl14Case;
@@ -55,10 +48,8 @@ TEST(ContactPhases, OfBothCasesOfTheBarAreWhatShootingFinds) {
     ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
     ASSERT_EQ(found.motion.phases.size(), 1u);
     EXPECT_NEAR(found.motion.phases[0].length(), jl14.contact_fraction, 1.0 / 1024.0);  // a share of samples
-    oracle::ShootingOptions options;
-    options.output_points = 512;
-    const oracle::ShootingResult shot = oracle::shoot(bar.structure, bar.law[0], jl14.frequency_hz, options);
-    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
+    const oracle::ShootingResult shot =
+        oracle::shot_motion(bar.structure, bar.law[0], jl14.frequency_hz, 512);
     EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), shot.contacts.displacement), 1e-8);
     EXPECT_GT(found.displacement_error, 1e-6);
     EXPECT_LT(found.displacement_error, 1e-2);
@@ -83,20 +74,6 @@ TEST(ContactPhases, ConvergeGeometricallyOverTheNodesOfAPanel) {
   }
 }
 
-TEST(ContactPhases, KeepToTheToleranceAndEstimateTheirError) {
-  for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
-    const BarCase bar(jl14);
-    const Eigen::VectorXd times = uniform_times(256);
-    const Eigen::MatrixXd exact = bar.phases(1e-13).motion.displacement(times);
-    for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
-      const PhaseMotion found = bar.phases(tolerance).motion;
-      ASSERT_TRUE(found.converged());
-      EXPECT_LE(found.estimated_error, tolerance);
-      EXPECT_LT(distance(found.displacement(times), exact), tolerance);
-    }
-  }
-}
-
 // The layer of fast modes lies where contact begins alone: the panel that was cut for another one at its end
 // is joined with the one beside it, or there would be 83 unknowns.
 TEST(ContactPhases, HaveNoPanelsForLayersThatAreNotThere) {
@@ -105,23 +82,12 @@ TEST(ContactPhases, HaveNoPanelsForLayersThatAreNotThere) {
   EXPECT_LE(found.unknowns, 60);
 }
 
-/// k u + c u^3.
-struct HardeningSpring {
-  double linear, cubic;
-  double force(double u) const { return u * (linear + cubic * u * u); }
-  double tangent(double u) const { return linear + 3.0 * cubic * u * u; }
-  double potential(double u) const { return u * u * (0.5 * linear + 0.25 * cubic * u * u); }
-  double gap() const { return infinity; }
-  bool unilateral() const { return false; }
-};
-
 TEST(ContactPhases, OfRandomStructuresSatisfyTheirLawsAndAreNearTheBalance) {
   std::mt19937 generator(28);
   int found = 0, solved = 0;
   for (int trial = 0; trial < 24; ++trial) {
     const RandomCase random(generator, 1 + trial % 4);
-    CondensedProblem problem(testing::fourier_pair(255, 1024), random.structure, cosine_load());
-    problem.set_frequency(random.frequency);
+    CondensedProblem problem = testing::fourier_problem(random.structure, 255, 1024, random.frequency);
     const PeriodicResponse response = forced_response(problem, random.laws, {});
     if (!response.converged()) continue;
     ++solved;
@@ -141,15 +107,8 @@ TEST(ContactPhases, OfForcesOfTheVelocitySatisfyTheirLaws) {
   int found = 0;
   for (int trial = 0; trial < 8; ++trial) {
     const RandomCase random(generator, 1 + trial % 3);
-    std::vector<AnyContactLaw> list;
-    for (int c = 0; c < random.structure.contacts(); ++c) {
-      const AnyContactLaw& stop = random.laws[c];
-      const double stiffness = stop.tangent(2.0 * stop.gap());
-      list.emplace_back(DampedStop{stiffness, 0.1 * stiffness / (two_pi * random.frequency), stop.gap()});
-    }
-    const ContactLaws laws(std::move(list));
-    CondensedProblem problem(testing::fourier_pair(255, 1024), random.structure, cosine_load());
-    problem.set_frequency(random.frequency);
+    const ContactLaws laws = testing::with_dashpots(random, 0.1 / two_pi);
+    CondensedProblem problem = testing::fourier_problem(random.structure, 255, 1024, random.frequency);
     const PeriodicResponse response = forced_response(problem, laws, {});
     if (!response.converged()) continue;
     const ResponsePhases phases =
@@ -164,7 +123,7 @@ TEST(ContactPhases, OfForcesOfTheVelocitySatisfyTheirLaws) {
 
 TEST(ContactPhases, OfAMotionWithoutContactAreNone) {
   BarCase bar(testing::jl14_case_1);
-  const ContactLaws distant(LinearStop{1e9, 1.0});
+  const ContactLaws distant(LinearContact{1e9, 1.0});
   const PeriodicResponse response = forced_response(bar.problem, distant, {});
   const ResponsePhases found = response_phases(bar.problem, distant, response, bar.dynamics);
   ASSERT_TRUE(found.motion.converged());
@@ -175,9 +134,8 @@ TEST(ContactPhases, OfAMotionWithoutContactAreNone) {
 
 TEST(ContactPhases, OfContactThatLastsHaveOnePhaseOfAWholePeriod) {
   BarCase bar(testing::jl14_case_1);
-  const ContactLaws pressed(LinearStop{1e8, -5e-3});
-  const PeriodicResponse response = forced_response(bar.problem, pressed, {});
-  ASSERT_TRUE(response.converged());
+  const ContactLaws pressed(LinearContact{1e8, -5e-3});
+  const PeriodicResponse response = testing::solved_response(bar.problem, pressed);
   const ResponsePhases found =
       response_phases(bar.problem, pressed, response, bar.dynamics, {.tolerance = 1e-11});
   ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
@@ -189,9 +147,8 @@ TEST(ContactPhases, OfContactThatLastsHaveOnePhaseOfAWholePeriod) {
 
 TEST(ContactPhases, OfASpringThatActsAlwaysAreThoseOfItsFullBalance) {
   BarCase bar(testing::jl14_case_1, 255);
-  const ContactLaws cubic(HardeningSpring{1e8, 1e13});
-  const PeriodicResponse response = forced_response(bar.problem, cubic, {});
-  ASSERT_TRUE(response.converged());
+  const ContactLaws cubic(testing::DuffingSpring{.cubic = 1e13, .linear = 1e8});
+  const PeriodicResponse response = testing::solved_response(bar.problem, cubic);
   const ResponsePhases found =
       response_phases(bar.problem, cubic, response, bar.dynamics, {.tolerance = 1e-11});
   ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);

@@ -1,12 +1,7 @@
 #include "phases/cell_waves.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "constants.hpp"
 #include "linalg/gauss_rule.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {

@@ -1,11 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "constants.hpp"
 #include "support/phase_cases.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -50,8 +46,7 @@ TEST_P(PhaseReleases, EndContactWhereTheForceVanishes) {
     SCOPED_TRACE(trial);
     const RandomCase random(generator, 1 + trial % 3);
     const ContactLaws laws = pushing_laws(random, GetParam());
-    CondensedProblem problem(testing::fourier_pair(255, 1024), random.structure, cosine_load());
-    problem.set_frequency(random.frequency);
+    CondensedProblem problem = testing::fourier_problem(random.structure, 255, 1024, random.frequency);
     const PeriodicResponse response = forced_response(problem, laws, {});
     if (!response.converged()) continue;
     ++solved;
@@ -77,17 +72,10 @@ INSTANTIATE_TEST_SUITE_P(Laws, PhaseReleases,
 // An oscillator whose stop lets it go at 0.257 of the period, before it passes the gap at 0.340. The values
 // were computed from the flow, by exponentials of matrices between located events, in another language.
 TEST(PhaseReleases, OfAnOscillatorAreThoseOfTheFlow) {
-  LinearStructure structure;
-  const auto scalar = [](double value) {
-    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
-  };
-  structure.mass = structure.stiffness = structure.contact_directions = scalar(1.0);
-  structure.damping = scalar(0.1);
-  structure.load = Eigen::VectorXd::Ones(1);
+  const LinearStructure structure = testing::unit_oscillator(0.1, 1.0);
   const ContactDynamics dynamics(structure);
   const ContactLaws laws(AnyContactLaw(PushingStop{5.0, 2.5, 0.5}));
-  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
-  problem.set_frequency(0.2);
+  CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 0.2);
   const PhaseMotion motion =
       response_phases(problem, laws, forced_response(problem, laws, {}), dynamics, {.tolerance = 1e-11})
           .motion;
@@ -108,10 +96,8 @@ TEST(PhaseReleases, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
   const ContactDynamics dynamics(structure);
   const ContactLaws laws(
       {AnyContactLaw(PushingStop{300.0, 15.0, 0.0005}), AnyContactLaw(PushingStop{300.0, 15.0, 0.0005})});
-  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
-  problem.set_frequency(2.5);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 2.5);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const ResponsePhases phases = response_phases(problem, laws, response, dynamics, {.tolerance = 1e-9});
   ASSERT_TRUE(phases.motion.converged()) << to_string(phases.motion.status);
   EXPECT_GE(releases_of(phases.motion, laws), 1);

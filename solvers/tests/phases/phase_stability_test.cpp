@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "linalg/dense.hpp"
 #include "phases/phase_count.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/problem/motion_stability.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -14,8 +11,12 @@
 namespace wavebalance::solvers {
 namespace {
 
-using testing::expect_same, testing::DampedStop, testing::cosine_load, testing::LinearStop,
+using testing::expect_same, testing::DampedStop, testing::cosine_load, testing::LinearContact,
     testing::RandomCase, testing::with_massless_contacts;
+
+int outside(const Eigen::VectorXcd& multipliers) {
+  return static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
+}
 
 TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
   std::mt19937 generator(7);
@@ -24,9 +25,8 @@ TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
     const ContactDynamics dynamics(random.structure);
     std::vector<int> counts;
     for (const int functions : {63, 127, 255}) {
-      CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), random.structure,
-                               cosine_load());
-      problem.set_frequency(random.frequency);
+      CondensedProblem problem =
+          testing::fourier_problem(random.structure, functions, 4 * (functions + 1), random.frequency);
       const PeriodicResponse response = forced_response(problem, random.laws, {});
       const ResponsePhases phases = response_phases(problem, random.laws, response, dynamics);
       if (!phases.motion.converged()) continue;
@@ -41,8 +41,7 @@ TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
 
 PhaseMotion motion_of(const LinearStructure& structure, const ContactLaws& laws, double frequency,
                       const ContactDynamics& dynamics, int functions = 255) {
-  CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), structure, cosine_load());
-  problem.set_frequency(frequency);
+  CondensedProblem problem = testing::fourier_problem(structure, functions, 4 * (functions + 1), frequency);
   const PeriodicResponse response = forced_response(problem, laws, {});
   return response_phases(problem, laws, response, dynamics, {.tolerance = 1e-11}).motion;
 }
@@ -53,14 +52,7 @@ TEST(PhaseMultipliers, AreThoseOfTheMonodromy) {
   int found = 0;
   for (int trial = 0; trial < 12; ++trial) {
     RandomCase random(generator, 1 + trial % 4);
-    if (trial % 2 == 1) {
-      std::vector<AnyContactLaw> damped;
-      for (int c = 0; c < random.structure.contacts(); ++c) {
-        const double gap = random.laws[c].gap(), stiffness = random.laws[c].tangent(2.0 * gap);
-        damped.emplace_back(DampedStop{stiffness, 0.02 * stiffness / random.frequency, gap});
-      }
-      random.laws = ContactLaws(std::move(damped));
-    }
+    if (trial % 2 == 1) random.laws = testing::with_dashpots(random, 0.02);
     const ContactDynamics dynamics(random.structure);
     const PhaseMotion motion = motion_of(random.structure, random.laws, random.frequency, dynamics);
     if (!motion.converged() || motion.phases.empty()) continue;
@@ -74,13 +66,7 @@ TEST(PhaseMultipliers, AreThoseOfTheMonodromy) {
 // An oscillator with a stop that pulls as it opens. The multipliers were computed from the flow, by
 // exponentials of matrices between located events, in another language.
 TEST(PhaseMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
-  LinearStructure structure;
-  const auto scalar = [](double value) {
-    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
-  };
-  structure.mass = structure.stiffness = structure.contact_directions = scalar(1.0);
-  structure.damping = scalar(0.1);
-  structure.load = Eigen::VectorXd::Ones(1);
+  const LinearStructure structure = testing::unit_oscillator(0.1, 1.0);
   const ContactDynamics dynamics(structure);
   const PhaseMotion motion =
       motion_of(structure, ContactLaws(AnyContactLaw(DampedStop{5.0, 0.8, 0.5})), 0.2, dynamics);
@@ -93,13 +79,7 @@ TEST(PhaseMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
 // A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. On the
 // panels of the motion alone multipliers appeared that the structure does not have.
 TEST(PhaseMultipliers, OfAContactThatStaysClosedAreExponentialsHoweverFastItIs) {
-  LinearStructure structure;
-  const auto scalar = [](double value) {
-    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
-  };
-  structure.mass = structure.stiffness = structure.contact_directions = scalar(1.0);
-  structure.damping = scalar(0.1);
-  structure.load = Eigen::VectorXd::Constant(1, 0.1);
+  const LinearStructure structure = testing::unit_oscillator(0.1, 0.1);
   for (const double damping : {0.0, 3.0, 30.0}) {
     constexpr double stop = 4e4, frequency = 1.0;
     SCOPED_TRACE(damping);
@@ -127,6 +107,7 @@ TEST(PhaseMultipliers, OfRigidContactAreThoseOfHeldContacts) {
   const Eigen::VectorXcd multipliers = motion.multipliers();
   ASSERT_GT(multipliers.size(), 0);
   expect_same(multipliers, rigid_monodromy(dynamics, contact_stiffness(motion), 1.3), 1e-6);
+  EXPECT_EQ(motion.count_unstable(), outside(multipliers));
 }
 
 // Without contact they are those of the structure.
@@ -134,7 +115,7 @@ TEST(PhaseMultipliers, OfAMotionWithoutContactAreExponentials) {
   std::mt19937 generator(3);
   const RandomCase random(generator, 2);
   const ContactDynamics dynamics(random.structure);
-  const ContactLaws distant(AnyContactLaw(LinearStop{1.0, 1e3}));
+  const ContactLaws distant(AnyContactLaw(LinearContact{1.0, 1e3}));
   const PhaseMotion motion = motion_of(random.structure, distant, random.frequency, dynamics, 15);
   ASSERT_TRUE(motion.converged());
   const Eigen::VectorXcd multipliers = motion.multipliers();
@@ -142,10 +123,6 @@ TEST(PhaseMultipliers, OfAMotionWithoutContactAreExponentials) {
   double slowest = -infinity;
   for (const ContactPole& pole : dynamics.poles()) slowest = std::max(slowest, pole.exponent.real());
   EXPECT_NEAR(std::abs(multipliers[0]), std::exp(slowest / random.frequency), 1e-12);
-}
-
-int outside(const Eigen::VectorXcd& multipliers) {
-  return static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
 }
 
 // Poles of which some have decayed, some lie outside the circle, and two unknowns.
@@ -187,32 +164,15 @@ TEST(PhaseMultipliers, AreCountedAsOneByOne) {
   EXPECT_GE(found, 16);
 }
 
-TEST(PhaseMultipliers, OfRigidContactAreCountedToo) {
-  const LinearStructure structure = with_massless_contacts(0.3);
-  const ContactDynamics dynamics(structure);
-  const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
-  const PhaseMotion motion = motion_of(structure, laws, 1.3, dynamics, 127);
-  ASSERT_TRUE(motion.converged());
-  EXPECT_EQ(motion.count_unstable(), outside(motion.multipliers()));
-}
-
 // Panels that other contacts do not cut have kinks within, which take more nodes and panels.
 TEST(PhaseMultipliers, AreTheSameWithPanelsThatOtherContactsDoNotCut) {
   std::mt19937 generator(23);
   int found = 0;
   for (int trial = 0; trial < 8; ++trial) {
     RandomCase random(generator, 2 + trial % 4);
-    if (trial % 2 == 1) {
-      std::vector<AnyContactLaw> damped;
-      for (int c = 0; c < random.structure.contacts(); ++c) {
-        const double gap = random.laws[c].gap(), stiffness = random.laws[c].tangent(2.0 * gap);
-        damped.emplace_back(DampedStop{stiffness, 0.02 * stiffness / random.frequency, gap});
-      }
-      random.laws = ContactLaws(std::move(damped));
-    }
+    if (trial % 2 == 1) random.laws = testing::with_dashpots(random, 0.02);
     const ContactDynamics dynamics(random.structure);
-    CondensedProblem problem(testing::fourier_pair(127, 512), random.structure, cosine_load());
-    problem.set_frequency(random.frequency);
+    CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
     const PeriodicResponse response = forced_response(problem, random.laws, {});
     const PhaseMotion cut = response_phases(problem, random.laws, response, dynamics).motion,
                       whole = response_phases(problem, random.laws, response, dynamics,
@@ -251,8 +211,7 @@ TEST(PhaseMultipliers, OfMoreStatesThanAreComputedAreCountedInTheVerdict) {
   const LinearStructure structure = chain(220);
   const ContactDynamics dynamics(structure);
   const ContactLaws laws(AnyContactLaw(DampedStop{3.0, 0.2, 0.4}));
-  CondensedProblem problem(testing::fourier_pair(63, 256), structure, cosine_load());
-  problem.set_frequency(0.12);
+  CondensedProblem problem = testing::fourier_problem(structure, 63, 256, 0.12);
   const PeriodicResponse response = forced_response(problem, laws, {});
   const PhaseMotion motion = response_phases(problem, laws, response, dynamics).motion;
   ASSERT_TRUE(motion.converged());

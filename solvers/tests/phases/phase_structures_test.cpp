@@ -1,22 +1,17 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "phases/phase_layout.hpp"
 #include "phases/phase_refinement.hpp"
 #include "phases/pole_response.hpp"
-#include "support/jl14_bar.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using testing::distance, testing::expect_motion, testing::free_pair, testing::cosine_load,
-    testing::LinearStop, testing::RandomCase, testing::uniform_times, testing::with_massless_contacts;
+    testing::LinearContact, testing::RandomCase, testing::uniform_times, testing::with_massless_contacts;
 
 TEST(ContactPhases, OfAnUndampedStructureAreThoseOfOneWithNextToNoDamping) {
   std::mt19937 generator(5);
@@ -24,10 +19,8 @@ TEST(ContactPhases, OfAnUndampedStructureAreThoseOfOneWithNextToNoDamping) {
   const auto motion_with = [&](double factor) {
     LinearStructure structure = random.structure;
     structure.damping = factor * structure.stiffness;
-    CondensedProblem problem(testing::fourier_pair(127, 512), structure, cosine_load());
-    problem.set_frequency(random.frequency);
-    const PeriodicResponse response = forced_response(problem, random.laws, {});
-    EXPECT_TRUE(response.converged());
+    CondensedProblem problem = testing::fourier_problem(structure, 127, 512, random.frequency);
+    const PeriodicResponse response = testing::solved_response(problem, random.laws);
     return response_phases(problem, random.laws, response, ContactDynamics(structure), {}).motion;
   };
   const PhaseMotion undamped = motion_with(0.0), damped = motion_with(1e-9);
@@ -38,11 +31,9 @@ TEST(ContactPhases, OfAnUndampedStructureAreThoseOfOneWithNextToNoDamping) {
 
 TEST(ContactPhases, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
   const LinearStructure structure = free_pair();
-  const ContactLaws laws(AnyContactLaw(LinearStop{60.0, 0.01}));
-  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
-  problem.set_frequency(1.1);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  const ContactLaws laws(AnyContactLaw(LinearContact{60.0, 0.01}));
+  CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 1.1);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const ResponsePhases phases = response_phases(problem, laws, response, ContactDynamics(structure), {});
   ASSERT_TRUE(phases.motion.converged());
   EXPECT_LT(phases.displacement_error, 1e-4);
@@ -53,11 +44,10 @@ TEST(ContactPhases, OfAStructureThatIsFreeToMoveAreNearItsBalance) {
 
 TEST(ContactPhases, OfContactsWithoutMassThatDeflectEachOtherSatisfyTheirLaws) {
   const LinearStructure structure = with_massless_contacts();
-  const ContactLaws laws({AnyContactLaw(LinearStop{150.0, 0.002}), AnyContactLaw(LinearStop{90.0, 0.003})});
-  CondensedProblem problem(testing::fourier_pair(511, 2048), structure, cosine_load());
-  problem.set_frequency(1.3);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  const ContactLaws laws(
+      {AnyContactLaw(LinearContact{150.0, 0.002}), AnyContactLaw(LinearContact{90.0, 0.003})});
+  CondensedProblem problem = testing::fourier_problem(structure, 511, 2048, 1.3);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const ResponsePhases phases = response_phases(problem, laws, response, ContactDynamics(structure), {});
   ASSERT_TRUE(phases.motion.converged());
   EXPECT_EQ(phases.motion.phases.size(), 2u);
@@ -71,10 +61,8 @@ class RigidPhases : public ::testing::TestWithParam<double> {};
 TEST_P(RigidPhases, HoldTheGapAndPushOnly) {
   const LinearStructure structure = with_massless_contacts(GetParam());
   const ContactLaws laws({AnyContactLaw(testing::Rigid{0.002}), AnyContactLaw(testing::Rigid{0.003})});
-  CondensedProblem problem(testing::fourier_pair(127, 512), structure, cosine_load());
-  problem.set_frequency(1.3);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  CondensedProblem problem = testing::fourier_problem(structure, 127, 512, 1.3);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const ContactDynamics dynamics(structure);
   const ResponsePhases phases = response_phases(problem, laws, response, dynamics, {});
   ASSERT_TRUE(phases.motion.converged());
@@ -102,10 +90,8 @@ TEST(PhasesOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
   const LinearStructure bar = testing::massless_tip(testing::jl14_case_2.structure());
   const ContactLaws laws(AnyContactLaw(testing::Rigid{testing::jl14_case_2.law.start}));
   const auto phases_of = [&](int functions) {
-    CondensedProblem problem(testing::fourier_pair(functions, 4 * (functions + 1)), bar, cosine_load());
-    problem.set_frequency(1275.0);
-    const PeriodicResponse response = forced_response(problem, laws, {});
-    EXPECT_TRUE(response.converged());
+    CondensedProblem problem = testing::fourier_problem(bar, functions, 4 * (functions + 1), 1275.0);
+    const PeriodicResponse response = testing::solved_response(problem, laws);
     return response_phases(problem, laws, response, ContactDynamics(bar), {}).motion;
   };
   const PhaseMotion motion = phases_of(127), other = phases_of(255);
@@ -212,11 +198,9 @@ TEST(ContactPhases, OfContactsThatPassTogetherAreThoseOfOne) {
     structure.contact_directions = directions.sparseView();
   };
   twice(1, 1);
-  const ContactLaws laws(AnyContactLaw(LinearStop{50.0, 0.004}));
-  CondensedProblem problem(testing::fourier_pair(255, 1024), structure, cosine_load());
-  problem.set_frequency(1.3);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  const ContactLaws laws(AnyContactLaw(LinearContact{50.0, 0.004}));
+  CondensedProblem problem = testing::fourier_problem(structure, 255, 1024, 1.3);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const PhaseMotion motion = response_phases(problem, laws, response, ContactDynamics(structure), {}).motion;
   ASSERT_TRUE(motion.converged());
   ASSERT_EQ(motion.phases.size(), 2u);

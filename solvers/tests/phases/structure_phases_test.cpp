@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-
-#include "constants.hpp"
-#include "support/jl14_bar.hpp"
-#include "support/rigid_law.hpp"
-#include "support/small_problems.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/phases/structure_phases.hpp"
+#include "support/phase_cases.hpp"
+#include "support/rigid_law.hpp"
+#include "testing.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
@@ -20,14 +14,6 @@ using testing::Jl14Case;
 double relative(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exact) {
   return (values - exact).norm() / exact.norm();
 }
-
-struct LinearStopAt {
-  double stiffness, start;
-  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
-  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
-  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
-  double gap() const { return start; }
-};
 
 /// A structure with its laws, a balance of it and the phases near that.
 struct Solved {
@@ -122,20 +108,14 @@ TEST(StructurePhases, AgreeAtContactsWithoutMassMoreSlowly) {
 }
 
 TEST(StructurePhases, HoldAStructureThatIsFreeToMove) {
-  LinearStructure structure;
-  const Eigen::Matrix2d coupling{{1.0, -1.0}, {-1.0, 1.0}}, mass{{1.0, 0.0}, {0.0, 0.7}},
-      sides{{1.0, 0.0}, {0.0, -1.0}};
-  structure.mass = mass.sparseView();
-  structure.stiffness = (100.0 * coupling).sparseView();
-  structure.damping = (0.8 * coupling).sparseView();
-  structure.load = Eigen::Vector2d(1.0, 0.3);
-  structure.rigid_modes = Eigen::MatrixXd::Constant(2, 1, 1.0 / std::sqrt(1.7));
-  structure.contact_directions = sides.sparseView();
-  const Solved pair(structure, ContactLaws(AnyContactLaw(LinearStopAt{60.0, 0.01})), 1.1, 255);
+  const LinearStructure structure = testing::free_pair();
+  const Solved pair(structure, ContactLaws(AnyContactLaw(testing::LinearContact{60.0, 0.01})), 1.1, 255);
   const StructurePhases whole = structure_phases(pair.problem, pair.motion, 200);
   EXPECT_LE(whole.left_out, 1e-9);
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(200, 0.0, 1.0 - 1.0 / 200);
-  EXPECT_LT(relative(sides * whole.motion.displacement, pair.motion.displacement(times)), 2e-9);
+  EXPECT_LT(
+      relative(structure.contact_directions * whole.motion.displacement, pair.motion.displacement(times)),
+      2e-9);
 }
 
 TEST(StructurePhases, RefuseBadInput) {

@@ -1,17 +1,12 @@
 // All periodic motions of one frequency, by settling from random states and at the boundaries of basins.
 #include "wavebalance/solvers/problem/coexisting_motions.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
-#include <stdexcept>
 
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -80,20 +75,6 @@ TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
     EXPECT_EQ(all.motions[0].found_by, MotionSource::rest);
     EXPECT_EQ(all.motions[0].arrivals, 4);
   }
-}
-
-TEST(CoexistingMotions, AreTheSameForTheSameSeed) {
-  ContactProblem problem = folded();
-  const CoexistingMotions& first = between_folds(0.18);
-  const CoexistingMotions again = coexisting_motions(problem, 0.18, {.random_starts = 12}),
-                          others = coexisting_motions(problem, 0.18, {.random_starts = 12, .seed = 3});
-  ASSERT_EQ(first.motions.size(), again.motions.size());
-  for (std::size_t i = 0; i < first.motions.size(); ++i) {
-    EXPECT_EQ(first.motions[i].arrivals, again.motions[i].arrivals);
-    EXPECT_EQ(first.motions[i].max_displacement, again.motions[i].max_displacement);
-  }
-  EXPECT_NE(first.motions[1].arrivals, others.motions[1].arrivals);
-  EXPECT_NEAR(first.motions[1].max_displacement, others.motions[1].max_displacement, 1e-8);
 }
 
 // A static load moves the oscillator and its stop: all else is that of the one without.
@@ -180,15 +161,10 @@ TEST(CoexistingMotions, WhereNothingSettlesAreUnstableOnesNearReturns) {
 
 // Two oscillators that do not act on each other have as many motions as pairs of theirs.
 TEST(CoexistingMotions, OfTwoOscillatorsAreThePairsOfTheirs) {
-  LinearStructure two;
-  for (auto* matrix : {&two.mass, &two.damping, &two.stiffness}) matrix->resize(2, 2);
-  for (int i = 0; i < 2; ++i) {
-    two.mass.insert(i, i) = 1.0;
-    two.damping.insert(i, i) = 0.05;
-    two.stiffness.insert(i, i) = 1.0 + 0.01 * i;
-  }
-  two.load = Eigen::VectorXd::Constant(2, 0.15);
-  two.contact_directions = contact_rows({0, 1}, 2);
+  const Eigen::Matrix2d mass = Eigen::Matrix2d::Identity(),
+                        stiffness = Eigen::Vector2d(1.0, 1.01).asDiagonal();
+  const LinearStructure two = testing::structure(mass, 0.05 * mass, stiffness,
+                                                 Eigen::Vector2d::Constant(0.15), contact_rows({0, 1}, 2));
   ContactProblem problem(testing::fourier_pair(63, 256), two, LinearContact{4.0, 1.0});
   const CoexistingMotions all = coexisting_motions(problem, 0.18, {.random_starts = 8});
   EXPECT_EQ(stable_ones(all), 4);

@@ -1,20 +1,15 @@
 // One object for all questions about a structure with its contacts: the answers of the functions that it
 // calls, in any order.
 #include "wavebalance/solvers/problem/contact_problem.hpp"
-#include "wavebalance/contact/rigid_law.hpp"
-
-#include <gtest/gtest.h>
-
-#include <random>
-#include <stdexcept>
-
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "support/impact_scenes.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
+#include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/structure/massless_contacts.hpp"
@@ -33,8 +28,7 @@ ContactProblem stopped(int periods = 1) {
 TEST(ContactProblem, RespondsAsTheFunctionOfItsParts) {
   ContactProblem problem = stopped();
   const PeriodicResponse response = problem.respond(0.2);
-  CondensedProblem parts(testing::fourier_pair(63, 256), impacting_oscillator, testing::cosine_load());
-  parts.set_frequency(0.2);
+  CondensedProblem parts = testing::fourier_problem(impacting_oscillator, 63, 256, 0.2);
   const PeriodicResponse expected = forced_response(parts, elastic_stop, {});
   ASSERT_TRUE(response.converged());
   EXPECT_EQ(response.displacement, expected.displacement);
@@ -47,10 +41,7 @@ TEST(ContactProblem, AnswersQuestionsInAnyOrder) {
   const Motion motion = problem.motion(low, 64), structure = problem.structure_motion(low, 64);
   const MotionStability stability = problem.stability(low);
   const PeriodicResponse high = problem.respond(0.3);
-  FrequencySweepOptions sweep;
-  sweep.from = 0.1;
-  sweep.to = 0.6;
-  sweep.keep_unknowns = true;
+  FrequencySweepOptions sweep = testing::between(0.1, 0.6);
   problem.amplitude_sweep(0.2, sweep);
   EXPECT_EQ(problem.motion(low, 64).force, motion.force);
   EXPECT_EQ(problem.structure_motion(low, 64).displacement, structure.displacement);
@@ -75,10 +66,7 @@ TEST(ContactProblem, FindsTheSamePhasesFromTheSettledMotionAsFromABalance) {
 
 TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {
   ContactProblem problem = stopped();
-  FrequencySweepOptions options;
-  options.from = 0.1;
-  options.to = 0.3;
-  options.keep_unknowns = true;
+  FrequencySweepOptions options = testing::between(0.1, 0.3);
   const FrequencySweep curve = problem.sweep(options);
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
   for (std::size_t i = 0; i < curve.points.size(); i += 7) {
@@ -95,26 +83,11 @@ TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {
   EXPECT_EQ(stability.points.size(), curve.points.size());
 }
 
-// The motion of one period is unstable from 2.2062 to 2.9737 rad/s, where one of two periods is stable.
-TEST(ContactProblem, OfTwoPeriodsFindsTheMotionOfTwoPeriodsAtTheFrequencyOfTheLoad) {
-  const double frequency = 2.6 / two_pi;
-  ContactProblem one = stopped(), two = stopped(2);
-  const PeriodicResponse single = one.respond(frequency), doubled = two.respond(frequency);
-  ASSERT_TRUE(single.converged() && doubled.converged());
-  EXPECT_EQ(one.stability(single).unstable, 1);
-  EXPECT_EQ(two.stability(doubled).unstable, 0);
-  EXPECT_NEAR(doubled.frequency, 0.5 * frequency, 1e-15);
-  EXPECT_EQ(motion_periods(two.condensed(), doubled), 2);
-}
-
 TEST(ContactProblem, TellsAmplitudesInTheUnitOfItsLoad) {
-  CondensedProblem parts(testing::fourier_pair(31, 128), impacting_oscillator, testing::cosine_load());
+  CondensedProblem parts = testing::fourier_problem(impacting_oscillator, 31, 128);
   parts.set_load_unit(0.8, "N");
   ContactProblem newtons(std::move(parts), elastic_stop);
-  FrequencySweepOptions options;
-  options.from = 0.05;
-  options.to = 0.8;
-  options.keep_unknowns = true;
+  FrequencySweepOptions options = testing::between(0.05, 0.8);
   std::string_view unit;
   options.observer = [&](const Progress& progress) {
     if (progress.phase == "amplitude sweep") unit = progress.measure;
@@ -169,7 +142,7 @@ TEST(ContactProblem, RefusesWhatIsIllPosed) {
                               ContactLaws({AnyContactLaw(), AnyContactLaw()})),
                std::invalid_argument);
   EXPECT_THROW(stopped(0), std::invalid_argument);
-  CondensedProblem parts(testing::fourier_pair(7, 32), impacting_oscillator, testing::cosine_load());
+  CondensedProblem parts = testing::fourier_problem(impacting_oscillator, 7, 32);
   EXPECT_THROW(parts.set_load_unit(0.0, "N"), std::invalid_argument);
 }
 

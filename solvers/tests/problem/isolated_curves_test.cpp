@@ -1,13 +1,9 @@
 // Curves through motions that the structure settles to and that lie on no known curve.
 #include "wavebalance/solvers/problem/isolated_curves.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <stdexcept>
-
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -27,27 +23,6 @@ IsolatedCurvesOptions between(double from, double to) {
   options.sweep.keep_unknowns = true;
   options.spacing = 0.02;
   return options;
-}
-
-TEST(IsolatedCurves, EnterAndLeaveWhereTheKnownOneDoesNotTurn) {
-  ContactProblem problem = with_two_folds();
-  const IsolatedCurvesOptions options = between(0.24, 0.18);
-  const FrequencySweep known = problem.sweep(options.sweep);
-  ASSERT_EQ(known.status, SweepStatus::reached_end);
-  const IsolatedCurves found = isolated_curves(problem, {&known}, options);
-  ASSERT_EQ(found.frequencies.size(), 3u);
-  EXPECT_NEAR(found.frequencies.front(), 0.19, 1e-12);
-  EXPECT_TRUE(found.unmatched.empty());
-  ASSERT_EQ(found.curves.size(), 1u);
-  const IsolatedCurve& one = found.curves.front();
-  EXPECT_EQ(one.curve.status, SweepStatus::returned);
-  EXPECT_FALSE(one.meets_known);
-  ASSERT_EQ(one.curve.turning_points.size(), 1u);
-  EXPECT_NEAR(one.curve.turning_points.front().frequency, 0.195690553549, 1e-4);
-  EXPECT_NEAR(one.curve.points.front().frequency, 0.18, 1e-9);
-  EXPECT_NEAR(one.curve.points.back().frequency, 0.18, 1e-9);
-  EXPECT_TRUE(std::is_sorted(one.curve.points.begin(), one.curve.points.begin() + 3,
-                             [](const auto& a, const auto& b) { return a.frequency < b.frequency; }));
 }
 
 // A curve that ended too early is followed to its end, and known again at its beginning.

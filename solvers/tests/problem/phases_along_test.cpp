@@ -1,13 +1,10 @@
 // Phases of contact along a curve: those of its responses, whatever the threads.
 #include "wavebalance/solvers/problem/phases_along.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -18,10 +15,7 @@ ContactProblem stopped_oscillator() {
 }
 
 FrequencySweep curve_of_oscillator() {
-  FrequencySweepOptions options;
-  options.from = 0.15;
-  options.to = 0.2;
-  options.keep_unknowns = true;
+  FrequencySweepOptions options = testing::between(0.15, 0.2);
   return stopped_oscillator().sweep(options);
 }
 

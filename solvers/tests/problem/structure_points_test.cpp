@@ -1,13 +1,10 @@
 // Special points of the structure near those of a balance: each once, as its exact curve has them.
 #include "wavebalance/solvers/problem/structure_points.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -25,16 +22,11 @@ struct Swept {
             testing::LinearContact{4.0, 1.0}};
   }
   FrequencySweep curve() const {
-    FrequencySweepOptions options;
-    options.from = from;
-    options.to = to;
-    options.keep_unknowns = true;
+    FrequencySweepOptions options = testing::between(from, to);
     return problem().sweep(options);
   }
   ExactCurve exact() const {
-    ExactCurveOptions options;
-    options.from = from;
-    options.to = to;
+    ExactCurveOptions options{.from = from, .to = to};
     return problem().exact_sweep(options);
   }
   StructurePoints points(const FrequencySweep& curve, const CurveStability& stability,
@@ -50,22 +42,6 @@ void expect_events(const StructurePoints& found, const ExactCurve& exact) {
   for (std::size_t i = 0; i < found.events.size(); ++i) {
     EXPECT_EQ(found.events[i].type, exact.events[i].type);
     EXPECT_NEAR(found.events[i].value, exact.events[i].value, 1e-9 * exact.events[i].value);
-  }
-}
-
-TEST(StructurePoints, AreThoseOfTheExactCurveWhateverTheFunctions) {
-  for (const int functions : {15, 31, 127}) {
-    const Swept swept{functions, 8 * functions};
-    const FrequencySweep curve = swept.curve();
-    const CurveStability stability = swept.problem().stability(curve);
-    const StructurePoints found = swept.points(curve, stability);
-    expect_events(found, swept.exact());
-    ASSERT_EQ(found.of_balance.size(), stability.special_points.size());
-    for (std::size_t i = 0; i < found.of_balance.size(); ++i) {
-      if (found.of_balance[i].status != Status::found && found.of_balance[i].status != Status::repeated)
-        continue;
-      EXPECT_EQ(found.events[found.of_balance[i].event].type, stability.special_points[i].type);
-    }
   }
 }
 

@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include "constants.hpp"
 #include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/stability/curve_stability.hpp"
 
 namespace wavebalance::solvers {
@@ -29,9 +22,8 @@ TEST(AmplitudeSweep, PointsAndFoldsAreThoseOfTheClosedFormOfTheDuffingCurve) {
   for (double a = 0.0; a < 1.2; a += 1e-6)
     if (load(a) > highest) highest = load(a_highest = a);
   for (double a = a_highest; a < 2.5; a += 1e-6) lowest = std::min(lowest, load(a));
-  CondensedProblem problem(testing::fourier_pair(3, 16), testing::unit_oscillator(damping, 0.5),
-                           testing::cosine_load());
-  problem.set_frequency(w / two_pi);
+  CondensedProblem problem =
+      testing::fourier_problem(testing::unit_oscillator(damping, 0.5), 3, 16, w / two_pi);
   FrequencySweepOptions options;
   for (const bool rising : {true, false}) {
     options.from = rising ? 0.1 : 3.0;
@@ -65,13 +57,9 @@ TEST(AmplitudeSweep, FoldsAtAStopAreThoseOfTheClosedForm) {
     if (load(b) < lowest) lowest = load(b_lowest = b);
   for (double b = 0.0; b < b_lowest; b += 1e-5) highest = std::max(highest, load(b));
   ASSERT_LT(lowest, 0.9 * highest);
-  CondensedProblem problem(testing::fourier_pair(3, 512), testing::unit_oscillator(damping, 1.0),
-                           testing::cosine_load());
-  problem.set_frequency(w / two_pi);
-  FrequencySweepOptions options;
-  options.from = 0.05;
-  options.to = 0.5;
-  const FrequencySweep sweep = amplitude_sweep(problem, stop, options);
+  CondensedProblem problem =
+      testing::fourier_problem(testing::unit_oscillator(damping, 1.0), 3, 512, w / two_pi);
+  const FrequencySweep sweep = amplitude_sweep(problem, stop, testing::between(0.05, 0.5));
   ASSERT_EQ(sweep.status, SweepStatus::reached_end);
   ASSERT_GE(sweep.turning_points.size(), 2u);
   EXPECT_NEAR(sweep.turning_points.front().load_scale, highest, 1e-4);
@@ -83,13 +71,8 @@ TEST(AmplitudeSweep, LosesStabilityBetweenItsFoldsWhichAreThoseOfFrequencySweeps
   const testing::LinearContact stop{.stiffness = 2.0, .start = 1.0};
   const LinearStructure oscillator = testing::unit_oscillator(0.05, 1.0);
   const ContactDynamics dynamics(oscillator);
-  CondensedProblem problem(testing::fourier_pair(31, 1024), oscillator, testing::cosine_load());
-  problem.set_frequency(1.15 / two_pi);
-  FrequencySweepOptions options;
-  options.from = 0.05;
-  options.to = 0.5;
-  options.keep_unknowns = true;
-  const FrequencySweep sweep = amplitude_sweep(problem, stop, options);
+  CondensedProblem problem = testing::fourier_problem(oscillator, 31, 1024, 1.15 / two_pi);
+  const FrequencySweep sweep = amplitude_sweep(problem, stop, testing::between(0.05, 0.5));
   ASSERT_EQ(sweep.status, SweepStatus::reached_end);
   const CurveStability stability = curve_stability(problem, stop, sweep, dynamics);
   ASSERT_EQ(stability.points.size(), sweep.points.size());
@@ -107,41 +90,16 @@ TEST(AmplitudeSweep, LosesStabilityBetweenItsFoldsWhichAreThoseOfFrequencySweeps
   EXPECT_EQ(last.frequency, 1.15 / two_pi);
   EXPECT_LE(std::abs(last.multiplier - 1.0), 1e-3);
   problem.set_load_scale(last.load_scale);
-  FrequencySweepOptions over_frequency;
-  over_frequency.from = 0.1;
-  over_frequency.to = 0.3;
-  const FrequencySweep curve = frequency_sweep(problem, stop, over_frequency);
-  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  const FrequencySweep curve = testing::complete_sweep(problem, stop, testing::between(0.1, 0.3));
   double nearest = 1.0;
   for (const TurningPoint& turn : curve.turning_points)
     nearest = std::min(nearest, std::abs(turn.frequency - last.frequency));
   EXPECT_LT(nearest, 1e-4);
 }
 
-TEST(AmplitudeSweep, ScalesAllOfTheLoadButItsStaticPart) {
-  LinearStructure oscillator = testing::unit_oscillator(0.05, 1.0);
-  oscillator.forces = {{Eigen::VectorXd::Ones(1), Eigen::Vector3cd(0.25, 0.0, 0.5)}};
-  CondensedProblem problem(testing::fourier_pair(7, 32), oscillator, testing::cosine_load());
-  problem.set_frequency(0.3);
-  const testing::LinearContact far{1.0, 1e3};
-  FrequencySweepOptions options;
-  options.from = 1.0;
-  options.to = 3.0;
-  const FrequencySweep sweep = amplitude_sweep(problem, far, options);
-  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
-  const SweepPoint &first = sweep.points.front(), &last = sweep.points.back();
-  const auto varying = [](const SweepPoint& point) {
-    return std::sqrt(point.rms_displacement * point.rms_displacement - 0.25 * 0.25);
-  };
-  EXPECT_NEAR(varying(last), 3.0 * varying(first), 1e-9);
-}
-
 TEST(AmplitudeSweep, OfAProblemWithoutAFrequencyIsRefused) {
-  CondensedProblem problem(testing::fourier_pair(3, 16), testing::unit_oscillator(0.1, 1.0),
-                           testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 1.0;
-  options.to = 2.0;
+  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.1, 1.0), 3, 16);
+  FrequencySweepOptions options = testing::between(1.0, 2.0);
   EXPECT_EQ(testing::refusal([&] { amplitude_sweep(problem, testing::DuffingSpring{}, options); }),
             "amplitude_sweep: the problem has no frequency yet; call set_frequency first");
 }

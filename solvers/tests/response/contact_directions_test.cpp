@@ -1,12 +1,5 @@
 // Contacts along any directions: other coordinates change nothing, and one direction may have obstacles on
 // both sides.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
 
 #include "dense_algebra.hpp"
 #include "ll10_rod.hpp"
@@ -14,12 +7,11 @@
 #include "support/condensation_cases.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers {
@@ -81,8 +73,8 @@ TEST(TurnedCoordinates, ChangeNoResponse) {
       problem.set_frequency(driven);
       other.set_frequency(driven);
       const auto laws = stops(problem);
-      const PeriodicResponse a = forced_response(problem, laws, {}), b = forced_response(other, laws, {});
-      ASSERT_TRUE(a.converged() && b.converged());
+      const PeriodicResponse a = testing::solved_response(problem, laws),
+                             b = testing::solved_response(other, laws);
       EXPECT_TRUE(every_contact_presses(by_contact(a.contact_force, 3)));
       EXPECT_LE(distance(b.displacement, a.displacement), 1e-9);
       EXPECT_LE(distance(b.contact_force, a.contact_force), 1e-8);
@@ -101,12 +93,9 @@ TEST(TurnedCoordinates, ChangeNoSweep) {
   std::vector<FrequencySweep> sweeps;
   for (const bool turn : {false, true}) {
     const LinearStructure structure = turn ? testing::turned(chain, rotation(6, 4)) : chain;
-    CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-    problem.set_frequency(driven);
+    CondensedProblem problem = testing::fourier_problem(structure, 15, 64, driven);
     const auto laws = stops(problem);
-    FrequencySweepOptions options;
-    options.from = 0.08;
-    options.to = 0.16;
+    FrequencySweepOptions options = testing::between(0.08, 0.16);
     sweeps.push_back(frequency_sweep(problem, laws, options));
     ASSERT_EQ(sweeps.back().status, SweepStatus::reached_end) << to_string(sweeps.back().status);
   }
@@ -120,8 +109,7 @@ TEST(TurnedCoordinates, ChangeNoSweep) {
 
 TEST(TurnedCoordinates, ChangeNoReference) {
   const LinearStructure chain = touching_chain();
-  CondensedProblem problem(testing::fourier_pair(127, 512), chain, testing::cosine_load());
-  problem.set_frequency(driven);
+  CondensedProblem problem = testing::fourier_problem(chain, 127, 512, driven);
   const auto laws = stops(problem);
   TimeSteppingOptions options;
   options.output_points = 512;
@@ -145,21 +133,17 @@ TEST(TurnedCoordinates, ChangeNeitherShootingNorSettling) {
   LinearStructure chain = touching_chain();
   const Eigen::MatrixXd relative = Eigen::MatrixXd(chain.contact_directions).row(0);
   chain.contact_directions = relative.sparseView();
-  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
-  problem.set_frequency(driven);
+  CondensedProblem problem = testing::fourier_problem(chain, 63, 256, driven);
   const auto laws = stops(problem);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
-  oracle::ShootingOptions shooting;
-  shooting.output_points = 256;
+  oracle::ShootingOptions shooting{.output_points = 256};
   for (const Eigen::MatrixXd& turn : turns(6)) {
     const LinearStructure turned = testing::turned(chain, turn);
     const oracle::ShootingResult shot = oracle::shoot(turned, laws[0], driven, shooting);
     ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
     EXPECT_LE(distance(shot.contacts.displacement.transpose(), response.displacement), 1e-4);
-    CondensedProblem other(testing::fourier_pair(63, 256), turned, testing::cosine_load());
-    other.set_frequency(driven);
+    CondensedProblem other = testing::fourier_problem(turned, 63, 256, driven);
     const SettledMotion settled = settle(other, laws);
     ASSERT_EQ(settled.attractor_periods, 1);
     EXPECT_LE(distance(resample(settled.last.displacement, 256), response.displacement), 2e-3);
@@ -189,20 +173,15 @@ LinearStructure between_obstacles(bool both) {
 
 TEST(ObstaclesOnBothSides, TouchWithinOnePeriodInEveryFormAsTimeSteppingSays) {
   const LinearStructure chain = between_obstacles(true);
-  CondensedProblem problem(testing::fourier_pair(63, 512), chain, testing::cosine_load());
-  problem.set_frequency(driven);
+  CondensedProblem problem = testing::fourier_problem(chain, 63, 512, driven);
   const double gap = 0.6 * problem.contact_free_response().maxCoeff();
   const LinearContact law{3.0, gap};
-  TimeSteppingOptions options;
-  options.output_points = 512;
-  const TimeSteppingResult reference = integrate_to_periodic(chain, law, driven, options);
-  ASSERT_EQ(reference.status, TimeSteppingStatus::converged);
+  const TimeSteppingResult reference = testing::stepped_motion(chain, law, driven, 512);
   EXPECT_TRUE(every_contact_presses(reference.contacts.force));
   for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
     ForcedResponseOptions solver;
     solver.form = form;
-    const PeriodicResponse response = forced_response(problem, law, solver);
-    ASSERT_TRUE(response.converged()) << to_string(form);
+    const PeriodicResponse response = testing::solved_response(problem, law, solver);
     EXPECT_EQ(response.strategy, Strategy::newton);
     EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
     EXPECT_LE(distance(by_contact(response.displacement, 2), reference.contacts.displacement), 1e-4)
@@ -223,8 +202,8 @@ TEST(ObstaclesOnBothSides, MoveAsOneLawThatActsOnBothSides) {
   two.set_frequency(driven);
   one.set_frequency(driven);
   const LinearContact law{3.0, 0.6 * one.contact_free_response().maxCoeff()};
-  const PeriodicResponse a = forced_response(two, law, {}), b = forced_response(one, BothSides{law}, {});
-  ASSERT_TRUE(a.converged() && b.converged());
+  const PeriodicResponse a = testing::solved_response(two, law),
+                         b = testing::solved_response(one, BothSides{law});
   EXPECT_LE(distance(a.displacement.head(128), b.displacement), 1e-9);
   EXPECT_LE(distance(-a.displacement.tail(128), b.displacement), 1e-9);
   EXPECT_LE(distance(a.contact_force.head(128) - a.contact_force.tail(128), b.contact_force), 1e-9);
@@ -244,24 +223,11 @@ TEST(ObstaclesOnBothSides, MayPressAtTheSameTime) {
   for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
     ForcedResponseOptions solver;
     solver.form = form;
-    const PeriodicResponse response = forced_response(problem, LinearContact{0.7, preload}, solver);
-    ASSERT_TRUE(response.converged()) << to_string(form);
+    const PeriodicResponse response = testing::solved_response(problem, LinearContact{0.7, preload}, solver);
     EXPECT_GT(response.contact_force.minCoeff(), 0.0);
     EXPECT_LE(distance(response.displacement, linear.contact_free_response()), 1e-9) << to_string(form);
   }
 }
-
-// The obstacle as a user writes it; the forms are told apart by its resolvent.
-struct RigidObstacle {
-  double start;  // m
-  double force(double u) const { return u > start ? std::numeric_limits<double>::infinity() : 0.0; }
-  double tangent(double u) const { return u >= start ? std::numeric_limits<double>::infinity() : 0.0; }
-  double potential(double u) const { return force(u); }
-  double gap() const { return start; }
-  ForceSlope resolvent(double v, double flexibility) const {
-    return v < start ? ForceSlope{} : ForceSlope{(v - start) / flexibility, 1.0 / flexibility};
-  }
-};
 
 // A mass of the chain without mass of its own, as rigid contact needs it.
 TEST(ObstaclesOnBothSides, HoldAMasslessContactBetweenThem) {
@@ -274,11 +240,9 @@ TEST(ObstaclesOnBothSides, HoldAMasslessContactBetweenThem) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 4);
   rows.col(3) << 1.0, -1.0;
   chain.contact_directions = rows.sparseView();
-  CondensedProblem problem(testing::fourier_pair(63, 256), chain, testing::cosine_load());
-  problem.set_frequency(driven);
+  CondensedProblem problem = testing::fourier_problem(chain, 63, 256, driven);
   const double gap = 0.6 * problem.contact_free_response().maxCoeff();
-  const PeriodicResponse response = forced_response(problem, RigidObstacle{gap}, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, testing::Rigid{gap});
   EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
   EXPECT_GE(response.contact_force.minCoeff(), 0.0);
   EXPECT_LE(response.displacement.maxCoeff(), 1.02 * gap);

@@ -1,25 +1,14 @@
 // Motions of a curve at asked frequencies, against the closed form of a Duffing oscillator.
 #include "wavebalance/solvers/response/curve_responses.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <vector>
-
-#include "constants.hpp"
+#include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-struct Hardening {
-  double force(double u) const { return u * u * u; }
-  double tangent(double u) const { return 3.0 * u * u; }
-  double potential(double u) const { return 0.25 * u * u * u * u; }
-  double gap() const { return infinity; }
-};
 
 constexpr double curve_load = 0.3, curve_damping = 0.05;
 
@@ -29,10 +18,7 @@ CondensedProblem duffing() {
 }
 
 FrequencySweep traced(CondensedProblem& problem, const ContactLaws& laws, double from, double to) {
-  FrequencySweepOptions options;
-  options.from = from;
-  options.to = to;
-  options.keep_unknowns = true;
+  FrequencySweepOptions options = testing::between(from, to);
   return frequency_sweep(problem, laws, options);
 }
 
@@ -64,11 +50,11 @@ double amplitude_of(const PeriodicResponse& response) {
 
 TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
   CondensedProblem problem = duffing();
-  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
+  const FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.5);
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
   for (const double frequency : {0.1, 0.26, 0.3, 0.42}) {
     const std::vector<double> expected = amplitudes(frequency);
-    const auto found = responses_at(problem, Hardening{}, curve, frequency);
+    const auto found = responses_at(problem, testing::DuffingSpring{}, curve, frequency);
     ASSERT_EQ(found.size(), expected.size()) << frequency;
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_TRUE(found[i].converged());
@@ -76,7 +62,7 @@ TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
       EXPECT_NEAR(amplitude_of(found[i]), expected[i], 1e-9 * expected[i]);
     }
   }
-  EXPECT_EQ(responses_at(problem, Hardening{}, curve, 0.3).size(), 3u);
+  EXPECT_EQ(responses_at(problem, testing::DuffingSpring{}, curve, 0.3).size(), 3u);
 }
 
 // Over the load the curve of a frequency above resonance passes a load three times, too.
@@ -84,14 +70,12 @@ TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
   CondensedProblem problem = duffing();
   constexpr double frequency = 0.3;
   problem.set_frequency(frequency);
-  FrequencySweepOptions options;
-  options.from = 0.1;
-  options.to = 8.0;  // beyond the fold of the lower motions
+  FrequencySweepOptions options = testing::between(0.1, 8.0);  // beyond the fold of the lower motions
   options.keep_unknowns = true;
-  const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
+  const FrequencySweep curve = amplitude_sweep(problem, testing::DuffingSpring{}, options);
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
   const std::vector<double> expected = amplitudes(frequency);  // of the whole load
-  const auto found = responses_at(problem, Hardening{}, curve, 1.0);
+  const auto found = responses_at(problem, testing::DuffingSpring{}, curve, 1.0);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(amplitude_of(found[i]), expected[2 - i], 1e-9);
   EXPECT_EQ(problem.frequency(), frequency);
@@ -101,11 +85,7 @@ TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
 TEST(CurveResponses, AreThoseOfTheEndsAndOfPointsOfACurveThatWasRounded) {
   CondensedProblem problem = duffing();
   problem.set_frequency(0.1);
-  FrequencySweepOptions options;
-  options.from = 0.1;
-  options.to = 2.0;
-  options.keep_unknowns = true;
-  const FrequencySweep curve = amplitude_sweep(problem, Hardening{}, options);
+  const FrequencySweep curve = amplitude_sweep(problem, testing::DuffingSpring{}, testing::between(0.1, 2.0));
   ASSERT_EQ(curve.status, SweepStatus::reached_end);
   ASSERT_TRUE(curve.turning_points.empty());  // each load is passed once
   const std::vector<double> asked{curve.points.front().load_scale, curve.points[3].load_scale,
@@ -115,7 +95,7 @@ TEST(CurveResponses, AreThoseOfTheEndsAndOfPointsOfACurveThatWasRounded) {
     FrequencySweep other = curve;
     for (SweepPoint& point : other.points) point.load_scale = point.load_scale * unit * (1.0 / unit);
     for (const double value : asked) {
-      const auto found = responses_at(problem, Hardening{}, other, value);
+      const auto found = responses_at(problem, testing::DuffingSpring{}, other, value);
       ASSERT_EQ(found.size(), 1u) << unit << ' ' << value;
       EXPECT_TRUE(found.front().converged());
     }
@@ -126,13 +106,13 @@ TEST(CurveResponses, AreThoseOfTheEndsAndOfPointsOfACurveThatWasRounded) {
 
 TEST(CurveResponses, AreApartOnTheTwoSidesOfAFold) {
   CondensedProblem problem = duffing();
-  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
+  const FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.5);
   ASSERT_EQ(curve.turning_points.size(), 2u);
   for (const std::size_t turn : {0u, 1u}) {
     const double fold = curve.turning_points[turn].frequency, inwards = turn == 0 ? -1.0 : 1.0;
     for (const double apart : {1e-3, 1e-5, 1e-7}) {  // the last two lie between two points of the curve
       const double frequency = fold * (1.0 + inwards * apart);
-      const auto found = responses_at(problem, Hardening{}, curve, frequency);
+      const auto found = responses_at(problem, testing::DuffingSpring{}, curve, frequency);
       ASSERT_EQ(found.size(), 3u) << apart;
       for (const auto& one : found) EXPECT_TRUE(one.converged()) << apart;
       const double first = amplitude_of(found[turn]), second = amplitude_of(found[turn + 1]);
@@ -142,21 +122,21 @@ TEST(CurveResponses, AreApartOnTheTwoSidesOfAFold) {
       EXPECT_LT(first - second, 10.0 * std::sqrt(apart));
     }
     const double beside = fold * (1.0 - inwards * 1e-7);
-    EXPECT_EQ(responses_at(problem, Hardening{}, curve, beside).size(), 1u);
+    EXPECT_EQ(responses_at(problem, testing::DuffingSpring{}, curve, beside).size(), 1u);
   }
 }
 
 TEST(CurveResponses, AreNoneAtAFrequencyBesideTheCurve) {
   CondensedProblem problem = duffing();
-  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.1);
-  EXPECT_TRUE(responses_at(problem, Hardening{}, curve, 0.2).empty());
-  EXPECT_EQ(responses_at(problem, Hardening{}, curve, 0.05).size(), 1u);
-  EXPECT_EQ(responses_at(problem, Hardening{}, curve, curve.points[3].frequency).size(), 1u);
+  const FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.1);
+  EXPECT_TRUE(responses_at(problem, testing::DuffingSpring{}, curve, 0.2).empty());
+  EXPECT_EQ(responses_at(problem, testing::DuffingSpring{}, curve, 0.05).size(), 1u);
+  EXPECT_EQ(responses_at(problem, testing::DuffingSpring{}, curve, curve.points[3].frequency).size(), 1u);
 }
 
 TEST(CurveResponses, HoldTheForceOfARigidStop) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(curve_damping, curve_load),
-                           testing::cosine_load());
+  CondensedProblem problem =
+      testing::fourier_problem(testing::unit_oscillator(curve_damping, curve_load), 15, 64);
   const testing::LinearContact stop{.stiffness = 1e6, .start = 1.0};  // as stiff: the force form
   const FrequencySweep curve = traced(problem, stop, 0.1, 0.2);
   ASSERT_EQ(curve.form, ContactForm::force);
@@ -173,9 +153,9 @@ TEST(CurveResponses, HoldTheForceOfARigidStop) {
 
 TEST(CurveResponses, RefuseACurveWithoutUnknowns) {
   CondensedProblem problem = duffing();
-  FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.1);
+  FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.1);
   for (SweepPoint& point : curve.points) point.unknown.resize(0);
-  EXPECT_THROW(responses_at(problem, Hardening{}, curve, 0.07), std::invalid_argument);
+  EXPECT_THROW(responses_at(problem, testing::DuffingSpring{}, curve, 0.07), std::invalid_argument);
 }
 
 TEST(ForcedResponse, StaysOnTheUpperBranchFromAGuessThere) {
@@ -184,17 +164,16 @@ TEST(ForcedResponse, StaysOnTheUpperBranchFromAGuessThere) {
   problem.set_frequency(frequency);
   const std::vector<double> expected = amplitudes(frequency);
   ASSERT_EQ(expected.size(), 3u);
-  const FrequencySweep curve = traced(problem, Hardening{}, 0.05, 0.5);
-  const auto neighbours = responses_at(problem, Hardening{}, curve, 0.28);
+  const FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.5);
+  const auto neighbours = responses_at(problem, testing::DuffingSpring{}, curve, 0.28);
   ForcedResponseOptions options;
   options.stay_near_guess = true;
   problem.set_frequency(frequency);
   const PeriodicResponse upper =
-      forced_response(problem, Hardening{}, options, neighbours.front().displacement);
-  ASSERT_TRUE(upper.converged());
+      testing::solved_response(problem, testing::DuffingSpring{}, options, neighbours.front().displacement);
   EXPECT_NEAR(amplitude_of(upper), expected[0], 1e-8);
   const PeriodicResponse lower =
-      forced_response(problem, Hardening{}, options, neighbours.back().displacement);
+      forced_response(problem, testing::DuffingSpring{}, options, neighbours.back().displacement);
   EXPECT_NEAR(amplitude_of(lower), expected[2], 1e-8);
 }
 
@@ -206,12 +185,11 @@ TEST(ForcedResponse, FollowsAResidualFromAGuessThatNewtonsMethodDoesNotConvergeF
   options.newton.min_step = 1.0;  // without a line search
   Eigen::VectorXd guess(problem.samples());
   for (int l = 0; l < guess.size(); ++l) guess[l] = 9.0 * std::sin(two_pi * l / double(guess.size()));
-  const PeriodicResponse near = forced_response(problem, Hardening{}, options, guess);
-  ASSERT_TRUE(near.converged());
+  const PeriodicResponse near = testing::solved_response(problem, testing::DuffingSpring{}, options, guess);
   EXPECT_EQ(near.strategy, Strategy::residual_homotopy);
   EXPECT_NEAR(amplitude_of(near), amplitudes(0.3)[0], 1e-8);
   options.fallbacks = false;
-  EXPECT_FALSE(forced_response(problem, Hardening{}, options, guess).converged());
+  EXPECT_FALSE(forced_response(problem, testing::DuffingSpring{}, options, guess).converged());
 }
 
 }  // namespace

@@ -1,22 +1,14 @@
 #include "wavebalance/solvers/response/forced_response.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include "constants.hpp"
 #include "support/held_motion.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/time/translate_spectrum.hpp"
 
 namespace wavebalance::solvers {
 namespace {
-
-using Complex = std::complex<double>;
 
 // A law of a user's own: an elastic stop.
 struct Stop {
@@ -27,32 +19,13 @@ struct Stop {
 };
 
 CondensedProblem case_1(int functions, int points) {
-  CondensedProblem problem(testing::fourier_pair(functions, points), testing::jl14_case_1.structure(),
-                           testing::cosine_load());
-  problem.set_frequency(testing::jl14_case_1.frequency_hz);
-  return problem;
-}
-
-TEST(ForcedResponse, WithoutContactIsTheComplexAmplitudeOfTheOscillator) {
-  LinearStructure oscillator = testing::jl14_bar(1, 1e-3);
-  const double mass = oscillator.mass.coeff(0, 0), stiffness = oscillator.stiffness.coeff(0, 0);
-  CondensedProblem problem(testing::fourier_pair(5, 16), oscillator, testing::cosine_load());
-  problem.set_frequency(600.0);
-  const PeriodicResponse response = forced_response(problem, AnyContactLaw(), {});
-  const double omega = two_pi * 600.0;
-  const Complex amplitude =
-      oscillator.load[0] / Complex(stiffness - omega * omega * mass, omega * 1e-3 * stiffness);
-  ASSERT_TRUE(response.converged());
-  EXPECT_EQ(response.iterations, 0);
-  for (int l = 0; l < 16; ++l)
-    EXPECT_NEAR(response.displacement[l], (amplitude * std::polar(1.0, two_pi * l / 16)).real(),
-                1e-13 * std::abs(amplitude));
+  return testing::fourier_problem(testing::jl14_case_1.structure(), functions, points,
+                                  testing::jl14_case_1.frequency_hz);
 }
 
 TEST(ForcedResponse, TakesALawOfTheUsersOwn) {
   CondensedProblem problem = case_1(63, 256);
-  const PeriodicResponse response = forced_response(problem, Stop{}, {});
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  const PeriodicResponse response = testing::solved_response(problem, Stop{});
   EXPECT_GT(response.displacement.maxCoeff(), 1e-3);
   for (int l = 0; l < 256; ++l)
     EXPECT_DOUBLE_EQ(response.contact_force[l], Stop{}.force(response.displacement[l]));
@@ -62,8 +35,7 @@ TEST(ForcedResponse, TakesALawOfTheUsersOwn) {
 TEST(ForcedResponse, EveryRecordedFieldBelongsToTheSolution) {
   CondensedProblem problem = case_1(63, 256);
   const testing::ExponentialLaw law = testing::jl14_case_1.law;
-  const PeriodicResponse response = forced_response(problem, law, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, law);
   EXPECT_EQ(response.frequency, 150.0);
   EXPECT_LE(response.residual, 1e-11);
   EXPECT_EQ(response.residual_history.back(), response.residual);
@@ -86,8 +58,7 @@ TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
     law.constant *= stiffening;
     ForcedResponseOptions options;
     options.newton.tolerance = 1e-4;
-    const PeriodicResponse response = forced_response(problem, law, options);
-    ASSERT_TRUE(response.converged()) << stiffening << " " << to_string(response.status);
+    const PeriodicResponse response = testing::solved_response(problem, law, options);
     Eigen::VectorXd product;
     problem.apply(response.contact_force, product);
     const Eigen::VectorXd& free = problem.contact_free_response();
@@ -107,8 +78,7 @@ TEST(ForcedResponse, StartedAtTheSolutionStays) {
   CondensedProblem problem = case_1(63, 256);
   const testing::ExponentialLaw law = testing::jl14_case_1.law;
   const PeriodicResponse first = forced_response(problem, law, {});
-  const PeriodicResponse again = forced_response(problem, law, {}, first.displacement);
-  EXPECT_TRUE(again.converged());
+  const PeriodicResponse again = testing::solved_response(problem, law, {}, first.displacement);
   EXPECT_LE(again.iterations, 1);
 }
 
@@ -147,8 +117,7 @@ TEST(ForcedResponse, ContinuationInTheGapFindsWhatNewtonDoesNot) {
   const PeriodicResponse plain = forced_response(problem, testing::jl14_case_2.law, options);
   EXPECT_EQ(plain.status, SolveStatus::stalled);
   EXPECT_EQ(plain.strategy, Strategy::none);
-  const PeriodicResponse found = forced_response(problem, testing::jl14_case_2.law, {});
-  EXPECT_TRUE(found.converged());
+  const PeriodicResponse found = testing::solved_response(problem, testing::jl14_case_2.law);
   EXPECT_EQ(found.strategy, Strategy::gap_continuation);
 }
 
@@ -223,66 +192,10 @@ TEST(ForcedResponse, RefusesOptionsOutOfRange) {
 TEST(ForcedResponse, RefusesAGuessOfAnotherLengthAndAProblemWithoutFrequency) {
   CondensedProblem problem = case_1(7, 32);
   EXPECT_THROW(forced_response(problem, Stop{}, {}, Eigen::VectorXd::Zero(31)), std::invalid_argument);
-  CondensedProblem fresh(testing::fourier_pair(7, 32), testing::jl14_bar(3, 1e-4), testing::cosine_load());
+  CondensedProblem fresh = testing::fourier_problem(testing::jl14_bar(3, 1e-4), 7, 32);
   EXPECT_THROW(forced_response(fresh, Stop{}, {}), std::invalid_argument);
   for (const double frequency : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_THROW(problem.set_frequency(frequency), std::invalid_argument);
-}
-
-TEST(ForcedResponse, UndampedStructureAtItsNaturalFrequencyIsAnError) {
-  LinearStructure oscillator = testing::jl14_bar(1, 0.0);
-  oscillator.mass.coeffRef(0, 0) = 1.0;
-  oscillator.stiffness.coeffRef(0, 0) = two_pi * two_pi * 4.0;
-  CondensedProblem problem(testing::fourier_pair(3, 8), oscillator, testing::cosine_load());
-  EXPECT_THROW(problem.set_frequency(2.0), SingularSystem);
-  EXPECT_NO_THROW(problem.set_frequency(2.001));
-}
-
-// With Fourier functions on both sides the velocity of every degree of freedom is among the weights: what the
-// load does in a period is dissipated, but for the sampled work of the contact, which is conservative.
-TEST(StructureMotion, LoadWorkIsDissipatedAndTheContactDoesNone) {
-  for (const auto& reference : {testing::jl14_case_1, testing::jl14_case_2}) {
-    const int points = 1024;
-    const LinearStructure bar = reference.structure();
-    CondensedProblem problem(testing::fourier_pair(255, points), bar, testing::cosine_load());
-    problem.set_frequency(reference.frequency_hz);
-    const PeriodicResponse response = forced_response(problem, reference.law, {});
-    const Motion field = structure_motion(problem, response, points);
-    double work = 0.0, contact = 0.0;
-    for (int l = 0; l < points; ++l) {
-      work += std::cos(two_pi * l / points) * bar.load.dot(field.velocity.col(l));
-      contact += response.contact_force[l] * field.velocity(bar.selected_dof(0), l);
-    }
-    const double dissipated = field.velocity.cwiseProduct(bar.damping * field.velocity).sum();
-    EXPECT_NEAR(work - contact, dissipated, 1e-10 * std::abs(work));
-    EXPECT_LE(std::abs(contact), 1e-3 * std::abs(work));
-    EXPECT_LE((field.displacement.row(bar.selected_dof(0)).transpose() - response.displacement).norm(),
-              1e-11 * response.displacement.norm());
-  }
-}
-
-// Without load, damping or contact the energy of a free mode is constant; here the oscillator is driven far
-// above its resonance, where E = (m omega^2 sin^2 + k cos^2) a^2 / 2.
-TEST(StructureMotion, SystemEnergyIsThatOfTheOscillator) {
-  const LinearStructure oscillator = testing::jl14_bar(1, 0.0);
-  const double mass = oscillator.mass.coeff(0, 0), stiffness = oscillator.stiffness.coeff(0, 0);
-  CondensedProblem problem(testing::fourier_pair(3, 8), oscillator, testing::cosine_load());
-  problem.set_frequency(3000.0);
-  const Motion field = structure_motion(problem, forced_response(problem, AnyContactLaw(), {}), 32);
-  const double omega = two_pi * 3000.0, a = oscillator.load[0] / (stiffness - omega * omega * mass);
-  const Eigen::VectorXd energy = system_energy(oscillator, AnyContactLaw(), field);
-  double square = 0.0;
-  for (int l = 0; l < 32; ++l) {
-    const double c = std::cos(two_pi * l / 32), s = std::sin(two_pi * l / 32);
-    const double expected = 0.5 * a * a * (mass * omega * omega * s * s + stiffness * c * c);
-    EXPECT_NEAR(energy[l], expected, 1e-12 * mass * omega * omega * a * a);
-    square += expected * expected / 32;
-  }
-  EXPECT_NEAR(energy_norm(oscillator, AnyContactLaw(), field), std::sqrt(square), 1e-12 * std::sqrt(square));
-  // The contact's potential is added at the contact degree of freedom.
-  const testing::ExponentialLaw law{1e3, 2.0, -1.0};
-  const Eigen::VectorXd touched = system_energy(oscillator, law, field);
-  EXPECT_NEAR(touched[3] - energy[3], law.potential(field.displacement(0, 3)), 1e-9 * touched[3]);
 }
 
 }  // namespace

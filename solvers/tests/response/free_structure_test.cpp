@@ -1,18 +1,15 @@
-#include <gtest/gtest.h>
-
 #include <numeric>
 
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/rigid_law.hpp"
+#include "support/runge_kutta.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -44,28 +41,22 @@ LinearStructure free_rod(int size, double load) {
   for (int i = 0; i + 1 < size; ++i) {
     stiffness.block<2, 2>(i, i) += Eigen::Matrix2d{{1.0, -1.0}, {-1.0, 1.0}};
   }
-  LinearStructure rod;
-  rod.stiffness = stiffness.sparseView();
-  rod.mass = Eigen::MatrixXd::Identity(size, size).sparseView();
-  rod.damping = 0.3 * rod.stiffness + 0.3 * rod.mass;
-  rod.load = load * Eigen::VectorXd::Unit(size, 0);
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, size);
   rows(0, size - 1) = 1.0;
   rows(1, 0) = -1.0;
-  rod.contact_directions = rows.sparseView();
+  const Eigen::MatrixXd mass = Eigen::MatrixXd::Identity(size, size);
+  LinearStructure rod = testing::structure(mass, 0.3 * stiffness + 0.3 * mass, stiffness,
+                                           load * Eigen::VectorXd::Unit(size, 0), rows);
   rod.rigid_modes = find_rigid_modes(rod.mass, rod.stiffness);
   return rod;
 }
 
 // Two masses that a static force presses against each other, with a load on the first.
 LinearStructure two_masses(double pressure, double load) {
-  LinearStructure two;
-  two.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 3.0).asDiagonal()).sparseView();
-  two.stiffness.resize(2, 2);
-  two.damping = Eigen::MatrixXd(Eigen::Matrix2d{{0.9, -0.5}, {-0.5, 0.9}}).sparseView();
-  two.load = Eigen::Vector2d(load, 0.0);
+  LinearStructure two = testing::structure(
+      Eigen::Vector2d(1.0, 3.0).asDiagonal(), Eigen::Matrix2d{{0.9, -0.5}, {-0.5, 0.9}},
+      Eigen::Matrix2d::Zero(), Eigen::Vector2d(load, 0.0), Eigen::MatrixXd(Eigen::RowVector2d(1.0, -1.0)));
   two.forces = {static_force(Eigen::Vector2d(pressure, -pressure))};
-  two.contact_directions = Eigen::MatrixXd(Eigen::RowVector2d(1.0, -1.0)).sparseView();
   two.rigid_modes = find_rigid_modes(two.mass, two.stiffness);
   return two;
 }
@@ -117,10 +108,7 @@ TEST(FreeStructure, PressedAgainstAStopHasTheClosedFormForEveryPair) {
   for (TimePair& pair : testing::pair_kinds(8, 32)) {
     CondensedProblem problem = problem_of(pressed_mass(0.3, 2.0, 0.5), 0.7, std::move(pair));
     ASSERT_TRUE(problem.is_free());
-    const PeriodicResponse response = forced_response(problem, AnyContactLaw(stop), {});
-    EXPECT_TRUE(response.converged()) << to_string(response.status) << problem.pair().functions() << " "
-                                      << problem.points() << " " << problem.pair().shift_period() << " "
-                                      << response.residual << " " << response.displacement.transpose();
+    const PeriodicResponse response = testing::solved_response(problem, AnyContactLaw(stop));
     EXPECT_GT(response.contact_force.minCoeff(), 0.0);
     EXPECT_NEAR(mean(response.contact_force), 2.0, 1e-9);
     EXPECT_NEAR(mean(response.displacement), 0.2 + 2.0 / 4.0, 1e-9);
@@ -139,8 +127,7 @@ TEST(FreeStructure, PressedAgainstAStopHasTheClosedFormForEveryPair) {
 void expect_time_stepping(const LinearStructure& structure, const ContactLaws& laws, double omega,
                           bool opens) {
   CondensedProblem problem = problem_of(structure, omega, testing::fourier_pair(255, 2048));
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
   EXPECT_EQ(response.contact_force.minCoeff() == 0.0, opens);
   TimeSteppingOptions stepping;
@@ -170,12 +157,8 @@ TEST(FreeStructure, MovesInAResponseOfACurveAsItsContactsDo) {
   const LinearStructure rod = free_rod(5, 1.0);
   const ContactLaws stop = AnyContactLaw(LinearContact{5.0, 0.2});
   CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(31, 128));
-  FrequencySweepOptions options;
-  options.from = 0.75 / two_pi;
-  options.to = 0.85 / two_pi;
-  options.keep_unknowns = true;
-  const FrequencySweep curve = frequency_sweep(problem, stop, options);
-  ASSERT_EQ(curve.status, SweepStatus::reached_end);
+  const FrequencySweep curve =
+      testing::complete_sweep(problem, stop, testing::between(0.75 / two_pi, 0.85 / two_pi));
   const auto responses = responses_at(problem, stop, curve, 0.8 / two_pi);
   ASSERT_EQ(responses.size(), 1u);
   const PeriodicResponse& response = responses.front();
@@ -197,8 +180,7 @@ TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
   const LinearStructure rod = free_rod(5, 1.0);
   CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(15, 64));
   for (const AnyContactLaw& law : {AnyContactLaw(), AnyContactLaw(LinearContact{5.0, 50.0})}) {
-    const PeriodicResponse response = forced_response(problem, law, {});
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, law);
     EXPECT_TRUE(response.contact_force.isZero(0.0));
     EXPECT_NEAR(mean(response.displacement.head(64)), 0.0, 1e-12);
   }
@@ -274,18 +256,13 @@ TEST(FreeStructure, IsFollowedOverTheFrequency) {
   const LinearStructure mass = pressed_mass(0.6, 1.0, 0.9);
   const ContactLaws stop = AnyContactLaw(LinearContact{4.0, 0.2});
   CondensedProblem problem = problem_of(mass, 0.8, testing::fourier_pair(63, 512));
-  FrequencySweepOptions options;
-  options.from = 2.6 / two_pi;
-  options.to = 1.2 / two_pi;
-  options.keep_unknowns = true;
-  const FrequencySweep sweep = frequency_sweep(problem, stop, options);
-  EXPECT_EQ(sweep.status, SweepStatus::reached_end);
+  const FrequencySweep sweep =
+      testing::complete_sweep(problem, stop, testing::between(2.6 / two_pi, 1.2 / two_pi));
   ASSERT_GT(sweep.points.size(), 10u);
   for (std::size_t i = 0; i < sweep.points.size(); i += 7) {
     CondensedProblem at =
         problem_of(mass, sweep.points[i].frequency * two_pi, testing::fourier_pair(63, 512));
-    const PeriodicResponse response = forced_response(at, stop, {}, sweep.points[i].unknown);
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(at, stop, {}, sweep.points[i].unknown);
     EXPECT_NEAR(response.displacement.maxCoeff(), sweep.points[i].max_displacement, 2e-3);
     EXPECT_NEAR(mean(response.contact_force), 1.0, 1e-8);
   }
@@ -296,14 +273,7 @@ Eigen::Vector2d integrated(const LinearContact& law, double omega, Eigen::Vector
   const auto rate = [&](double time, const Eigen::Vector2d& at) {
     return Eigen::Vector2d(at[1], 1.0 + 3.0 * std::cos(omega * time) - 0.3 * at[1] - law.force(at[0]));
   };
-  constexpr int steps = 20000;
-  const double h = two_pi / omega / steps;
-  for (int i = 0; i < steps; ++i) {
-    const Eigen::Vector2d a = rate(i * h, state), b = rate((i + 0.5) * h, state + 0.5 * h * a),
-                          c = rate((i + 0.5) * h, state + 0.5 * h * b), d = rate((i + 1) * h, state + h * c);
-    state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-  }
-  return state;
+  return testing::runge_kutta(rate, state, two_pi / omega, 20000);
 }
 
 TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
@@ -313,8 +283,7 @@ TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
     CondensedProblem problem =
         problem_of(pressed_mass(0.3, 1.0, 3.0), omega, testing::fourier_pair(127, 1024));
     const ContactLaws laws = AnyContactLaw(law);
-    const PeriodicResponse response = forced_response(problem, laws, {});
-    ASSERT_TRUE(response.converged()) << omega;
+    const PeriodicResponse response = testing::solved_response(problem, laws);
     EXPECT_EQ(response.contact_force.minCoeff(), 0.0) << omega;
     const Motion motion = contact_motion(problem, response, laws, 1024);
     const Eigen::Vector2d start(motion.displacement(0, 0), motion.velocity(0, 0));
@@ -332,8 +301,7 @@ TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
     const UnstableMultipliers count = unstable_multipliers(dynamics, problem, laws, response);
     EXPECT_EQ(count.status, StabilityStatus::converged) << omega;
     EXPECT_EQ(count.count, (exact.cwiseAbs().array() > 1.0).count()) << omega;
-    StabilityOptions alone;
-    alone.max_states = 0;  // by the determinant
+    StabilityOptions alone{.max_states = 0};  // by the determinant
     const UnstableMultipliers wound = unstable_multipliers(dynamics, problem, laws, response, alone);
     const bool winds = wound.status == StabilityStatus::converged;
     EXPECT_EQ(winds ? wound.count : count.count, count.count) << omega;
@@ -344,17 +312,13 @@ TEST(FreeStructure, HasTheMultipliersOfItsPeriodMap) {
 
 // A mass on a spring with a tip without mass, pressed against a rigid stop: the tip rests at the stop.
 TEST(FreeStructure, IsHeldByARigidStopAtAContactWithoutMass) {
-  LinearStructure body;
-  body.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 0.0).asDiagonal()).sparseView();
-  body.stiffness = Eigen::MatrixXd(Eigen::Matrix2d{{2.0, -2.0}, {-2.0, 2.0}}).sparseView();
-  body.damping = 0.1 * body.stiffness;
-  body.load = Eigen::Vector2d(0.5, 0.0);
+  const Eigen::Matrix2d stiffness{{2.0, -2.0}, {-2.0, 2.0}};
+  LinearStructure body = testing::structure(Eigen::Vector2d(1.0, 0.0).asDiagonal(), 0.1 * stiffness,
+                                            stiffness, Eigen::Vector2d(0.5, 0.0), contact_rows({1}, 2));
   body.forces = {static_force(Eigen::Vector2d(1.5, 0.0))};
-  body.contact_directions = contact_rows({1}, 2);
   body.rigid_modes = Eigen::Vector2d(1.0, 1.0);
   CondensedProblem problem = problem_of(body, 0.6, testing::fourier_pair(31, 128));
-  const PeriodicResponse response = forced_response(problem, AnyContactLaw(testing::Rigid{0.25}), {});
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  const PeriodicResponse response = testing::solved_response(problem, AnyContactLaw(testing::Rigid{0.25}));
   EXPECT_LT((response.displacement.array() - 0.25).abs().maxCoeff(), 1e-9);
   EXPECT_NEAR(mean(response.contact_force), 1.5, 1e-9);
   const Motion motion = structure_motion(problem, response, 128);

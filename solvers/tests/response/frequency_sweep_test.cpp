@@ -1,12 +1,10 @@
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <optional>
 
 #include "support/phase_cases.hpp"
-#include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -55,22 +53,12 @@ TEST(FrequencySweep, ReversesWhereTheBarGrazes) {
 // and by 1.8 in it. Measured by the gap of 10, one step would change the vibration to twice as much.
 TEST(FrequencySweep, StepsAreSharesOfAVibrationAboutALargeStaticDeflection) {
   constexpr double damping = 0.004, load = 0.01;
-  LinearStructure structure;
-  const auto number = [](double value) {
-    return Eigen::SparseMatrix<double>(Eigen::MatrixXd::Constant(1, 1, value).sparseView());
-  };
-  structure.mass = structure.stiffness = structure.contact_directions = number(1.0);
-  structure.damping = number(damping);
-  structure.load = Eigen::VectorXd::Constant(1, load);
+  LinearStructure structure = testing::unit_oscillator(damping, load);
   structure.forces = {{Eigen::VectorXd::Constant(1, 50.0), Eigen::VectorXcd::Ones(1)}};
-  const ContactLaws laws(AnyContactLaw(testing::LinearStop{1.0, 10.0}));
-  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 0.1;
-  options.to = 0.4;
-  options.keep_unknowns = true;
-  const FrequencySweep sweep = frequency_sweep(problem, laws, options);
-  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+  const ContactLaws laws(AnyContactLaw(testing::LinearContact{1.0, 10.0}));
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 64);
+  FrequencySweepOptions options = testing::between(0.1, 0.4);
+  const FrequencySweep sweep = testing::complete_sweep(problem, laws, options);
   double amplitude = 0.0;
   for (std::size_t i = 1; i < sweep.points.size(); ++i) {
     const Eigen::VectorXd &before = sweep.points[i - 1].unknown, &now = sweep.points[i].unknown;
@@ -210,13 +198,9 @@ TEST(FrequencySweep, SaysWhenTheCurveGrowsPastAllBounds) {
 
 // Steps grow to more than the frequency itself: a trial point below zero is a step too long, not an error.
 TEST(FrequencySweep, GoesDownToAHundredthOfTheFirstFrequency) {
-  CondensedProblem problem(testing::fourier_pair(7, 32), testing::jl14_case_1.structure(),
-                           testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 100.0;
-  options.to = 0.1;
-  const FrequencySweep result = frequency_sweep(problem, testing::jl14_case_1.law, options);
-  EXPECT_EQ(result.status, SweepStatus::reached_end);
+  CondensedProblem problem = testing::fourier_problem(testing::jl14_case_1.structure(), 7, 32);
+  const FrequencySweep result =
+      testing::complete_sweep(problem, testing::jl14_case_1.law, testing::between(100.0, 0.1));
   EXPECT_NEAR(result.points.back().frequency, 0.1, 1e-8);
 }
 

@@ -1,17 +1,11 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "support/duffing_spring.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -43,11 +37,9 @@ double duffing_fold(int branch, double low, double high, double sign) {
 }
 
 FrequencySweep duffing_sweep(double from, double to) {
-  CondensedProblem problem(testing::fourier_pair(3, 16),
-                           testing::unit_oscillator(duffing_damping, duffing_load), testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = from;
-  options.to = to;
+  CondensedProblem problem =
+      testing::fourier_problem(testing::unit_oscillator(duffing_damping, duffing_load), 3, 16);
+  FrequencySweepOptions options = testing::between(from, to);
   return frequency_sweep(problem, testing::DuffingSpring{}, options);
 }
 
@@ -108,14 +100,10 @@ TEST(FrequencySweep, FindsTheFoldsOfALinearStopInBothDirections) {
     lower = std::min(lower, f);
   }
   EXPECT_LT(lower, stop.frequency(0.0, load, damping));  // the fold lies beyond grazing
-  CondensedProblem problem(testing::fourier_pair(3, 512), testing::unit_oscillator(damping, load),
-                           testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(damping, load), 3, 512);
   for (const bool rising : {true, false}) {
-    FrequencySweepOptions options;
-    options.from = rising ? 0.1 : 0.3;
-    options.to = rising ? 0.3 : 0.1;
-    const FrequencySweep sweep = frequency_sweep(problem, stop, options);
-    ASSERT_EQ(sweep.status, SweepStatus::reached_end);
+    const FrequencySweep sweep =
+        testing::complete_sweep(problem, stop, testing::between(rising ? 0.1 : 0.3, rising ? 0.3 : 0.1));
     ASSERT_GE(sweep.turning_points.size(), 2u);
     const auto& [first, last] = std::pair{sweep.turning_points.front(), sweep.turning_points.back()};
     EXPECT_NEAR((rising ? first : last).frequency, upper, 1e-5);  // 512 points find b to about (2 pi / 512)^2
@@ -125,12 +113,10 @@ TEST(FrequencySweep, FindsTheFoldsOfALinearStopInBothDirections) {
 
 // Downwards from the low branch between the folds: round the lower fold and back on the unstable branch.
 TEST(FrequencySweep, SaysWhenTheCurveReturnsToWhereItStarted) {
-  CondensedProblem problem(testing::fourier_pair(3, 16),
-                           testing::unit_oscillator(duffing_damping, duffing_load), testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 0.3;
-  options.to = 0.05;
-  const FrequencySweep sweep = frequency_sweep(problem, testing::DuffingSpring{}, options);
+  CondensedProblem problem =
+      testing::fourier_problem(testing::unit_oscillator(duffing_damping, duffing_load), 3, 16);
+  const FrequencySweep sweep =
+      frequency_sweep(problem, testing::DuffingSpring{}, testing::between(0.3, 0.05));
   ASSERT_LT(sweep.points.front().max_displacement, 0.5) << "the low branch";
   EXPECT_EQ(sweep.status, SweepStatus::returned);
   EXPECT_EQ(sweep.turning_points.size(), 1u);
@@ -165,13 +151,11 @@ LinearStructure pipe_on_supports() {
 
 // Superharmonic resonances of light modes are narrower than an 80th of a wide interval.
 TEST(FrequencySweep, OfAPipeOnSupportsDoesNotPassOverALoopThatIsNarrowBesideTheInterval) {
-  CondensedProblem problem(testing::fourier_pair(63, 252), pipe_on_supports(), testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(pipe_on_supports(), 63, 252);
   const ContactLaws stops(std::vector<AnyContactLaw>{testing::LinearContact{1e6, 3e-3},
                                                      testing::LinearContact{1e6, 3e-3},
                                                      testing::LinearContact{1e6, 5e-3}});
-  FrequencySweepOptions options;
-  options.from = 2.0;
-  options.to = 25.0;
+  FrequencySweepOptions options = testing::between(2.0, 25.0);
   options.output_points = 64;
   options.smallest_return = 0.04;
   const FrequencySweep usual = frequency_sweep(problem, stops, options);

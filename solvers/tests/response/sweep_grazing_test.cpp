@@ -1,14 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "dense_algebra.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -28,9 +22,7 @@ struct StoppedOscillators {
     structure.contact_directions.resize(count, count);
     structure.contact_directions.setIdentity();
     CondensedProblem problem(std::move(pair), structure, testing::cosine_load());
-    FrequencySweepOptions options;
-    options.from = from;
-    options.to = to;
+    FrequencySweepOptions options = testing::between(from, to);
     options.arc_length.grazing_events = events;
     if (events == GrazingEvents::all) options.smallest_return = 1e-12;
     return frequency_sweep(problem, testing::LinearContact{stiffness, 1.0}, options);
@@ -104,17 +96,13 @@ struct TwoGaps {
 // Where several samples reach different kinks within one step, the first of them ends the piece.
 TEST(FrequencySweep, PassesEveryKinkOfStopsOnBothSidesWithShortAndLongSteps) {
   const auto turns = [](double max_step) {
-    CondensedProblem problem(testing::fourier_pair(15, 32), testing::unit_oscillator(0.04, 0.1),
-                             testing::cosine_load());
-    FrequencySweepOptions options;
-    options.from = 0.1;
-    options.to = 0.35;
+    CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.04, 0.1), 15, 32);
+    FrequencySweepOptions options = testing::between(0.1, 0.35);
     options.arc_length.grazing_events = GrazingEvents::all;
     options.arc_length.max_step = max_step;
     options.arc_length.initial_step = std::min(options.arc_length.initial_step, max_step);
     options.smallest_return = 1e-12;
-    const FrequencySweep sweep = frequency_sweep(problem, TwoGaps{}, options);
-    EXPECT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+    const FrequencySweep sweep = testing::complete_sweep(problem, TwoGaps{}, options);
     return turning_frequencies(sweep);
   };
   const std::vector<double> fine = turns(0.002);
@@ -210,7 +198,7 @@ LinearStructure reduced_structure() {
 }
 
 TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefaultSteps) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), reduced_structure(), testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(reduced_structure(), 15, 64);
   double free = 0.0;
   for (double frequency = 0.15; frequency < 0.17; frequency += 0.0002) {
     problem.set_frequency(frequency);
@@ -219,11 +207,8 @@ TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefa
   const testing::LinearContact stop{1000.0, free / 3.0};
   std::vector<double> largest;
   for (const bool rising : {true, false}) {
-    FrequencySweepOptions options;
-    options.from = rising ? 0.12 : 0.25;
-    options.to = rising ? 0.25 : 0.12;
-    const FrequencySweep sweep = frequency_sweep(problem, stop, options);
-    ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
+    const FrequencySweep sweep =
+        testing::complete_sweep(problem, stop, testing::between(rising ? 0.12 : 0.25, rising ? 0.25 : 0.12));
     largest.push_back(0.0);
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
       const SweepPoint& point = sweep.points[i];
@@ -231,8 +216,7 @@ TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefa
       largest.back() = std::max(largest.back(), point.max_displacement);
       if (i % 20 != 0) continue;
       problem.set_frequency(point.frequency);
-      const PeriodicResponse single = forced_response(problem, stop, {});
-      ASSERT_TRUE(single.converged());
+      const PeriodicResponse single = testing::solved_response(problem, stop);
       // 1024 points of the period against its 64 samples
       EXPECT_NEAR(single.displacement.maxCoeff(), point.max_displacement, 0.02 * point.max_displacement);
     }
@@ -261,10 +245,8 @@ TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {
   ring.contact_directions = contact_rows({0, 1, 2, 3}, ring.size());
   const TimePair pair = testing::fourier_pair(7, 32);
   CondensedProblem problem(pair, ring, testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 0.35;
-  options.to = 0.1;
-  const FrequencySweep whole = frequency_sweep(problem, testing::LinearContact{10.0, 1.0}, options);
+  const FrequencySweep whole =
+      frequency_sweep(problem, testing::LinearContact{10.0, 1.0}, testing::between(0.35, 0.1));
   const FrequencySweep sector = StoppedOscillators{10.0}.sweep(pair, 0.35, 0.1, GrazingEvents::all);
   ASSERT_EQ(whole.status, SweepStatus::reached_end) << to_string(whole.status);
   ASSERT_EQ(sector.status, SweepStatus::reached_end) << to_string(sector.status);
@@ -281,11 +263,9 @@ TEST(FrequencySweep, OfAHeavyMassOnAStiffStopReachesItsEndWithStepsOfAnyLength) 
                                               .load = 0.2811668913552674}
                               .structure();
   heavy.forces.push_back({Eigen::VectorXd::Constant(1, 122.44846191605234), Eigen::VectorXcd::Ones(1)});
-  CondensedProblem problem(testing::fourier_pair(63, 252), heavy, testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(heavy, 63, 252);
   for (const double steps : {80.0, 111.0, 130.0, 160.0, 200.0, 230.0, 300.0, 320.0, 400.0, 480.0, 640.0}) {
-    FrequencySweepOptions options;
-    options.from = from;
-    options.to = to;
+    FrequencySweepOptions options = testing::between(from, to);
     options.output_points = 64;
     options.arc_length.max_step = 20.0 / steps;
     options.arc_length.initial_step = options.arc_length.max_step / 12.5;

@@ -1,14 +1,13 @@
 // Curves that come back to an earlier point of themselves.
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <optional>
 
 #include "continuation/return_detector.hpp"
 #include "dense_algebra.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -27,14 +26,9 @@ LinearStructure shaken_beam() {
   mass *= inertia;
   const auto modes = oracle::generalized_eigen(stiffness, mass);
   const Eigen::Matrix2d shapes = mass * modes.vectors;
-  LinearStructure beam;
-  beam.mass = mass.sparseView();
-  beam.stiffness = stiffness.sparseView();
   const Eigen::Vector2d damping = 2.0 * ratio * modes.values.cwiseSqrt();
-  beam.damping = Eigen::MatrixXd(shapes * damping.asDiagonal() * shapes.transpose()).sparseView();
-  beam.load = -inertia * Eigen::Vector2d(210.0, -35.0 * length);
-  beam.contact_directions = contact_rows({0}, 2);
-  return beam;
+  return testing::structure(mass, shapes * damping.asDiagonal() * shapes.transpose(), stiffness,
+                            -inertia * Eigen::Vector2d(210.0, -35.0 * length), contact_rows({0}, 2));
 }
 
 // The beam against a stiff stop, followed by steps so long that one of them jumps to a closed curve.
@@ -43,9 +37,7 @@ struct Beam {
   testing::LinearContact stop{1e5, 1e-3};
 
   static FrequencySweepOptions options() {
-    FrequencySweepOptions options;
-    options.from = 12.0;
-    options.to = 25.0;
+    FrequencySweepOptions options = testing::between(12.0, 25.0);
     options.max_points = 3000;
     options.output_points = 64;
     auto& arc = options.arc_length;

@@ -1,57 +1,20 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
+#include "wavebalance/solvers/stability/contact_dynamics.hpp"
+#include "support/compliance_errors.hpp"
 #include "support/oscillator.hpp"
 #include "support/stability_cases.hpp"
-#include "wavebalance/solvers/stability/contact_dynamics.hpp"
-#include "wavebalance/solvers/structure/condensation.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
 using Complex = std::complex<double>;
 
-// The largest difference to a condensation at complex exponents, relative to the largest compliance.
-double error_of(const ContactDynamics& dynamics, const LinearStructure& structure, double size) {
-  Condensation condensation(structure, CondensationMethod::dense);
-  double error = 0.0, largest = 0.0;
-  for (const double real : {0.0, 0.3 * size, -0.02 * size})
-    for (const double imaginary : {0.0, 0.7 * size, 3.1 * size, -5.0 * size}) {
-      const Complex s(real, imaginary);
-      const CondensedPoint exact = condensation.dynamic_compliance({s * s, s, 1.0}, {2.0 * s, 1.0, 0.0});
-      const auto values = dynamics.compliance(real, Eigen::VectorXd::Constant(1, imaginary));
-      const Eigen::MatrixXcd compliance =
-          dynamics.constant() + values.compliance.row(0).reshaped(structure.contacts(), structure.contacts());
-      const Eigen::MatrixXcd slope = values.slope.row(0).reshaped(structure.contacts(), structure.contacts());
-      largest = std::max(largest, exact.compliance.cwiseAbs().maxCoeff());
-      error = std::max({error, (compliance - exact.compliance).cwiseAbs().maxCoeff(),
-                        size * (slope - exact.compliance_slope).cwiseAbs().maxCoeff()});
-    }
-  return error / largest;
-}
-
-// Its poles and residues must give the same compliance as its sections.
-double pole_error(const ContactDynamics& dynamics, double size) {
-  const Complex s(0.4 * size, 1.3 * size);
-  Eigen::MatrixXcd sum = dynamics.constant().cast<Complex>();
-  for (const ContactPole& pole : dynamics.poles()) {
-    const Eigen::MatrixXcd matrix = pole.residue * pole.shape * pole.shape.transpose();
-    sum += matrix / (s - pole.exponent);
-    if (pole.exponent.imag() != 0.0) sum += matrix.conjugate() / (s - std::conj(pole.exponent));
-  }
-  const auto values = dynamics.compliance(s.real(), Eigen::VectorXd::Constant(1, s.imag()));
-  const Eigen::MatrixXcd compliance =
-      dynamics.constant() + values.compliance.row(0).reshaped(sum.rows(), sum.cols());
-  return (sum - compliance).cwiseAbs().maxCoeff() / compliance.cwiseAbs().maxCoeff();
-}
-
 void expect_exact(const LinearStructure& structure, double size) {
   const ContactDynamics dynamics(structure);
   EXPECT_FALSE(dynamics.reduced());
-  EXPECT_LT(error_of(dynamics, structure, size), 1e-9);
-  EXPECT_LT(pole_error(dynamics, size), 1e-7);
+  const testing::ComplianceErrors errors = testing::compliance_errors(dynamics, structure, size);
+  EXPECT_LT(errors.sections, 1e-9);
+  EXPECT_LT(errors.poles, 1e-7);
 }
 
 TEST(ContactDynamics, IsTheCondensedComplianceOfProportionallyDampedStructures) {

@@ -1,15 +1,10 @@
 #include "wavebalance/solvers/stability/curve_stability.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "constants.hpp"
-#include "support/jl14_bar.hpp"
 #include "support/oscillator.hpp"
+#include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -31,34 +26,27 @@ struct Traced {
 
 Traced trace(const LinearStructure& structure, const ContactLaws& laws, double from, double to, int functions,
              int points) {
-  CondensedProblem problem(testing::fourier_pair(functions, points), structure, testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = from;
-  options.to = to;
-  options.keep_unknowns = true;
+  CondensedProblem problem = testing::fourier_problem(structure, functions, points);
+  FrequencySweepOptions options = testing::between(from, to);
   Traced traced;
   traced.curve = frequency_sweep(problem, laws, options);
   traced.stability = curve_stability(problem, laws, traced.curve, ContactDynamics(structure));
   return traced;
 }
 
-Traced trace_case_2(double beta, int functions, int points) {
-  return trace(testing::jl14_bar(25, beta), testing::jl14_case_2.law, 1100.0, 1700.0, functions, points);
-}
-
-// Between the first and the second change of the count.
-TEST(CurveStability, IsLostBetweenTheFoldsOfCase2AndNowhereElse) {
-  const Traced traced = trace_case_2(testing::jl14_case_2.beta, 63, 512);
-  ASSERT_EQ(traced.stability.points.size(), traced.curve.points.size());
+// The counts along a curve where they are known, each as long as it lasts.
+std::vector<int> changes_of_counts(const CurveStability& stability) {
   std::vector<int> counts;
-  for (const PointStability& point : traced.stability.points)
+  for (const PointStability& point : stability.points)
     if (point.status == StabilityStatus::converged && (counts.empty() || counts.back() != point.unstable))
       counts.push_back(point.unstable);
-  EXPECT_EQ(counts, (std::vector<int>{0, 1, 0}));
+  return counts;
 }
 
-TEST(CurveStability, FindsTheFoldsOfTheSamplesAtAMultiplierOf1) {
-  const Traced traced = trace_case_2(testing::jl14_case_2.beta, 63, 1024);
+TEST(CurveStability, IsLostBetweenTheFoldsOfTheSamplesAtAMultiplierOf1) {
+  const LinearStructure bar = testing::jl14_case_2.structure();
+  const Traced traced = trace(bar, testing::jl14_case_2.law, 1100.0, 1700.0, 63, 1024);
+  EXPECT_EQ(changes_of_counts(traced.stability), (std::vector<int>{0, 1, 0}));
   const auto folds = traced.of(Type::fold);
   ASSERT_EQ(folds.size(), 2u);
   ASSERT_EQ(traced.curve.turning_points.size(), 2u);
@@ -85,47 +73,12 @@ TEST(CurveStability, FindsGrazingWhereTheFreeMotionReachesTheGap) {
   EXPECT_TRUE(std::isnan(grazings[0].multiplier.real()));
 }
 
-// References: event-driven shooting made independently of this code.
-TEST(CurveStability, FindsThePeriodDoublingsOfAnOscillatorWithAStop) {
-  const Traced traced = trace(testing::unit_oscillator(0.1, 0.8), testing::LinearContact{10.0, 0.1},
-                              2.1 / two_pi, 2.99 / two_pi, 63, 1024);
-  const auto doublings = traced.of(Type::period_doubling);
-  ASSERT_EQ(doublings.size(), 2u);
-  EXPECT_NEAR(two_pi * doublings[0].frequency, 2.206199894019, 1e-4);
-  EXPECT_NEAR(two_pi * doublings[1].frequency, 2.973736781998, 1e-4);
-  for (const SpecialPoint& point : doublings) EXPECT_LE(std::abs(point.multiplier + 1.0), 1e-4);
-}
-
-TEST(CurveStability, FindsTheNeimarkSackerPointsOfTheLightlyDampedBar) {
-  const auto points = trace_case_2(5e-7, 63, 1024).of(Type::neimark_sacker);
-  ASSERT_EQ(points.size(), 2u);
-  EXPECT_NEAR(points[0].frequency, 1312.442975, 0.5);
-  EXPECT_NEAR(points[1].frequency, 1378.541283, 0.5);
-  EXPECT_LE(std::abs(points[0].multiplier - std::complex<double>(0.95655432, 0.29155416)), 3e-3);
-  EXPECT_LE(std::abs(points[1].multiplier - std::complex<double>(0.93463566, 0.35560678)), 3e-3);
-}
-
-TEST(CurveStability, FindsThePeriodDoublingsOfTheBarWithASmallGap) {
-  testing::ExponentialLaw law = testing::jl14_case_2.law;
-  law.start = 1e-4;
-  const auto points =
-      trace(testing::jl14_bar(25, 1.25e-6), law, 2800.0, 3050.0, 63, 1024).of(Type::period_doubling);
-  ASSERT_EQ(points.size(), 2u);
-  EXPECT_NEAR(points[0].frequency, 2840.476702, 0.5);
-  EXPECT_NEAR(points[1].frequency, 2988.746353, 0.5);
-}
-
 /// Two masses of 1 with springs of 1 between them and to the ground, the second driven, C = 0.03 K.
 LinearStructure two_masses() {
   Eigen::Matrix2d stiffness;
   stiffness << 1.0, -1.0, -1.0, 2.0;
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd::Identity(2, 2).sparseView();
-  structure.stiffness = Eigen::MatrixXd(stiffness).sparseView();
-  structure.damping = 0.03 * structure.stiffness;
-  structure.contact_directions = contact_rows({0}, 2);
-  structure.load = Eigen::Vector2d(0.0, 0.1);
-  return structure;
+  return testing::structure(Eigen::MatrixXd::Identity(2, 2), 0.03 * stiffness, stiffness,
+                            Eigen::Vector2d(0.0, 0.1), contact_rows({0}, 2));
 }
 
 // Contact begins at 1e-6 from the Neimark-Sacker point, with a kink of the curve between them. References:
@@ -152,28 +105,21 @@ TEST(CurveStability, OfAnUndampedStructureIsNotKnown) {
 TEST(CurveStability, NeedsTheUnknownsOfTheCurve) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
   const testing::LinearContact stop{10.0, 0.1};
-  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-  FrequencySweepOptions options;
-  options.from = 0.3;
-  options.to = 0.4;
-  const FrequencySweep curve = frequency_sweep(problem, stop, options);
-  try {
-    curve_stability(problem, stop, curve, ContactDynamics(structure));
-    FAIL() << "no error";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("keep_unknowns"), std::string::npos) << error.what();
-  }
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 64);
+  FrequencySweepOptions forgetting = testing::between(0.3, 0.4);
+  forgetting.keep_unknowns = false;
+  const FrequencySweep curve = frequency_sweep(problem, stop, forgetting);
+  EXPECT_NE(testing::refusal([&] {
+              curve_stability(problem, stop, curve, ContactDynamics(structure));
+            }).find("keep_unknowns"),
+            std::string::npos);
 }
 
 TEST(CurveStability, StopsWhenItsObserverSaysSo) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
   const testing::LinearContact stop{10.0, 0.1};
-  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-  FrequencySweepOptions sweep;
-  sweep.from = 0.3;
-  sweep.to = 0.4;
-  sweep.keep_unknowns = true;
-  const FrequencySweep curve = frequency_sweep(problem, stop, sweep);
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 64);
+  const FrequencySweep curve = frequency_sweep(problem, stop, testing::between(0.3, 0.4));
   CurveStabilityOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 3; };
   const CurveStability stability = curve_stability(problem, stop, curve, ContactDynamics(structure), options);

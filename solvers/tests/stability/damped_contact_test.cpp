@@ -1,16 +1,11 @@
 // Floquet multipliers of contact that dissipates energy.
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <complex>
-
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -30,16 +25,13 @@ struct EverywhereDamper {
 };
 
 CondensedProblem problem_at(const LinearStructure& structure, double frequency, int functions = 127) {
-  CondensedProblem problem(testing::fourier_pair(functions, 1024), structure, testing::cosine_load());
-  problem.set_frequency(frequency);
-  return problem;
+  return testing::fourier_problem(structure, functions, 1024, frequency);
 }
 
 TEST(DampedContact, ASpringAndDamperThatAlwaysActHaveTheMultipliersOfTheDampedOscillator) {
   CondensedProblem problem = problem_at(testing::unit_oscillator(0.1, 0.4), 0.2, 31);
   const EverywhereDamper law;
-  const PeriodicResponse response = forced_response(problem, law, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, law);
   const FloquetExponents found =
       floquet_exponents(ContactDynamics(problem.structure()), problem, law, response);
   ASSERT_EQ(found.status, StabilityStatus::converged);
@@ -127,8 +119,7 @@ Eigen::Vector2cd multipliers_by_differences(const Law& law, double load, double 
 template <class Law>
 void expect_multipliers(const Law& law, double load, double frequency, double tolerance) {
   CondensedProblem problem = problem_at(testing::unit_oscillator(0.1, load), frequency);
-  const PeriodicResponse response = forced_response(problem, law, {});
-  ASSERT_TRUE(response.converged()) << to_string(response.status);
+  const PeriodicResponse response = testing::solved_response(problem, law);
   ASSERT_GT(response.contact_force.maxCoeff(), 0.1);
   const Eigen::Vector2cd expected = multipliers_by_differences(law, load, frequency, problem, response);
   const ContactDynamics dynamics(problem.structure());

@@ -1,13 +1,9 @@
 // Floquet multipliers of motions with elastic friction against those of event-driven exact motions.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "stability/friction_monodromy.hpp"
-#include "support/friction_scenes.hpp"
 #include "support/friction_table.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -25,8 +21,7 @@ struct Solved {
 };
 
 Solved solve(const FrictionScene& scene, int functions, int points) {
-  CondensedProblem problem(testing::fourier_pair(functions, points), scene.structure, testing::cosine_load());
-  problem.set_frequency(scene.frequency());
+  CondensedProblem problem = testing::fourier_problem(scene.structure, functions, points, scene.frequency());
   Solved solved;
   solved.response = forced_response(problem, scene.contact_laws(), {});
   if (!solved.response.converged()) return solved;

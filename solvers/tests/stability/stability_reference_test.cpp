@@ -1,14 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
 #include "linalg/multipliers.hpp"
 #include "stability/monodromy_map.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
+#include "support/solved.hpp"
 #include "support/stability_cases.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -27,8 +23,8 @@ class CaseTwoStability : public ::testing::TestWithParam<Resolution> {};
 // Against multipliers of a shooting computation.
 TEST_P(CaseTwoStability, MultipliersAndCountsAreThoseOfShooting) {
   const Resolution& resolution = GetParam();
-  CondensedProblem problem(testing::fourier_pair(resolution.functions, resolution.points),
-                           testing::jl14_case_2.structure(), testing::cosine_load());
+  CondensedProblem problem =
+      testing::fourier_problem(testing::jl14_case_2.structure(), resolution.functions, resolution.points);
   const ContactDynamics dynamics(problem.structure());
   const ContactLaws laws = testing::jl14_case_2.law;
   const auto responses = testing::case_2_responses(problem);
@@ -48,6 +44,9 @@ TEST_P(CaseTwoStability, MultipliersAndCountsAreThoseOfShooting) {
     const StabilitySigns signs = stability_signs(dynamics, problem, laws, responses[i]);
     EXPECT_EQ(signs.fold, point.unstable == 1 ? -1 : 1);
     EXPECT_EQ(signs.flip, 1);
+    const auto stiffness = contact_stiffness(problem, laws, responses[i]);
+    ASSERT_EQ(stiffness.intervals.size(), 1u);
+    EXPECT_NEAR(stiffness.intervals[0].length(), point.contact_fraction, resolution.tolerance);
   }
 }
 
@@ -55,18 +54,6 @@ INSTANTIATE_TEST_SUITE_P(Sizes, CaseTwoStability,
                          ::testing::Values(Resolution{63, 256, 1.5e-3}, Resolution{127, 1024, 1.5e-4},
                                            Resolution{255, 4096, 2e-5}),
                          [](const auto& size) { return "M" + std::to_string(size.param.functions); });
-
-TEST(ContactIntervals, OfCaseTwoAreThoseOfShooting) {
-  CondensedProblem problem(testing::fourier_pair(255, 4096), testing::jl14_case_2.structure(),
-                           testing::cosine_load());
-  const auto responses = testing::case_2_responses(problem);
-  ASSERT_EQ(responses.size(), testing::case_2_curve.size());
-  for (std::size_t i = 0; i < responses.size(); ++i) {
-    const auto stiffness = contact_stiffness(problem, testing::jl14_case_2.law, responses[i]);
-    ASSERT_EQ(stiffness.intervals.size(), 1u);
-    EXPECT_NEAR(stiffness.intervals[0].length(), testing::case_2_curve[i].contact_fraction, 2e-5) << i;
-  }
-}
 
 class PrescribedStiffnessOfTwoContacts : public ::testing::TestWithParam<int> {};
 
@@ -121,11 +108,9 @@ TEST(RigidMonodromy, OfCaseTwoIsTheReference) {
 }
 
 TEST(RigidMonodromy, OfAResponseIsNearTheReference) {
-  CondensedProblem problem(testing::fourier_pair(255, 512), massless_tip(), testing::cosine_load());
-  problem.set_frequency(1275.0);
+  CondensedProblem problem = testing::fourier_problem(massless_tip(), 255, 512, 1275.0);
   const ContactLaws rigid = testing::Rigid{testing::jl14_case_2.law.start};
-  const PeriodicResponse response = forced_response(problem, rigid, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, rigid);
   const PeriodicStiffness contact = contact_stiffness(problem, rigid, response);
   EXPECT_EQ(contact.status, StabilityStatus::no_finite_stiffness);
   const Eigen::VectorXcd multipliers = rigid_monodromy(ContactDynamics(massless_tip()), contact, 1275.0);
@@ -144,11 +129,9 @@ TEST(RigidMonodromy, IsApproachedByThoseOfPenalties) {
   };
   for (const auto& [penalty, modulus, tolerance] :
        {Penalty{1e10, 0.601686, 2e-4}, Penalty{1e11, 0.603213, 2e-3}, Penalty{1e12, 0.603275, 5e-3}}) {
-    CondensedProblem problem(testing::fourier_pair(511, 8192), massless_tip(), testing::cosine_load());
-    problem.set_frequency(1275.0);
+    CondensedProblem problem = testing::fourier_problem(massless_tip(), 511, 8192, 1275.0);
     const ContactLaws laws = testing::LinearContact{penalty, testing::jl14_case_2.law.start};
-    const PeriodicResponse response = forced_response(problem, laws, {});
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, laws);
     const PeriodicStiffness contact = contact_stiffness(problem, laws, response);
     const auto multipliers = monodromy(dynamics, contact, 1275.0, {.nodes = 24, .max_pieces = 4000});
     EXPECT_NEAR(std::abs(multipliers[0]), modulus, tolerance) << penalty;
@@ -181,10 +164,8 @@ struct OscillatorPoint {
 // Few of the 50 states of the overdamped bar are left after its free flight.
 TEST(Monodromy, HasTheEigenvaluesOfTheWholeMap) {
   for (const testing::Jl14Case& one : {testing::jl14_case_1, testing::jl14_case_2}) {
-    CondensedProblem problem(testing::fourier_pair(63, 256), one.structure(), testing::cosine_load());
-    problem.set_frequency(one.frequency_hz);
-    const PeriodicResponse response = forced_response(problem, one.law, {});
-    ASSERT_TRUE(response.converged());
+    CondensedProblem problem = testing::fourier_problem(one.structure(), 63, 256, one.frequency_hz);
+    const PeriodicResponse response = testing::solved_response(problem, one.law);
     const ContactDynamics dynamics(problem.structure());
     const PeriodicStiffness stiffness = contact_stiffness(problem, one.law, response);
     const Eigen::VectorXcd all = detail::map_multipliers(
@@ -204,12 +185,11 @@ TEST(Monodromy, OfTheOscillatorWithAStopIsExactTo1e6) {
        {2.8, -2.56680525, -0.31128029, 0.1330697175}}};
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
   const ContactLaws laws = testing::LinearContact{10.0, 0.1};
-  CondensedProblem problem(testing::fourier_pair(1023, 8192), structure, testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(structure, 1023, 8192);
   const ContactDynamics dynamics(structure);
   for (const OscillatorPoint& point : points) {
     problem.set_frequency(point.omega / two_pi);
-    const PeriodicResponse response = forced_response(problem, laws, {});
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, laws);
     const PeriodicStiffness stiffness = contact_stiffness(problem, laws, response);
     ASSERT_EQ(stiffness.intervals.size(), 1u);
     EXPECT_NEAR(stiffness.intervals[0].length(), point.contact_fraction, 1e-6);
@@ -255,8 +235,8 @@ TEST_P(SpecialPoints, LieWhereShootingFindsThem) {
   const SpecialPoint& point = GetParam();
   const ContactLaws laws = testing::ExponentialLaw{1e8, 20.0, point.gap};
   for (const Resolution& resolution : {Resolution{63, 256, 0.5}, Resolution{127, 1024, 0.02}}) {
-    CondensedProblem problem(testing::fourier_pair(resolution.functions, resolution.points),
-                             testing::jl14_bar(25, point.beta), testing::cosine_load());
+    CondensedProblem problem =
+        testing::fourier_problem(testing::jl14_bar(25, point.beta), resolution.functions, resolution.points);
     const ContactDynamics dynamics(problem.structure());
     const auto responses = testing::responses_along(problem, laws, point.from, {point.low});
     ASSERT_EQ(responses.size(), 1u);
@@ -275,36 +255,6 @@ INSTANTIATE_TEST_SUITE_P(
                       SpecialPoint{5e-7, 14.5e-3, 1240.0, 1375.0, 1382.0, 1378.541283, false},
                       SpecialPoint{1.25e-6, 1e-4, 2830.0, 2835.0, 2845.0, 2840.476702, true},
                       SpecialPoint{1.25e-6, 1e-4, 2950.0, 2980.0, 2995.0, 2988.746353, true}));
-
-// The factors by which successive periods of a perturbed motion differ.
-std::vector<double> growth(const Motion& motion, double frequency) {
-  TimeSteppingOptions options;
-  options.max_periods = 18;
-  options.step_tolerance = 1e-11;
-  options.initial_displacement = 1.0001 * motion.displacement.col(0);
-  options.initial_velocity = 1.0001 * motion.velocity.col(0);
-  const TimeSteppingResult result =
-      integrate_to_periodic(testing::jl14_case_2.structure(), testing::jl14_case_2.law, frequency, options);
-  std::vector<double> factors;
-  for (std::size_t i = 11; i < result.period_error.size(); ++i)
-    factors.push_back(result.period_error[i] / result.period_error[i - 1]);
-  return factors;
-}
-
-TEST(PerturbedMotion, GrowsOrDecaysInTimeSteppingByTheLeadingMultiplier) {
-  CondensedProblem problem(testing::fourier_pair(255, 4096), testing::jl14_case_2.structure(),
-                           testing::cosine_load());
-  const auto responses = testing::case_2_responses(problem);
-  ASSERT_EQ(responses.size(), testing::case_2_curve.size());
-  for (const std::size_t i : {std::size_t(4), std::size_t(7)}) {  // 1335 Hz, stable, and 1330 Hz, unstable
-    problem.set_frequency(responses[i].frequency);
-    const Motion motion = structure_motion(problem, responses[i], 4096);
-    const auto factors = growth(motion, responses[i].frequency);
-    ASSERT_GE(factors.size(), 4u);
-    for (const double factor : factors)
-      EXPECT_NEAR(factor, testing::case_2_curve[i].multiplier.real(), 0.02) << i;
-  }
-}
 
 }  // namespace
 }  // namespace wavebalance::solvers

@@ -1,11 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
+#include "support/solved.hpp"
 #include "support/stability_cases.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -25,16 +22,13 @@ PeriodicStiffness half_period() {
 }
 
 TEST(StabilityStatus, OfAResponseThatHasNotConvergedIsNoResponse) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(0.1, 0.8),
-                           testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.1, 0.8), 15, 64);
   expect_unknown(unstable_multipliers(problem, testing::LinearContact{10.0, 0.1}, PeriodicResponse{}),
                  StabilityStatus::no_response);
 }
 
 TEST(StabilityStatus, OfRigidContactWithMassIsNoFiniteStiffness) {
-  CondensedProblem problem(testing::fourier_pair(15, 64), testing::unit_oscillator(0.1, 0.8),
-                           testing::cosine_load());
-  problem.set_frequency(0.1);
+  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.1, 0.8), 15, 64, 0.1);
   PeriodicResponse response;  // any with force: not the motion is in question, but the law
   response.status = SolveStatus::converged;
   response.frequency = 0.1;
@@ -48,14 +42,11 @@ TEST(StabilityStatus, OfRigidContactWithMassIsNoFiniteStiffness) {
 
 TEST(StabilityStatus, OfRigidObstacleThatIsNotReachedIsKnown) {
   // A tip without mass hangs on the oscillator by a damped spring.
-  LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
-  structure.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 0.0).asDiagonal()).sparseView();
-  structure.stiffness = Eigen::MatrixXd(Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 1.0}}).sparseView();
-  structure.damping = 0.1 * structure.stiffness;
-  structure.load = Eigen::Vector2d(0.8, 0.0);
-  structure.contact_directions = contact_rows({1}, 2);
-  CondensedProblem problem(testing::fourier_pair(15, 64), structure, testing::cosine_load());
-  problem.set_frequency(0.05);
+  const Eigen::Matrix2d stiffness{{2.0, -1.0}, {-1.0, 1.0}};
+  const LinearStructure structure =
+      testing::structure(Eigen::Vector2d(1.0, 0.0).asDiagonal(), 0.1 * stiffness, stiffness,
+                         Eigen::Vector2d(0.8, 0.0), contact_rows({1}, 2));
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 64, 0.05);
   const ContactLaws rigid = testing::Rigid{100.0};
   const auto found = unstable_multipliers(problem, rigid, forced_response(problem, rigid, {}));
   EXPECT_EQ(found.status, StabilityStatus::converged);
@@ -64,8 +55,7 @@ TEST(StabilityStatus, OfRigidObstacleThatIsNotReachedIsKnown) {
 
 TEST(StabilityStatus, OfAnUndampedOrFreeStructureIsUndamped) {
   LinearStructure structure = testing::unit_oscillator(0.0, 1.0);
-  StabilityOptions options;
-  options.harmonics = 10;
+  StabilityOptions options{.harmonics = 10};
   expect_unknown(unstable_multipliers(ContactDynamics(structure), half_period(), 0.3, options),
                  StabilityStatus::undamped);
   EXPECT_EQ(stability_signs(ContactDynamics(structure), half_period(), 0.3, options).fold, 0);
@@ -83,15 +73,13 @@ TEST(StabilityStatus, OfAnUndampedOrFreeStructureIsUndamped) {
 // u = 1 cos, gap just below the top: contact for less than the distance of two samples, and between them.
 TEST(StabilityStatus, OfContactBetweenTwoSamplesIsTooFewSamples) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 1.0);
-  CondensedProblem problem(testing::fourier_pair(15, 16), structure, testing::cosine_load());
-  problem.set_frequency(0.05);
+  CondensedProblem problem = testing::fourier_problem(structure, 15, 16, 0.05);
   const Eigen::VectorXd& free = problem.contact_free_response();
   const double amplitude =
       1.0 / std::abs(std::complex<double>(1.0 - std::pow(two_pi * 0.05, 2), 0.1 * two_pi * 0.05));
   ASSERT_LT(free.maxCoeff(), (1.0 - 1e-6) * amplitude);
   const ContactLaws laws = testing::LinearContact{10.0, 0.5 * (free.maxCoeff() + amplitude)};
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   ASSERT_EQ(response.contact_force.maxCoeff(), 0.0);
   expect_unknown(unstable_multipliers(problem, laws, response), StabilityStatus::too_few_samples);
   EXPECT_THROW(monodromy(ContactDynamics(structure), contact_stiffness(problem, laws, response), 0.05),
@@ -99,15 +87,11 @@ TEST(StabilityStatus, OfContactBetweenTwoSamplesIsTooFewSamples) {
 }
 
 TEST(StabilityStatus, OfMasslessContactsThatDeflectEachOtherIsCoupledMassless) {
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd(Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal()).sparseView();
-  const Eigen::Matrix3d stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 1.0}};
-  structure.stiffness = stiffness.sparseView();
-  structure.damping = 0.1 * structure.mass;
-  structure.load = Eigen::Vector3d(1.0, 0.0, 0.0);
-  structure.contact_directions = contact_rows({1, 2}, 3);
-  StabilityOptions options;
-  options.harmonics = 10;
+  const Eigen::Matrix3d mass = Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal(),
+                        stiffness{{2.0, -1.0, 0.0}, {-1.0, 2.0, -1.0}, {0.0, -1.0, 1.0}};
+  const LinearStructure structure = testing::structure(
+      mass, 0.1 * mass, stiffness, Eigen::Vector3d(1.0, 0.0, 0.0), contact_rows({1, 2}, 3));
+  StabilityOptions options{.harmonics = 10};
   expect_unknown(unstable_multipliers(ContactDynamics(structure), half_period(), 0.3, options),
                  StabilityStatus::coupled_massless);
 }
@@ -116,8 +100,7 @@ TEST(StabilityStatus, OfMasslessContactsThatDeflectEachOtherIsCoupledMassless) {
 TEST(StabilityStatus, OfContactTooStiffForHarmonicsAndMonodromyIsTooFewHarmonics) {
   PeriodicStiffness stiff = half_period();
   stiff.tangent = [](int, double) { return std::pow(20.0 * two_pi * 0.3, 2); };
-  StabilityOptions options;
-  options.harmonics = 10;
+  StabilityOptions options{.harmonics = 10};
   const ContactDynamics dynamics(testing::unit_oscillator(0.1, 1.0));
   const auto found = unstable_multipliers(dynamics, stiff, 0.3, options);
   EXPECT_EQ(found.status, StabilityStatus::converged);
@@ -140,9 +123,7 @@ TEST(StabilityStatus, OfContactTooStiffForHarmonicsAndMonodromyIsTooFewHarmonics
 }
 
 TEST(StabilityStatus, OfTooFewEvaluationsIsEffortLimit) {
-  StabilityOptions options;
-  options.harmonics = 10;
-  options.max_evaluations = 1;
+  StabilityOptions options{.harmonics = 10, .max_evaluations = 1};
   LinearStructure structure = testing::unit_oscillator(1e-3, 1.0);
   expect_unknown(unstable_multipliers(ContactDynamics(structure), half_period(), 0.3, options),
                  StabilityStatus::effort_limit);
@@ -151,20 +132,16 @@ TEST(StabilityStatus, OfTooFewEvaluationsIsEffortLimit) {
 // Four oscillators in a row, each with a contact that lasts the whole period.
 TEST(StabilityStatus, OfManyLongContactsIsCountedByTheMonodromyWithinTheOperationsGiven) {
   constexpr int n = 4;
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)).sparseView();
   Eigen::MatrixXd springs = 2.0 * Eigen::MatrixXd::Identity(n, n);
   for (int i = 1; i < n; ++i) springs(i, i - 1) = springs(i - 1, i) = -1.0;
-  structure.stiffness = springs.sparseView();
-  structure.damping = 0.02 * structure.stiffness;
-  structure.load = Eigen::VectorXd::Unit(n, 0);
-  structure.contact_directions = contact_rows({0, 1, 2, 3}, n);
+  const LinearStructure structure =
+      testing::structure(Eigen::MatrixXd::Identity(n, n), 0.02 * springs, springs,
+                         Eigen::VectorXd::Unit(n, 0), contact_rows({0, 1, 2, 3}, n));
   const ContactDynamics dynamics(structure);
   PeriodicStiffness stiffness;
   for (int c = 0; c < n; ++c) stiffness.intervals.push_back({c, 0.0, 1.0});
   stiffness.tangent = [](int, double time) { return 1.0 + 0.9 * std::cos(two_pi * time); };
-  StabilityOptions options;
-  options.harmonics = 30;
+  StabilityOptions options{.harmonics = 30};
   constexpr double frequency = 0.2;
   const auto quick = unstable_multipliers(dynamics, stiffness, frequency, options);
   EXPECT_EQ(quick.evaluations, 0);
@@ -199,14 +176,9 @@ TEST(StabilityArguments, AreCheckedWithTheirNames) {
 
 // The second mass carries the contact and has none.
 LinearStructure massless_contact(double damping) {
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 0.0).asDiagonal()).sparseView();
   const Eigen::Matrix2d stiffness{{3.0, -2.0}, {-2.0, 2.0}}, dampers{{0.05, 0.0}, {0.0, damping}};
-  structure.stiffness = stiffness.sparseView();
-  structure.damping = dampers.sparseView();
-  structure.load = Eigen::Vector2d(1.0, 0.0);
-  structure.contact_directions = contact_rows({1}, 2);
-  return structure;
+  return testing::structure(Eigen::Vector2d(1.0, 0.0).asDiagonal(), dampers, stiffness,
+                            Eigen::Vector2d(1.0, 0.0), contact_rows({1}, 2));
 }
 
 PeriodicStiffness stiff_half_period() {

@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "support/oscillator.hpp"
 #include "support/rigid_law.hpp"
+#include "support/solved.hpp"
 #include "support/stability_cases.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -115,9 +112,7 @@ TEST(FloquetDeterminant, IsRealAtBothEndsOfTheHalfCircleWithTheSignsOfItsSmoothO
 
 TEST(UnstableMultipliers, AreAsManyAsThoseOfTheMonodromyOutsideTheCircle) {
   std::mt19937 generator(14);
-  StabilityOptions options;
-  options.harmonics = 31;
-  options.max_states = 0;  // a count by the monodromy would prove nothing
+  StabilityOptions options{.harmonics = 31, .max_states = 0};  // a count by the monodromy would prove nothing
   int unstable = 0, near = 0;
   for (int trial = 0; trial < 30; ++trial) {
     const testing::RandomStiffness random(generator, 1 + trial % 6);
@@ -138,16 +133,11 @@ TEST(UnstableMultipliers, AreAsManyAsThoseOfTheMonodromyOutsideTheCircle) {
 
 // Two nearly equal oscillators: the argument turns by 2 pi beside the axis within a small part of the range.
 TEST(UnstableMultipliers, OfTwoEqualMultipliersBesideTheCircleAreNone) {
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd(Eigen::Matrix2d::Identity()).sparseView();
   const Eigen::Matrix2d springs{{1.0, -1e-4}, {-1e-4, 1.0}};
-  structure.stiffness = springs.sparseView();
-  structure.damping = 0.004 * structure.stiffness;
-  structure.load = Eigen::Vector2d(1.0, 0.0);
-  structure.contact_directions = contact_rows({0, 1}, 2);
+  LinearStructure structure = testing::structure(Eigen::Matrix2d::Identity(), 0.004 * springs, springs,
+                                                 Eigen::Vector2d(1.0, 0.0), contact_rows({0, 1}, 2));
   const ContactDynamics dynamics(structure);
-  StabilityOptions options;
-  options.harmonics = 31;
+  StabilityOptions options{.harmonics = 31};
   for (const double stop : {0.2, 0.5, 1.0, 1.5}) {
     PeriodicStiffness stiffness;
     stiffness.intervals = {{0, 0.1, 0.36}, {1, 0.1, 0.36}};
@@ -237,13 +227,10 @@ TEST(FloquetExponents, WithoutContactAreThoseOfTheStructure) {
 // A contact on a light mass whose spring is as stiff as the contact: beyond the harmonics the compliance does
 // not decay before the mode of the light mass, at harmonic 140.
 TEST(FloquetExponents, OfAContactOnASpringAreThoseOfTheMonodromyInFewHarmonics) {
-  LinearStructure structure;
-  structure.mass = Eigen::MatrixXd(Eigen::Vector2d(1.0, 1e-4).asDiagonal()).sparseView();
   const Eigen::Matrix2d springs{{6.0, -5.0}, {-5.0, 5.0}};
-  structure.stiffness = springs.sparseView();
-  structure.damping = 1e-3 * structure.stiffness + 0.1 * structure.mass;
-  structure.load = Eigen::Vector2d(1.0, 0.0);
-  structure.contact_directions = contact_rows({1}, 2);
+  const Eigen::Matrix2d mass = Eigen::Vector2d(1.0, 1e-4).asDiagonal();
+  const LinearStructure structure = testing::structure(mass, 1e-3 * springs + 0.1 * mass, springs,
+                                                       Eigen::Vector2d(1.0, 0.0), contact_rows({1}, 2));
   PeriodicStiffness stiffness;
   stiffness.intervals = {{0, 0.1, 0.5}};
   stiffness.tangent = [](int, double) { return 5.0; };
@@ -293,8 +280,7 @@ TEST(UnstableMultipliers, OfAReducedBarAreThoseOfTheWholeOne) {
 TEST(UnstableMultipliers, IncludeThoseOfAnUnstableStructure) {
   LinearStructure structure = testing::unit_oscillator(-0.1, 1.0);
   const ContactDynamics dynamics(structure);
-  StabilityOptions options;
-  options.harmonics = 31;
+  StabilityOptions options{.harmonics = 31};
   EXPECT_EQ(unstable_multipliers(dynamics, PeriodicStiffness{}, 0.3, options).count, 2);
   PeriodicStiffness stiffness;
   stiffness.intervals = {{0, 0.2, 0.5}};
@@ -308,14 +294,13 @@ TEST(UnstableMultipliers, OfAMotionInSplinesAreThoseInHarmonics) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.8);
   const ContactLaws laws = testing::LinearContact{10.0, 0.1};
   for (const double omega : {2.0, 2.5}) {
-    CondensedProblem fourier(testing::fourier_pair(127, 1024), structure, testing::cosine_load());
+    CondensedProblem fourier = testing::fourier_problem(structure, 127, 1024);
     CondensedProblem splines(testing::make_pair(testing::CubicBasis{128}, testing::CubicBasis{128}, 1024),
                              structure, testing::cosine_load());
     std::vector<FloquetExponents> exponents;
     for (CondensedProblem* problem : {&fourier, &splines}) {
       problem->set_frequency(omega / two_pi);
-      const PeriodicResponse response = forced_response(*problem, laws, {});
-      ASSERT_TRUE(response.converged());
+      const PeriodicResponse response = testing::solved_response(*problem, laws);
       const auto found = unstable_multipliers(*problem, laws, response);
       EXPECT_EQ(found.status, StabilityStatus::converged);
       EXPECT_EQ(found.count, omega == 2.0 ? 0 : 1);
@@ -327,17 +312,14 @@ TEST(UnstableMultipliers, OfAMotionInSplinesAreThoseInHarmonics) {
 }
 
 TEST(UnstableMultipliers, OfAMotionInTheForceFormAreThoseOfTheDisplacementForm) {
-  CondensedProblem problem(testing::fourier_pair(63, 512), testing::jl14_case_2.structure(),
-                           testing::cosine_load());
-  problem.set_frequency(1275.0);
+  CondensedProblem problem = testing::fourier_problem(testing::jl14_case_2.structure(), 63, 512, 1275.0);
   const ContactLaws laws = testing::jl14_case_2.law;
   const ContactDynamics dynamics(problem.structure());
   std::vector<Complex> multipliers;
   for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
     ForcedResponseOptions options;
     options.form = form;
-    const PeriodicResponse response = forced_response(problem, laws, options);
-    ASSERT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, laws, options);
     EXPECT_EQ(unstable_multipliers(dynamics, problem, laws, response).count, 0);
     const auto exponents = floquet_exponents(dynamics, problem, laws, response);
     ASSERT_FALSE(exponents.values.empty());

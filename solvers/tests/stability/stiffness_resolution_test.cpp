@@ -1,16 +1,13 @@
 // Multipliers of contacts whose stiffness changes much within a small part of the period. References are
 // those of an independent event-driven integration of the variational equations, to 1e-4.
-#include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/contact/bilinear_law.hpp"
 #include "wavebalance/contact/cubic_law.hpp"
 #include "wavebalance/contact/table_law.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -21,9 +18,7 @@ using Complex = std::complex<double>;
 
 CondensedProblem oscillator_problem(int functions, int points, double load, double frequency) {
   const testing::Oscillator one{.mass = 1.0, .damping = 4.0, .stiffness = 1000.0, .load = load};
-  CondensedProblem problem(testing::fourier_pair(functions, points), one.structure(), testing::cosine_load());
-  problem.set_frequency(frequency);
-  return problem;
+  return testing::fourier_problem(one.structure(), functions, points, frequency);
 }
 
 Complex upper(Complex multiplier) { return {multiplier.real(), std::abs(multiplier.imag())}; }
@@ -34,8 +29,7 @@ struct Multipliers {
 };
 
 Multipliers multipliers_of(CondensedProblem& problem, const ContactLaws& laws) {
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  EXPECT_TRUE(response.converged());
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   const ContactDynamics dynamics(problem.structure());
   const FloquetExponents exponents = floquet_exponents(dynamics, problem, laws, response);
   EXPECT_EQ(exponents.status, StabilityStatus::converged);
@@ -95,26 +89,17 @@ INSTANTIATE_TEST_SUITE_P(Functions, SteepTableAtSevenHertz, ::testing::Values(25
 class TableOnTwoMasses : public ::testing::TestWithParam<int> {};
 
 TEST_P(TableOnTwoMasses, HasTheMultipliersOfAnIntegrationByBothRules) {
-  LinearStructure two;
-  for (auto* matrix : {&two.mass, &two.damping, &two.stiffness}) matrix->resize(2, 2);
-  const auto fill = [](auto& matrix, double a, double b, double c) {
-    matrix.insert(0, 0) = a;
-    matrix.insert(0, 1) = b;
-    matrix.insert(1, 0) = b;
-    matrix.insert(1, 1) = c;
-  };
-  fill(two.mass, 0.8190002543410969, 0.0, 1.521595798706737);
-  fill(two.damping, 3.5038532599198953, -1.5176807966766028, 3.2440277915352596);
-  fill(two.stiffness, 2551.801820511523, -1504.2150945116907, 1504.2150945116907);
-  two.load = Eigen::Vector2d(0.0, 2.2502361205473473);
-  two.contact_directions = contact_rows({1}, 2);
+  const auto symmetric = [](double a, double b, double c) { return Eigen::Matrix2d{{a, b}, {b, c}}; };
+  const LinearStructure two =
+      testing::structure(symmetric(0.8190002543410969, 0.0, 1.521595798706737),
+                         symmetric(3.5038532599198953, -1.5176807966766028, 3.2440277915352596),
+                         symmetric(2551.801820511523, -1504.2150945116907, 1504.2150945116907),
+                         Eigen::Vector2d(0.0, 2.2502361205473473), contact_rows({1}, 2));
   const contact::TableLaw table({-0.0008181404465311186, 0.00010185318703251331, 0.0002519918485974458,
                                  0.00030512569145783403, 0.00042708888714152913, 0.0005226150492156343},
                                 {-0.11351707274897398, 0.0, 0.06309167322965518, 1.0292636183348887,
                                  1.136798231457657, 1.136798231457657});
-  CondensedProblem problem(testing::fourier_pair(GetParam(), 8 * (GetParam() + 1)), two,
-                           testing::cosine_load());
-  problem.set_frequency(6.42);
+  CondensedProblem problem = testing::fourier_problem(two, GetParam(), 8 * (GetParam() + 1), 6.42);
   const Multipliers found = multipliers_of(problem, table);
   EXPECT_EQ(found.counted.count, 0);
   const Complex expected(-0.744, 0.364);
@@ -149,8 +134,7 @@ TEST(StiffnessResolution, OfAnUndeclaredJumpHasTheMultipliersOfADeclaredOne) {
   CondensedProblem problem = oscillator_problem(63, 1024, 1.5, 4.0);
   const ContactDynamics dynamics(problem.structure());
   const auto solved = [&](const ContactLaws& laws) {
-    const PeriodicResponse response = forced_response(problem, laws, {});
-    EXPECT_TRUE(response.converged());
+    const PeriodicResponse response = testing::solved_response(problem, laws);
     const PeriodicStiffness stiffness = contact_stiffness(problem, laws, response);
     return std::pair(unstable_multipliers(dynamics, problem, laws, response),
                      Eigen::VectorXcd(monodromy(dynamics, stiffness, response.frequency)));
@@ -167,8 +151,7 @@ TEST(StiffnessResolution, GivesNoVerdictWhereHalvedIntervalsDoNotResolveTheStiff
   PeriodicStiffness stiffness;
   stiffness.intervals = {{0, 0.1, 0.9}};
   stiffness.tangent = [](int, double time) { return std::sin(two_pi * 2000.37 * time) > 0.0 ? 1.0 : 0.1; };
-  StabilityOptions options;
-  options.harmonics = 31;
+  StabilityOptions options{.harmonics = 31};
   const UnstableMultipliers counted = unstable_multipliers(dynamics, stiffness, 0.2, options);
   EXPECT_EQ(counted.status, StabilityStatus::too_few_harmonics);
   EXPECT_EQ(counted.count, -1);

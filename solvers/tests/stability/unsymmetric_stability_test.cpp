@@ -1,13 +1,12 @@
-#include <gtest/gtest.h>
-
-#include "constants.hpp"
 #include "dense_algebra.hpp"
+#include "support/compliance_errors.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
+#include "support/runge_kutta.hpp"
+#include "support/solved.hpp"
 #include "support/unsymmetric_cases.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -19,33 +18,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The largest difference to a condensation at complex exponents, and of the sum over the poles to it,
-// relative to the largest compliance.
-double unsymmetric_error(const ContactDynamics& dynamics, const LinearStructure& structure,
-                         double lowest = 0.0) {
-  Condensation condensation(structure, CondensationMethod::dense);
-  const int count = structure.contacts();
-  double error = 0.0, largest = 0.0;
-  for (const double real : {0.0, 0.3, -0.02})
-    for (const double imaginary : {lowest, 0.7, 3.1, -5.0}) {
-      const Complex s(real, imaginary);
-      const CondensedPoint exact = condensation.dynamic_compliance({s * s, s, 1.0}, {2.0 * s, 1.0, 0.0});
-      const auto values = dynamics.compliance(real, Eigen::VectorXd::Constant(1, imaginary));
-      const Eigen::MatrixXcd compliance =
-          dynamics.constant() + values.compliance.row(0).reshaped(count, count);
-      const Eigen::MatrixXcd slope = values.slope.row(0).reshaped(count, count);
-      Eigen::MatrixXcd sum = dynamics.constant().cast<Complex>();
-      for (const ContactPole& pole : dynamics.poles()) {
-        const Eigen::MatrixXcd matrix = pole.residue * pole.shape * pole.left.transpose();
-        sum += matrix / (s - pole.exponent);
-        if (pole.exponent.imag() != 0.0) sum += matrix.conjugate() / (s - std::conj(pole.exponent));
-      }
-      largest = std::max(largest, exact.compliance.cwiseAbs().maxCoeff());
-      error = std::max({error, (compliance - exact.compliance).cwiseAbs().maxCoeff(),
-                        (sum - exact.compliance).cwiseAbs().maxCoeff(),
-                        (slope - exact.compliance_slope).cwiseAbs().maxCoeff()});
-    }
-  return error / largest;
+double unsymmetric_error(const LinearStructure& structure, double lowest = 0.0) {
+  const auto errors = testing::compliance_errors(ContactDynamics(structure), structure, 1.0, lowest);
+  return std::max(errors.sections, errors.poles);
 }
 
 TEST(UnsymmetricDynamics, AreTheCondensedCompliance) {
@@ -53,12 +28,12 @@ TEST(UnsymmetricDynamics, AreTheCondensedCompliance) {
   for (int contacts = 1; contacts <= 3; ++contacts) {
     LinearStructure chain = testing::unsymmetric_chain(7, 0.3, 0.2, generator);
     chain.contact_directions = testing::random_directions(contacts, 7, generator);
-    EXPECT_LT(unsymmetric_error(ContactDynamics(chain), chain), 1e-9);
+    EXPECT_LT(unsymmetric_error(chain), 1e-9);
     chain.stiffness =
         Eigen::MatrixXd(Eigen::MatrixXd(chain.stiffness) -
                         Eigen::MatrixXd(chain.stiffness).col(0) * Eigen::RowVectorXd::Unit(7, 0))
             .sparseView();  // singular, so that the modes are found by the mass
-    EXPECT_LT(unsymmetric_error(ContactDynamics(chain), chain, 0.1), 1e-9);
+    EXPECT_LT(unsymmetric_error(chain, 0.1), 1e-9);
   }
 }
 
@@ -76,7 +51,7 @@ TEST(UnsymmetricDynamics, TakeContactsWithoutMass) {
     chain.contact_directions = contact_rows({4, 2}, 5);
     const ContactDynamics dynamics(chain);
     EXPECT_EQ(dynamics.constant()(0, 0) > 0.1, !damped);
-    EXPECT_LT(unsymmetric_error(dynamics, chain), 1e-9);
+    EXPECT_LT(unsymmetric_error(chain), 1e-9);
   }
 }
 
@@ -222,14 +197,7 @@ Eigen::Vector4d integrated(const testing::Rotor& rotor, const testing::LinearCon
     result[2] += std::cos(omega * time) - law.force(at[0]);
     return result;
   };
-  constexpr int steps = 20000;
-  const double h = two_pi / omega / steps;
-  for (int i = 0; i < steps; ++i) {
-    const Eigen::Vector4d a = rate(i * h, state), b = rate((i + 0.5) * h, state + 0.5 * h * a),
-                          c = rate((i + 0.5) * h, state + 0.5 * h * b), d = rate((i + 1) * h, state + h * c);
-    state += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-  }
-  return state;
+  return testing::runge_kutta(rate, state, two_pi / omega, 20000);
 }
 
 TEST(UnsymmetricStability, ARotorAgainstAStopMovesAndDeviatesAsIntegrationInTime) {
@@ -237,11 +205,9 @@ TEST(UnsymmetricStability, ARotorAgainstAStopMovesAndDeviatesAsIntegrationInTime
   for (const testing::Rotor& rotor : {testing::Rotor{.damping = 0.2, .gyroscopic = 0.4},
                                       testing::Rotor{.damping = 0.2, .circulatory = 0.05}})
     for (const double omega : {0.7, 1.4, 2.3}) {
-      CondensedProblem problem(testing::fourier_pair(127, 1024), rotor.structure(), testing::cosine_load());
-      problem.set_frequency(omega / two_pi);
+      CondensedProblem problem = testing::fourier_problem(rotor.structure(), 127, 1024, omega / two_pi);
       const ContactLaws laws = AnyContactLaw(law);
-      const PeriodicResponse response = forced_response(problem, laws, {});
-      ASSERT_TRUE(response.converged()) << omega;
+      const PeriodicResponse response = testing::solved_response(problem, laws);
       EXPECT_GT(response.contact_force.maxCoeff(), 0.1) << omega;
       Eigen::Vector4d start = Eigen::Vector4d::Zero();
       const Eigen::MatrixXcd all = problem.full_coefficients(response.contact_force);
@@ -267,15 +233,11 @@ TEST(UnsymmetricStability, ARotorAgainstAStopMovesAndDeviatesAsIntegrationInTime
 
 TEST(UnsymmetricReferences, TimeSteppingAndSettlingTakeThem) {
   const testing::Rotor rotor{.damping = 0.2, .gyroscopic = 0.4, .circulatory = 0.05};
-  CondensedProblem problem(testing::fourier_pair(63, 512), rotor.structure(), testing::cosine_load());
-  problem.set_frequency(1.4 / two_pi);
+  CondensedProblem problem = testing::fourier_problem(rotor.structure(), 63, 512, 1.4 / two_pi);
   const ContactLaws laws = AnyContactLaw(testing::LinearContact{3.0, 0.5});
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
-  TimeSteppingOptions stepping;
-  stepping.output_points = 512;
-  const auto stepped = integrate_to_periodic(rotor.structure(), laws, problem.frequency(), stepping);
-  ASSERT_EQ(stepped.status, TimeSteppingStatus::converged);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
+  const TimeSteppingResult stepped =
+      testing::stepped_motion(rotor.structure(), laws, problem.frequency(), 512);
   const double size = response.displacement.norm();
   EXPECT_LT((stepped.contacts.displacement.row(0).transpose() - response.displacement).norm(), 1e-3 * size);
   SettlingOptions settling;

@@ -1,12 +1,7 @@
 #include "stability/winding.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
 #include "support/stability_cases.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
@@ -26,7 +21,7 @@ int own_poles(const ContactDynamics& dynamics) {
 TEST(Winding, OfThePolynomialCountsAsThatOfTheDeterminantDoes) {
   std::mt19937 generator(4);
   int compared = 0, unstable = 0, cheaper = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const testing::RandomStiffness random(generator, 1 + i % 4);
     const ContactDynamics dynamics(random.structure);
     const Truncation truncation{24, {}};
@@ -45,9 +40,9 @@ TEST(Winding, OfThePolynomialCountsAsThatOfTheDeterminantDoes) {
     unstable += std::lround(found) > 0 ? 1 : 0;
     cheaper += quick.evaluations() < plain.evaluations() ? 1 : 0;
   }
-  EXPECT_GT(compared, 150);
-  EXPECT_GT(unstable, 10);
-  EXPECT_GT(cheaper, 100);
+  EXPECT_GT(compared, 40);
+  EXPECT_GT(unstable, 2);
+  EXPECT_GT(cheaper, 20);
 }
 
 TEST(Winding, OfThePolynomialTakesNoMoreThanTheEvaluationsAllowed) {

@@ -3,7 +3,6 @@
 #include "dense_algebra.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
-#include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -1,11 +1,7 @@
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
-
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::solvers {

@@ -1,14 +1,8 @@
 #include "wavebalance/solvers/structure/periodic_force.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <random>
-
-#include "constants.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
 
 namespace wavebalance::solvers {

@@ -1,16 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <random>
-#include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "structure/condensation_method.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"
 
 namespace wavebalance::solvers {

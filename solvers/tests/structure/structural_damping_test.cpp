@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
-
-#include "constants.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "support/solved.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -42,15 +39,6 @@ TEST(StructuralDamping, OfAnOscillatorHasTheClosedFormAtEveryHarmonic) {
       EXPECT_NEAR(problem.contact_free_response()[l], closed_form(harmonics, omega, l / 32.0), 1e-12)
           << omega;
   }
-}
-
-// At resonance the amplitude is 1 / eta, and 1 / sqrt(1 + eta^2) of the static one at low frequencies.
-TEST(StructuralDamping, LimitsTheAmplitudeToTheInverseOfTheLossFactor) {
-  CondensedProblem problem(testing::fourier_pair(3, 400), oscillator(), testing::cosine_load());
-  problem.set_frequency(1.0 / two_pi);
-  EXPECT_NEAR(problem.contact_free_response().maxCoeff(), 1.0 / eta, 1e-3 / eta);
-  problem.set_frequency(1e-6 / two_pi);
-  EXPECT_NEAR(problem.contact_free_response().maxCoeff(), 1.0 / std::sqrt(1.0 + eta * eta), 1e-3);
 }
 
 TEST(StructuralDamping, LeavesStaticAndAlternatingCoefficientsRealForEveryPair) {
@@ -89,10 +77,8 @@ TEST(StructuralDamping, OfLocalFunctionsConvergesToTheClosedForm) {
 // derivative of the residual is that of differences.
 TEST(StructuralDamping, OfAnOscillatorAgainstAStopBalancesAtEveryHarmonic) {
   const ContactLaws laws = AnyContactLaw(testing::LinearContact{4.0, 0.5});
-  CondensedProblem problem(testing::fourier_pair(31, 256), oscillator(), testing::cosine_load());
-  problem.set_frequency(0.9 / two_pi);
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
+  CondensedProblem problem = testing::fourier_problem(oscillator(), 31, 256, 0.9 / two_pi);
+  const PeriodicResponse response = testing::solved_response(problem, laws);
   EXPECT_GT(response.contact_force.maxCoeff(), 0.5);
   for (int n = 0; n <= 15; ++n) {
     Complex u = 0.0, f = 0.0;
@@ -127,8 +113,7 @@ TEST(StructuralDamping, HasNoEquationInTime) {
   EXPECT_TRUE(dynamics.structurally_damped());
   EXPECT_TRUE(refuses([&] { monodromy(dynamics, {}, 0.1); }));
   EXPECT_TRUE(refuses([&] { rigid_monodromy(dynamics, {}, 0.1); }));
-  CondensedProblem problem(testing::fourier_pair(31, 256), oscillator(), testing::cosine_load());
-  problem.set_frequency(0.9 / two_pi);
+  CondensedProblem problem = testing::fourier_problem(oscillator(), 31, 256, 0.9 / two_pi);
   const PeriodicResponse response = forced_response(problem, laws, {});
   const UnstableMultipliers count = unstable_multipliers(dynamics, problem, laws, response);
   EXPECT_EQ(count.status, StabilityStatus::structural_damping);
@@ -141,8 +126,7 @@ TEST(StructuralDamping, HasNoEquationInTime) {
 // By the viscous damping that damps each mode as much at its own frequency: without contact it is exact, and
 // a start otherwise.
 TEST(StructuralDamping, SettlesToTheMotionWithoutContactAndNearThatWithIt) {
-  CondensedProblem problem(testing::fourier_pair(31, 256), oscillator(), testing::cosine_load());
-  problem.set_frequency(1.02 / two_pi);
+  CondensedProblem problem = testing::fourier_problem(oscillator(), 31, 256, 1.02 / two_pi);
   const ContactLaws far = AnyContactLaw(testing::LinearContact{4.0, 1e3}),
                     near = AnyContactLaw(testing::LinearContact{4.0, 0.5});
   SettlingOptions settling;

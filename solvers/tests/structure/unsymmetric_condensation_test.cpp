@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
-#include "constants.hpp"
 #include "dense_algebra.hpp"
 #include "support/refusal.hpp"
 #include "support/unsymmetric_cases.hpp"
-#include "wavebalance/solvers/structure/condensation.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -130,7 +127,7 @@ TEST(UnsymmetricCondensation, TheTransposedProductIsTheAdjointOfTheProduct) {
 
 TEST(UnsymmetricCondensation, AGyroscopicRotorRespondsByForwardAndBackwardWhirl) {
   const testing::Rotor rotor{.gyroscopic = 0.4, .circulatory = 0.02};
-  CondensedProblem problem(testing::fourier_pair(15, 32), rotor.structure(), testing::cosine_load());
+  CondensedProblem problem = testing::fourier_problem(rotor.structure(), 15, 32);
   for (const double omega : {0.5, 0.82, 1.22, 2.0}) {
     problem.set_frequency(omega / two_pi);
     for (int l = 0; l < 32; ++l) {

@@ -3,12 +3,16 @@
 
 namespace wavebalance::solvers::testing {
 
-/// The spring of a Duffing oscillator beside its linear one: u^3 N for a displacement of u m.
+/// A spring that acts everywhere, of the force linear u + cubic u^3 at a displacement u.
 struct DuffingSpring {
-  double force(double u) const { return u * u * u; }
-  double tangent(double u) const { return 3.0 * u * u; }
-  double potential(double u) const { return 0.25 * u * u * u * u; }
-  double gap() const { return std::numeric_limits<double>::infinity(); }
+  double cubic = 1.0, linear = 0.0;
+  double start = std::numeric_limits<double>::infinity();  ///< what it says its gap is
+
+  double force(double u) const { return u * (linear + cubic * u * u); }
+  double tangent(double u) const { return linear + 3.0 * cubic * u * u; }
+  double potential(double u) const { return u * u * (0.5 * linear + 0.25 * cubic * u * u); }
+  double gap() const { return start; }
+  bool unilateral() const { return false; }
 };
 
 }  // namespace wavebalance::solvers::testing

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "support/structure.hpp"
 #include "wavebalance/contact/coulomb_law.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
@@ -30,13 +31,7 @@ inline FrictionScene friction_scene(const Eigen::MatrixXd& mass, const Eigen::Ma
                                     const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& rows,
                                     const Eigen::VectorXd& load, double omega,
                                     std::vector<contact::CoulombLaw> laws) {
-  FrictionScene scene{{}, std::move(laws), omega};
-  scene.structure.mass = mass.sparseView();
-  scene.structure.damping = damping.sparseView();
-  scene.structure.stiffness = stiffness.sparseView();
-  scene.structure.contact_directions = rows.sparseView();
-  scene.structure.load = load;
-  return scene;
+  return {structure(mass, damping, stiffness, load, rows), std::move(laws), omega};
 }
 
 // x'' + 0.05 x' + x + f = F cos(omega t).

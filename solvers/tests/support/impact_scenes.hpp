@@ -7,6 +7,7 @@
 
 #include "linalg/dense.hpp"
 #include "support/rigid_law.hpp"
+#include "support/structure.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
 
@@ -34,15 +35,7 @@ struct ImpactScene {
   double restitution = 1.0;
   double omega = 1.0;  ///< rad/s
 
-  LinearStructure structure() const {
-    LinearStructure result;
-    result.mass = mass.sparseView();
-    result.damping = damping.sparseView();
-    result.stiffness = stiffness.sparseView();
-    result.load = load;
-    result.contact_directions = ContactDirections(contacts.sparseView());
-    return result;
-  }
+  LinearStructure structure() const { return testing::structure(mass, damping, stiffness, load, contacts); }
   double frequency() const { return omega / (2.0 * std::numbers::pi); }
   /// All degrees of freedom without contact, n.
   Eigen::VectorXcd free_amplitudes() const {
@@ -81,13 +74,6 @@ inline ImpactScene two_masses_with_impacts(double gap, double restitution, doubl
   scene.gaps = Eigen::VectorXd::Constant(1, gap);
   scene.restitution = restitution;
   scene.omega = omega;
-  return scene;
-}
-
-inline ImpactScene oscillator_between_stops(double damping, double gap, double restitution, double omega) {
-  ImpactScene scene = impact_oscillator(damping, gap, restitution, omega);
-  scene.contacts = Eigen::Vector2d(1.0, -1.0);
-  scene.gaps = Eigen::Vector2d::Constant(gap);
   return scene;
 }
 

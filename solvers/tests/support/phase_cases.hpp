@@ -5,6 +5,7 @@
 
 #include "constants.hpp"
 #include "support/condensation_cases.hpp"
+#include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
@@ -42,14 +43,6 @@ inline void expect_same(const Eigen::VectorXcd& found, const Eigen::VectorXcd& e
     EXPECT_LT(nearest, tolerance) << multiplier;
   }
 }
-
-struct LinearStop {
-  double stiffness, start;
-  double force(double u) const { return u > start ? stiffness * (u - start) : 0.0; }
-  double tangent(double u) const { return u >= start ? stiffness : 0.0; }
-  double potential(double u) const { return u > start ? 0.5 * stiffness * (u - start) * (u - start) : 0.0; }
-  double gap() const { return start; }
-};
 
 /// Kelvin and Voigt's stop, whose force jumps where contact begins and ends.
 struct DampedStop {
@@ -122,7 +115,7 @@ struct RandomCase {
     free.set_frequency(frequency);
     const double size = free.contact_free_response().cwiseAbs().maxCoeff();
     for (int c = 0; c < contacts; ++c)
-      list.emplace_back(LinearStop{(1.0 + c) / free.contact_compliance()[c], (0.3 + 0.1 * c) * size});
+      list.emplace_back(LinearContact{(1.0 + c) / free.contact_compliance()[c], (0.3 + 0.1 * c) * size});
     laws = ContactLaws(std::move(list));
   }
 
@@ -131,28 +124,29 @@ struct RandomCase {
   double frequency = 0.0;
 };
 
+/// The stops of a case with dashpots, of `share` times the stiffness over the frequency.
+inline ContactLaws with_dashpots(const RandomCase& random, double share) {
+  std::vector<AnyContactLaw> laws;
+  for (int c = 0; c < random.structure.contacts(); ++c) {
+    const double gap = random.laws[c].gap(), stiffness = random.laws[c].tangent(2.0 * gap);
+    laws.emplace_back(DampedStop{stiffness, share * stiffness / random.frequency, gap});
+  }
+  return ContactLaws(std::move(laws));
+}
+
 /// Two masses with a spring and a dashpot between them that nothing holds but a stop on either side.
 inline LinearStructure free_pair() {
-  LinearStructure structure;
-  const auto sparse = [](const Eigen::MatrixXd& dense) {
-    return Eigen::SparseMatrix<double>(dense.sparseView());
-  };
-  const Eigen::Matrix2d coupling{{1.0, -1.0}, {-1.0, 1.0}};
-  structure.mass = sparse(Eigen::Vector2d(1.0, 0.7).asDiagonal().toDenseMatrix());
-  structure.stiffness = sparse(100.0 * coupling);
-  structure.damping = sparse(0.8 * coupling);
-  structure.load = Eigen::Vector2d(1.0, 0.3);
+  const Eigen::Matrix2d coupling{{1.0, -1.0}, {-1.0, 1.0}}, sides{{1.0, 0.0}, {0.0, -1.0}};
+  LinearStructure structure =
+      testing::structure(Eigen::Vector2d(1.0, 0.7).asDiagonal(), 0.8 * coupling, 100.0 * coupling,
+                         Eigen::Vector2d(1.0, 0.3), Eigen::MatrixXd(sides));
   structure.rigid_modes = Eigen::MatrixXd::Constant(2, 1, 1.0 / std::sqrt(1.7));
-  structure.contact_directions = sparse(Eigen::Matrix2d{{1.0, 0.0}, {0.0, -1.0}});
   return structure;
 }
 
 /// A chain of three masses whose ends are held by springs, and contacts without mass on springs before two of
 /// its masses, which also deflect each other.
 inline LinearStructure with_massless_contacts(double dashpot = 0.0) {
-  const auto sparse = [](const Eigen::MatrixXd& dense) {
-    return Eigen::SparseMatrix<double>(dense.sparseView());
-  };
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(5, 5), damping = stiffness, mass = stiffness;
   const auto spring = [&](int i, int j, double k, double c) {
     for (auto [matrix, value] : {std::pair{&stiffness, k}, {&damping, c}}) {
@@ -171,16 +165,10 @@ inline LinearStructure with_massless_contacts(double dashpot = 0.0) {
   spring(4, 2, 350.0, dashpot);
   spring(3, 4, 40.0, 0.0);
   mass.diagonal().head(3) << 1.0, 0.8, 1.2;
-  LinearStructure structure;
-  structure.mass = sparse(mass);
-  structure.stiffness = sparse(stiffness);
-  structure.damping = sparse(damping);
-  structure.load = Eigen::VectorXd::Unit(5, 1);
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(2, 5);
   directions(0, 3) = 1.0;
   directions(1, 4) = -1.0;
-  structure.contact_directions = sparse(directions);
-  return structure;
+  return structure(mass, damping, stiffness, Eigen::VectorXd::Unit(5, 1), directions);
 }
 
 }  // namespace wavebalance::solvers::testing

@@ -7,6 +7,7 @@
 
 #include "support/jl14_bar.hpp"
 #include "support/local_bases.hpp"
+#include "support/structure.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
@@ -68,13 +69,8 @@ inline LinearStructure random_chain(int size, std::mt19937& generator) {
     stiffness(i, i - 1) = stiffness(i - 1, i) = -spring;
     mass(i, i - 1) = mass(i - 1, i) = 0.1 * uniform(generator);
   }
-  LinearStructure chain;
-  chain.mass = mass.sparseView();
-  chain.stiffness = stiffness.sparseView();
-  chain.damping = 0.05 * chain.stiffness + 0.02 * chain.mass;
-  chain.load = Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
-  chain.contact_directions = contact_rows({size / 2}, chain.size());
-  return chain;
+  const Eigen::VectorXd load = Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
+  return structure(mass, 0.05 * stiffness + 0.02 * mass, stiffness, load, contact_rows({size / 2}, size));
 }
 
 inline Eigen::VectorXd random_vector(Eigen::Index size, std::mt19937& generator) {
@@ -86,6 +82,18 @@ inline Eigen::VectorXcd cosine_load() {
   Eigen::VectorXcd harmonics(2);
   harmonics << 0.0, 1.0;
   return harmonics;
+}
+
+/// The problem in a pair of Fourier functions, under its load in the first harmonic, and at a frequency (Hz).
+inline CondensedProblem fourier_problem(const LinearStructure& structure, int functions, int points) {
+  return {fourier_pair(functions, points), structure, cosine_load()};
+}
+
+inline CondensedProblem fourier_problem(const LinearStructure& structure, int functions, int points,
+                                        double frequency) {
+  CondensedProblem problem = fourier_problem(structure, functions, points);
+  problem.set_frequency(frequency);
+  return problem;
 }
 
 /// K of u = u0 - K f, column by column through apply.

@@ -33,14 +33,9 @@ struct Rotor {
   double circulatory = 0.0;  ///< p, 1/s^2, as damping in the turning shaft makes it
 
   LinearStructure structure() const {
-    LinearStructure rotor;
     const Eigen::Matrix2d skew{{0.0, 1.0}, {-1.0, 0.0}}, unit = Eigen::Matrix2d::Identity();
-    rotor.mass = Eigen::MatrixXd(unit).sparseView();
-    rotor.damping = Eigen::MatrixXd(damping * unit + gyroscopic * skew).sparseView();
-    rotor.stiffness = Eigen::MatrixXd(stiffness * unit + circulatory * skew).sparseView();
-    rotor.load = Eigen::Vector2d(1.0, 0.0);
-    rotor.contact_directions = contact_rows({0}, 2);
-    return rotor;
+    return testing::structure(unit, damping * unit + gyroscopic * skew, stiffness * unit + circulatory * skew,
+                              Eigen::Vector2d(1.0, 0.0), contact_rows({0}, 2));
   }
   /// x(t) without contact: forward and backward whirl.
   double response(double omega, double time) const {

@@ -1,10 +1,7 @@
 #include "wavebalance/solvers/time/motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <numbers>
-
 #include "support/local_bases.hpp"
+#include "testing.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 

@@ -1,12 +1,8 @@
 #include "wavebalance/solvers/time/time_pair.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "constants.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
