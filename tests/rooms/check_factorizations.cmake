@@ -7,7 +7,7 @@ set(allowed
   tests/support/dense_algebra.cpp tests/support/dense_system.cpp tests/support/period_oracle/shooting_propagator.cpp
   # Oracles of one suite each, and what bench compares with.
   bench/ contact/tests/quadratic_program.hpp reproduce/laxalde_legrand_2010/modes/tests/rayleigh_quotient_test.cpp
-  solvers/tests/support/friction_oracle.hpp tests/extremes/random_structures.cpp)
+  tests/extremes/random_structures.cpp)
 set(faults "")
 foreach(module app bench contact fem python reproduce solvers spectral tests wavelets)
   file(GLOB_RECURSE files RELATIVE ${root} ${root}/${module}/*.cpp ${root}/${module}/*.hpp)

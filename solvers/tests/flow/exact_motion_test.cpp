@@ -1,25 +1,16 @@
-// Exact motions by the map of the flow against event-driven integrations and the equations of phases.
+// Exact motions by the map of the flow against the equations of phases; against event-driven integrations by
+// pytest, in tests/impacts, tests/friction and tests/mixtures.
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <random>
-
-#include "campaign.hpp"
 #include "support/friction_motions.hpp"
 #include "support/friction_table.hpp"
-#include "support/oracle_check.hpp"
 #include "support/phase_cases.hpp"
-#include "support/random_friction.hpp"
+#include "testing.hpp"
 
 namespace wavebalance::solvers {
 namespace {
 
-using testing::FrictionMotion, testing::FrictionOracle, testing::FrictionRow, testing::FrictionScene;
+using testing::FrictionMotion, testing::FrictionRow, testing::FrictionScene;
 
 // Where R_0 > 0 the velocity jumps as slip begins.
 TEST(ExactMotion, HaveTheForcesOfTheLawAtContactsWithoutMass) {
@@ -55,18 +46,6 @@ TEST(ExactMotion, TheEstimatedErrorIsAboveTheError) {
   }
 }
 
-TEST(ExactMotion, ComeBackAfterAPeriodOfTheEventDrivenMotionWithItsMultipliers) {
-  for (const FrictionRow& row : testing::friction_rows()) {
-    // The exponentials of the beam, whose fastest pole decays within 1e-6 of the period, lose digits.
-    if (row.scene.laws.front().tangents() > 1 || row.name.starts_with("beam")) continue;
-    FrictionMotion found(row.scene);
-    ASSERT_EQ(to_string(found.phases.motion.status), "converged") << row.name;
-    const testing::OracleCheck checked = testing::check(found.scene, found.problem, found.phases.motion);
-    EXPECT_LE(checked.change, 1e-10) << row.name;
-    EXPECT_LE(checked.multipliers, 1e-10) << row.name;
-  }
-}
-
 // The equations of phases share the poles with the flow, and no equation. Every other stop has a dashpot,
 // does not pull, or both.
 TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
@@ -86,8 +65,7 @@ TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
       }
       random.laws = ContactLaws(std::move(damped));
     }
-    CondensedProblem problem(testing::fourier_pair(127, 512), random.structure, testing::cosine_load());
-    problem.set_frequency(random.frequency);
+    CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
     const ContactDynamics dynamics(random.structure);
     const PeriodicResponse response = forced_response(problem, random.laws, {});
     const PhaseMotion phases =
@@ -136,8 +114,7 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
 TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
   std::mt19937 generator(11);
   const testing::RandomCase random(generator, 1);
-  CondensedProblem problem(testing::fourier_pair(127, 512), random.structure, testing::cosine_load());
-  problem.set_frequency(random.frequency);
+  CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
   const ContactDynamics dynamics(random.structure);
   const PeriodicResponse response = forced_response(problem, random.laws, {});
   ContactPhasesOptions options{.tolerance = 1e-12, .nodes = 6, .max_nodes = 6, .max_panels = 1};
@@ -159,58 +136,6 @@ TEST(ExactMotion, BadInputIsRefusedByName) {
   EXPECT_THROW(flow_motion(problem, std::nan("") * start), std::invalid_argument);
   EXPECT_THROW(flow_motion(problem, start, {.tolerance = 0.0}), std::invalid_argument);
   EXPECT_THROW(contact_phases(problem, start), std::invalid_argument);
-}
-
-struct Campaign {
-  int balances = 0, converged = 0, stuck = 0, wrong = 0;
-  double worst = 0.0, worst_multiplier = 0.0;
-
-  void add(int seed, const FrictionScene& scene) {
-    FrictionMotion found(scene);
-    if (!found.response.converged()) return;
-    ++balances;
-    const PhaseMotion& motion = found.phases.motion;
-    if (!motion.converged())
-      std::printf("%d %s error %.1e\n", seed, to_string(motion.status).data(), motion.estimated_error);
-    if (!motion.converged()) return;
-    ++converged;
-    const bool sticks = std::any_of(motion.friction.begin(), motion.friction.end(),
-                                    [](const FrictionAlong& one) { return one.always_sticks(); });
-    stuck += sticks ? 1 : 0;
-    const testing::OracleCheck checked = testing::check(found.scene, found.problem, found.phases.motion);
-    worst = std::max(worst, checked.change);
-    if (!sticks) worst_multiplier = std::max(worst_multiplier, checked.multipliers);
-    if (!(checked.change < 1e-9) || (!sticks && !(checked.multipliers < 1e-8))) {
-      ++wrong;
-      std::printf("%d change %.1e multipliers %.1e\n", seed, checked.change, checked.multipliers);
-    }
-  }
-
-  void expect(double share) const {
-    std::printf(
-        "%d balances, %d exact motions, %d of them with contacts that stick always, worst %.1e, multipliers %.1e\n",
-        balances, converged, stuck, worst, worst_multiplier);
-    EXPECT_EQ(wrong, 0);
-    EXPECT_GE(converged, share * balances);
-  }
-};
-
-TEST(RandomExactMotions, OfFrictionComeBackAfterAPeriodOfTheEventDrivenMotion) {
-  Campaign campaign;
-  for (int seed = 1; seed <= campaign_seeds(10, 300); ++seed) {
-    std::mt19937 generator(static_cast<unsigned>(seed));
-    campaign.add(seed, testing::random_friction_scene(generator));
-  }
-  campaign.expect(0.98);
-}
-
-TEST(RandomExactMotions, OfFrictionBesideStopsComeBackAfterAPeriodOfTheEventDrivenMotion) {
-  Campaign campaign;
-  for (int seed = 1; seed <= campaign_seeds(10, 300); ++seed) {
-    std::mt19937 generator(static_cast<unsigned>(seed));
-    campaign.add(seed, testing::random_mixture(generator));
-  }
-  campaign.expect(0.98);
 }
 
 }  // namespace
