@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 
@@ -73,29 +74,22 @@ solvers::Motion DampedStudy::contact_motion(const solvers::DampedPoint& point) c
 }
 
 Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve) {
-  const bool rubs = has_friction(study.scene());
-  std::vector<std::string> columns{"amplitude_ratio", "amplitude_m", "frequency_Hz", "frequency_ratio",
-                                   "damping_ratio"};
-  if (rubs)
-    columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
-  columns.insert(columns.end(), {"status", "residual", "max_displacement_m", "min_displacement_m",
-                                 "rms_displacement_m", "max_abs_displacement_m"});
-  Table table(columns);
-  for (const solvers::DampedPoint& point : curve.points) {
-    const Eigen::MatrixXd& u = point.displacement;
-    std::vector<Cell> row{point.amplitude / study.slip_amplitude(), point.amplitude,
-                          point.omega / (2.0 * std::numbers::pi), point.omega / study.mode().linear_omega(),
-                          point.damping_ratio()};
-    if (rubs) {
-      const solvers::Motion contacts{point.displacement, {}, point.force};
-      const FrictionShares shares = friction_shares(friction_measures(study.scene(), contacts));
-      row.insert(row.end(), {shares.work, shares.stick, shares.slip, shares.open});
-    }
-    row.insert(row.end(),
-               {std::string("converged"), point.residual, u.maxCoeff(), u.minCoeff(),
-                u.rowwise().norm().maxCoeff() / std::sqrt(double(u.cols())), u.cwiseAbs().maxCoeff()});
-    table.append_row(std::move(row));
-  }
+  const auto row_at = [&](const solvers::DampedPoint& point) {
+    Summary row{{"amplitude_ratio", point.amplitude / study.slip_amplitude()},
+                {"amplitude_m", point.amplitude},
+                {"frequency_Hz", point.omega / (2.0 * std::numbers::pi)},
+                {"frequency_ratio", point.omega / study.mode().linear_omega()},
+                {"damping_ratio", point.damping_ratio()}};
+    const solvers::Motion contacts{point.displacement, {}, point.force};
+    if (has_friction(study.scene()))
+      append_shares(row, friction_shares(friction_measures(study.scene(), contacts)));
+    row.emplace_back("status", "converged");
+    row.emplace_back("residual", point.residual);
+    append_amplitudes(row, point.displacement);
+    return row;
+  };
+  Table table(columns_of(row_at({})));
+  for (const solvers::DampedPoint& point : curve.points) table.append_row(cells_of(row_at(point)));
   return table;
 }
 

@@ -3,10 +3,9 @@
 #include <numbers>
 
 #include "analysis/phases_response.hpp"
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/phases/structure_phases.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -53,14 +52,12 @@ void copy_structure(const solvers::CondensedProblem& problem, double holding, co
       },
       holding};
   const int most = std::max(1, int(result.contacts.points()) / 2);
-  solvers::StructurePhases whole = solvers::structure_motion_of(
-      problem, source, points,
-      {.tolerance = 1e-3,
-       .first_harmonics = std::min(solvers::StructurePhasesOptions().first_harmonics, most),
-       .max_harmonics = most});
-  result.structure = std::move(whole.motion);
-  result.structure_harmonics = whole.harmonics;
-  result.structure_left_out = whole.left_out;
+  note_structure(result,
+                 solvers::structure_motion_of(
+                     problem, source, points,
+                     {.tolerance = 1e-3,
+                      .first_harmonics = std::min(solvers::StructurePhasesOptions().first_harmonics, most),
+                      .max_harmonics = most}));
 }
 
 }  // namespace

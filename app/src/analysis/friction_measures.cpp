@@ -75,16 +75,10 @@ FrictionMeasures measures_of(const SceneContact& contact, const solvers::Frictio
   return measures;
 }
 
-contact::FrictionState state_of(solvers::ContactState kind) {
-  if (kind == solvers::ContactState::open) return contact::FrictionState::open;
-  return kind == solvers::ContactState::stick ? contact::FrictionState::stick : contact::FrictionState::slip;
-}
-
-contact::FrictionState state_of(solvers::FrictionPart::State state) {
-  using enum solvers::FrictionPart::State;
-  return state_of(state == open    ? solvers::ContactState::open
-                  : state == stick ? solvers::ContactState::stick
-                                   : solvers::ContactState::slip);
+template <class State>
+contact::FrictionState state_of(State state) {
+  if (state == State::open) return contact::FrictionState::open;
+  return state == State::stick ? contact::FrictionState::stick : contact::FrictionState::slip;
 }
 
 /// The measures of an exact motion, and of one that was integrated in time.
@@ -137,6 +131,13 @@ FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
   for (const FrictionMeasures& one : contacts)
     shares.add({one.work, one.stick_fraction, one.slip_fraction, one.open_fraction}, contacts.size());
   return shares;
+}
+
+void append_shares(Summary& row, const FrictionShares& shares) {
+  row.emplace_back("friction_work_J", shares.work);
+  row.emplace_back("stick_fraction", shares.stick);
+  row.emplace_back("slip_fraction", shares.slip);
+  row.emplace_back("open_fraction", shares.open);
 }
 
 // In the force form the unknown is that of the laws in series with its springs.

@@ -4,8 +4,8 @@
 
 #include "analysis/exact_parts.hpp"
 #include "analysis/phases_response.hpp"
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
-#include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
@@ -15,13 +15,9 @@ namespace {
 void copy_structure(solvers::ContactProblem& problem, const Scene& scene, int points, Response& result) {
   constexpr double left_out = 1e-4;
   constexpr int most_harmonics = 2048;
-  solvers::StructurePhases whole =
-      problem.over_periods(result.periods)
-          .structure_motion(scene.forcing.frequency, result.impacts->motion, points,
-                            {.tolerance = left_out, .max_harmonics = most_harmonics});
-  result.structure = std::move(whole.motion);
-  result.structure_harmonics = whole.harmonics;
-  result.structure_left_out = whole.left_out;
+  note_structure(result, problem.over_periods(result.periods)
+                             .structure_motion(scene.forcing.frequency, result.impacts->motion, points,
+                                               {.tolerance = left_out, .max_harmonics = most_harmonics}));
 }
 
 void solve(const Scene& scene, const StructureModel& model, const ResponseOptions& options,

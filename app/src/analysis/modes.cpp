@@ -55,17 +55,21 @@ std::string early_end_text(const ModePoint& last, double linear_omega, double la
               : "");
 }
 
-/// How a curve with a rigid obstacle ends: its points have uniform frequencies.
-void set_rigid_end(Backbone& curve, double linear_omega, double largest_energy, const Analysis& analysis) {
+const ModePoint* last_accepted(const Backbone& curve) {
   const ModePoint* last = nullptr;
   for (const ModePoint& point : curve.points)
     if (point.accepted()) last = &point;
+  return last;
+}
+
+/// How a curve with a rigid obstacle ends: its points have uniform frequencies.
+void set_rigid_end(Backbone& curve, double linear_omega, double largest_energy, const Analysis& analysis) {
+  const ModePoint* last = last_accepted(curve);
   if (!last || last->energy_ratio >= largest_energy) return;
   curve.early_end = early_end_text(*last, linear_omega, largest_energy, analysis);
   curve.complete = ends_at_frequency(analysis) && last == &curve.points.back() &&
                    curve.points.size() == static_cast<std::size_t>(analysis.points);
-  if (curve.complete) return;
-  if (last == &curve.points.back()) return;
+  if (curve.complete || last == &curve.points.back()) return;
   const ModePoint& next = *(last + 1);
   curve.early_end += next.status == ModeStatus::internal_resonance
                          ? ": beyond it lies the internal resonance " + resonance_name(next.resonance)
@@ -78,9 +82,7 @@ void set_elastic_end(Backbone& curve, solvers::BackboneStatus status, double lin
   using solvers::BackboneStatus;
   curve.complete = status == BackboneStatus::reached_energy || status == BackboneStatus::reached_frequency;
   if (status == BackboneStatus::reached_energy) return;
-  const ModePoint* last = nullptr;
-  for (const ModePoint& point : curve.points)
-    if (point.accepted()) last = &point;
+  const ModePoint* last = last_accepted(curve);
   if (!last) return;
   curve.early_end = early_end_text(*last, linear_omega, largest_energy, analysis);
   if (status == BackboneStatus::internal_resonance)
@@ -296,64 +298,45 @@ std::string resonance_name(const solvers::InternalResonance& resonance) {
   return std::to_string(resonance.harmonic) + ":" + std::to_string(resonance.mode);
 }
 
-namespace {
-
-Table empty_table(bool elastic) {
-  std::vector<std::string> columns{
-      "energy_ratio", "frequency_Hz", "frequency_ratio", "rayleigh_frequency_ratio", "contact_fraction",
-      "status",       "residual",     "virial_residual", "max_penetration_over_gap", "min_contact_force_N",
-      "tongue",       "tongue_share"};
-  if (elastic) columns.emplace_back("modal_energy_ratio");
-  columns.insert(columns.end(), {"max_displacement_m", "min_displacement_m", "rms_displacement_m",
-                                 "max_abs_displacement_m"});
-  return Table(columns);
+void append_amplitudes(Summary& row, const Eigen::MatrixXd& u) {
+  const bool none = u.size() == 0;
+  row.emplace_back("max_displacement_m", none ? missing : u.maxCoeff());
+  row.emplace_back("min_displacement_m", none ? missing : u.minCoeff());
+  row.emplace_back("rms_displacement_m",
+                   none ? missing : u.rowwise().norm().maxCoeff() / std::sqrt(double(u.cols())));
+  row.emplace_back("max_abs_displacement_m", none ? missing : u.cwiseAbs().maxCoeff());
 }
-
-/// The extremes and the rms of the contacts' displacements, each that of the contact where it is largest;
-/// missing without a motion.
-void append_amplitudes(std::vector<Cell>& row, const solvers::Motion& contacts) {
-  if (contacts.empty()) {
-    row.insert(row.end(), 4, missing);
-    return;
-  }
-  const Eigen::MatrixXd& u = contacts.displacement;
-  const double rms = u.rowwise().norm().maxCoeff() / std::sqrt(static_cast<double>(u.cols()));
-  for (const double value : {u.maxCoeff(), u.minCoeff(), rms, u.cwiseAbs().maxCoeff()})
-    row.emplace_back(value);
-}
-
-}  // namespace
 
 Table backbone_table(const ModeStudy& study, const Backbone& curve) {
   const bool elastic = study.elastic_mode().has_value();
-  Table table = empty_table(elastic);
   const double linear = study.mode().linear_omega();
-  const auto add = [&](const ModePoint& point, double residual) {
+  const auto row_at = [&](const ModePoint& point, double residual) {
     const bool found = is_solution(point);
     const auto value = [&](double number) { return found ? number : missing; };
-    std::vector<Cell> row{
-        value(point.energy_ratio),
-        point.omega / (2.0 * std::numbers::pi),
-        point.omega / linear,
-        value(std::sqrt(point.rayleigh) / linear),
-        value(point.contact_fraction),
-        std::string(to_string(point.status)),
-        residual,
-        value(point.virial_residual),
-        value(point.max_penetration),
-        value(point.min_force),
-        point.resonance.harmonic > 0 ? resonance_name(point.resonance) : std::string("none"),
-        value(point.resonance.share)};
-    if (elastic) row.emplace_back(value(point.gamma_ratio));
-    append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points));
-    table.append_row(std::move(row));
+    Summary row{{"energy_ratio", value(point.energy_ratio)},
+                {"frequency_Hz", point.omega / (2.0 * std::numbers::pi)},
+                {"frequency_ratio", point.omega / linear},
+                {"rayleigh_frequency_ratio", value(std::sqrt(point.rayleigh) / linear)},
+                {"contact_fraction", value(point.contact_fraction)},
+                {"status", to_string(point.status)},
+                {"residual", residual},
+                {"virial_residual", value(point.virial_residual)},
+                {"max_penetration_over_gap", value(point.max_penetration)},
+                {"min_contact_force_N", value(point.min_force)},
+                {"tongue", point.resonance.harmonic > 0 ? resonance_name(point.resonance) : "none"},
+                {"tongue_share", value(point.resonance.share)}};
+    if (elastic) row.emplace_back("modal_energy_ratio", value(point.gamma_ratio));
+    append_amplitudes(row, study.contact_motion(point, study.scene().analysis.output_points).displacement);
+    return row;
   };
+  Table table(columns_of(row_at({}, missing)));
   const bool starts_linear = !elastic || study.elastic_mode()->starts_linear();
   for (int i = 0; starts_linear && i < linear_points; ++i) {
     const auto point = study.linear_mode(static_cast<double>(i) / (linear_points - 1));
-    add(point, study.residual(point));
+    table.append_row(cells_of(row_at(point, study.residual(point))));
   }
-  for (std::size_t i = 0; i < curve.points.size(); ++i) add(curve.points[i], curve.residuals[i]);
+  for (std::size_t i = 0; i < curve.points.size(); ++i)
+    table.append_row(cells_of(row_at(curve.points[i], curve.residuals[i])));
   return table;
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -134,14 +133,11 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
                                                contact_major(result.contacts.force), model.gaps);
     result.rigid = {held.max_penetration, held.min_force, held.product};
   }
-  if (options.structure_points > 0) {
-    solvers::StructurePhases whole = problem.structure_motion(
-        frequency, motion, options.structure_points,
-        {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts, tolerance_of(scene))});
-    result.structure = std::move(whole.motion);
-    result.structure_harmonics = whole.harmonics;
-    result.structure_left_out = whole.left_out;
-  }
+  if (options.structure_points > 0)
+    note_structure(result, problem.structure_motion(
+                               frequency, motion, options.structure_points,
+                               {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts,
+                                                      tolerance_of(scene))}));
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
   if (!moves_by_events(scene)) note_settled(problem, scene, options.observer, result);
 }

@@ -6,11 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 #include "analysis/phases_response.hpp"
 #include "analysis/response_parts.hpp"
-#include "analysis/tolerance_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
@@ -78,6 +76,24 @@ void solve_law(const Scene& scene, const StructureModel& model, const ResponseOp
   note_motion(problem, found, scene, model, options, result);
 }
 
+/// A scene without a pair takes Fourier functions. In the benchmark of tolerances the cheapest choice of the
+/// same error is mostly a pair of them.
+Scene with_pair(Scene scene) {
+  if (scene.time.trial.empty()) scene.time.trial = scene.time.weight = "fourier";
+  return scene;
+}
+
+solvers::RefinementOptions refinement_options(const Scene& scene, const ResponseOptions& options) {
+  solvers::RefinementOptions refinement;
+  refinement.tolerance = scene.time.tolerance;
+  const bool wavelets = is_wavelet(scene.time.trial) || is_wavelet(scene.time.weight);
+  if (wavelets) refinement.first_functions = 16;
+  if (wavelets) refinement.first_points = 32;
+  refinement.solver.form = scene.contact.form;
+  refinement.observer = options.observer;
+  return refinement;
+}
+
 void solve_refined(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   const solvers::ContactLaws laws = make_laws(scene);
@@ -107,6 +123,28 @@ bool wants_structure(const Scene& scene, const ResponseOptions& options) {
 
 }  // namespace
 
+solvers::RefinementResult solve_to_tolerance(const Scene& scene, const StructureModel& model,
+                                             const solvers::ContactLaws& laws, const ResponseOptions& options,
+                                             Response& result) {
+  const Scene chosen = with_pair(scene);
+  const auto make = [&](int functions, int points) {
+    Scene sized = chosen;
+    sized.time.functions = functions;
+    sized.time.quadrature_points = points;
+    return make_problem(sized, model);
+  };
+  auto found = solvers::response_to_tolerance(make, laws, refinement_options(chosen, options));
+  copy_solution(result, *found.problem, found.response, scene, model);
+  result.converged = found.converged();
+  result.status = to_string(found.status);
+  result.iterations = 0;
+  result.unknowns = model.contacts() * found.levels.back().functions;
+  for (const auto& level : found.levels) result.iterations += level.iterations;
+  result.refinement =
+      Refinement{chosen.time.trial, chosen.time.weight, found.estimated_error, found.seconds, found.levels};
+  return found;
+}
+
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model) {
   result.converged = result.moves = found.converged();
@@ -129,6 +167,12 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
   if (!is_rigid(scene.contact.law)) return;
   const auto held = solvers::complementarity(found.displacement, found.contact_force, model.gaps);
   result.rigid = {held.max_penetration, held.min_force, held.product};
+}
+
+void note_structure(Response& result, solvers::StructurePhases whole) {
+  result.structure = std::move(whole.motion);
+  result.structure_harmonics = whole.harmonics;
+  result.structure_left_out = whole.left_out;
 }
 
 double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start) {

@@ -2,10 +2,17 @@
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 
 namespace wavebalance::app {
+
+/// Solves a scene with time.tolerance. Sets all of `result` except motions and wall_seconds. Throws
+/// solvers::SingularSystem.
+solvers::RefinementResult solve_to_tolerance(const Scene& scene, const StructureModel& model,
+                                             const solvers::ContactLaws& laws, const ResponseOptions& options,
+                                             Response& result);
 
 /// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
@@ -15,6 +22,9 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
 /// unstable.
 void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                   Response& result);
+
+/// Sets the motion of the whole structure, and what is left out of it.
+void note_structure(Response& result, solvers::StructurePhases whole);
 
 /// `time` with the pair, functions and points that a response to a tolerance chose.
 Time solved_time(Time time, const Response& response);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "files/number_text.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
@@ -125,10 +126,6 @@ solvers::Motion motion_of(const Table& table, const fs::path& file) {
   return motion;
 }
 
-std::string count_text(int count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 /// The periods of the load that the motion of a file spans, as the summary beside it says: of the whole
 /// record, or of this one of several motions.
 int periods_of(const Summary& summary, const fs::path& file) {
@@ -156,34 +153,29 @@ StartMotion read_start_motion(const fs::path& place) {
 
 void require_start_fits(const StartMotion& start, const Scene& scene) {
   if (start.contacts.empty()) return;
-  const bool balanced = scene.analysis.type == AnalysisType::forced_response ||
-                        scene.analysis.type == AnalysisType::frequency_sweep ||
-                        scene.analysis.type == AnalysisType::amplitude_sweep;
-  if (!balanced)
-    throw std::invalid_argument(
-        "--start-from: analysis.type = \"" + name_of(scene.analysis.type) +
-        "\" has no start; expected forced_response, frequency_sweep or amplitude_sweep");
-  if (solves_by_impacts(scene) || moves_by_events(scene))
-    throw std::invalid_argument(
-        "--start-from: not with impacts, or friction of bodies with mass that no balance has, whose motions start from "
-        "what the structure settles to");
-  if (solves_by_phases(scene))
-    throw std::invalid_argument(
-        "--start-from: not with time.method = \"exact\", which starts from a coarse balance of its own; expected "
-        "\"balance\"");
-  if (scene.time.tolerance > 0.0)
-    throw std::invalid_argument(
-        "--start-from: not with time.tolerance, which starts from coarser motions of its own; expected "
-        "time.functions");
-  if (start.contacts.rows() != contact_count(scene))
-    throw std::invalid_argument(fmt::format("--start-from: {} has the motion of {}, but the scene has {}",
-                                            start.source, count_text(start.contacts.rows(), "contact"),
-                                            count_text(contact_count(scene), "contact")));
-  if (start.periods < 1 || scene.analysis.subharmonic % start.periods != 0)
-    throw std::invalid_argument(fmt::format(
-        "--start-from: {} is a motion of {} of the load, and analysis.subharmonic is {}; expected "
-        "a multiple of {}",
-        start.source, count_text(start.periods, "period"), scene.analysis.subharmonic, start.periods));
+  const AnalysisType type = scene.analysis.type;
+  const bool balanced = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
+                        type == AnalysisType::amplitude_sweep;
+  const int contacts = contact_count(scene), periods = scene.analysis.subharmonic;
+  const std::pair<bool, std::string> refusals[] = {
+      {!balanced, "analysis.type = \"" + name_of(type) +
+                      "\" has no start; expected forced_response, frequency_sweep or amplitude_sweep"},
+      {solves_by_impacts(scene) || moves_by_events(scene),
+       "not with impacts, or friction of bodies with mass that no balance has, whose motions start from "
+       "what the structure settles to"},
+      {solves_by_phases(scene),
+       "not with time.method = \"exact\", which starts from a coarse balance of its own; expected \"balance\""},
+      {scene.time.tolerance > 0.0,
+       "not with time.tolerance, which starts from coarser motions of its own; expected time.functions"},
+      {start.contacts.rows() != contacts,
+       fmt::format("{} has the motion of {}, but the scene has {}", start.source,
+                   count_text(start.contacts.rows(), "contact"), count_text(contacts, "contact"))},
+      {start.periods < 1 || periods % start.periods != 0,
+       fmt::format(
+           "{} is a motion of {} of the load, and analysis.subharmonic is {}; expected a multiple of {}",
+           start.source, count_text(start.periods, "period"), periods, start.periods)}};
+  for (const auto& [refused, why] : refusals)
+    if (refused) throw std::invalid_argument("--start-from: " + why);
 }
 
 StartSamples start_samples(const StartMotion& start, const Scene& scene) {

@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "analysis/response_parts.hpp"
-#include "analysis/sweep_axis.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -18,39 +17,56 @@ bool keeps_unknowns(const Scene& scene) {
          scene.analysis.isolas || scene.analysis.has_outputs() || has_friction(scene);
 }
 
-/// The first point of a sweep that starts near a motion, or that has several periods of the load.
-solvers::PeriodicResponse first_point(const Scene& scene, solvers::ContactProblem& problem,
-                                      solvers::ForcedResponseOptions how, const StartMotion& start,
-                                      double& distance) {
-  StartSamples samples;
-  if (!start.contacts.empty()) samples = start_samples(start, scene);
+/// The first point of a sweep that starts near a motion, or that has several periods of the load, and the
+/// curve from there on.
+void follow_from(const Scene& scene, solvers::ContactProblem& problem,
+                 solvers::FrequencySweepOptions& options, const StartMotion& start, Sweep& sweep) {
+  const StartSamples samples = start.contacts.empty() ? StartSamples() : start_samples(start, scene);
+  options.start.observer = options.observer;
+  solvers::ForcedResponseOptions how = options.start;
   how.stay_near_guess = !start.contacts.empty();
-  auto first = problem.respond(scene.analysis.frequency_from, how, {samples.displacement, samples.force});
-  distance = relative_distance(first.displacement, samples.displacement);
-  return first;
+  const auto first =
+      problem.respond(scene.analysis.frequency_from, how, {samples.displacement, samples.force});
+  sweep.start_distance = relative_distance(first.displacement, samples.displacement);
+  sweep.periods = scene.analysis.subharmonic;
+  sweep.motion_periods = solvers::motion_periods(problem.condensed(), first);
+  sweep.curve = problem.sweep(options, first);
 }
 
-Sweep arc_length_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
-                       const StartMotion& start) {
+/// The same over the amplitude of the load.
+void follow_amplitude_from(const Scene& scene, solvers::ContactProblem& problem,
+                           solvers::FrequencySweepOptions& options, const StartMotion& start, Sweep& sweep) {
+  const StartSamples samples = start_samples(start, scene);
+  options.start.observer = options.observer;
+  options.start.stay_near_guess = true;
+  auto [curve, first] =
+      problem.amplitude_sweep(scene.forcing.frequency, options, {samples.displacement, samples.force});
+  sweep.curve = std::move(curve);
+  sweep.start_distance = relative_distance(first.displacement, samples.displacement);
+}
+
+Sweep balance_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
+                    const StartMotion& start, bool over_amplitude) {
+  require_start_fits(start, scene);
+  const auto begin = std::chrono::steady_clock::now();
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
   options.keep_unknowns = keeps_unknowns(scene);
   Sweep sweep;
+  if (over_amplitude) sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
   solvers::ContactProblem problem = compose_problem(scene, model);
-  if (scene.analysis.subharmonic == 1 && start.contacts.empty()) {
+  const bool from_rest = start.contacts.empty();
+  if (over_amplitude && from_rest)
+    sweep.curve = problem.amplitude_sweep(scene.forcing.frequency, options);
+  else if (over_amplitude)
+    follow_amplitude_from(scene, problem, options, start, sweep);
+  else if (scene.analysis.subharmonic == 1 && from_rest)
     sweep.curve = problem.sweep(options);
-    return sweep;
-  }
-  options.start.observer = options.observer;
-  const auto first = first_point(scene, problem, options.start, start, sweep.start_distance);
-  sweep.periods = scene.analysis.subharmonic;
-  sweep.motion_periods = solvers::motion_periods(problem.condensed(), first);
-  sweep.curve = problem.sweep(options, first);
-  return sweep;
-}
-
-void add_friction(const Scene& scene, Sweep& sweep) {
+  else
+    follow_from(scene, problem, options, start, sweep);
   if (has_friction(scene)) sweep.friction = {friction_along(scene, sweep.curve)};
+  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return sweep;
 }
 
 }  // namespace
@@ -94,7 +110,7 @@ const SweepPhases* Sweep::phases_of(std::size_t number) const {
 }
 
 StabilityAlong Sweep::stability_of(std::size_t number) const {
-  return stability_along(number == 0 ? stability : branches[number - 1].stability, phases_of(number));
+  return stability_along(balances_of(number), phases_of(number));
 }
 
 Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
@@ -103,12 +119,7 @@ Sweep frequency_sweep(const Scene& scene, const Observer& observer) {
 
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                       const StartMotion& start) {
-  require_start_fits(start, scene);
-  const auto begin = std::chrono::steady_clock::now();
-  Sweep sweep = arc_length_sweep(scene, model, observer, start);
-  add_friction(scene, sweep);
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return sweep;
+  return balance_sweep(scene, model, observer, start, false);
 }
 
 Sweep amplitude_sweep(const Scene& scene, const Observer& observer) {
@@ -117,29 +128,7 @@ Sweep amplitude_sweep(const Scene& scene, const Observer& observer) {
 
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                       const StartMotion& start) {
-  require_start_fits(start, scene);
-  const auto begin = std::chrono::steady_clock::now();
-  const ReferenceLoad load = reference_load(scene.forcing).value();
-  solvers::FrequencySweepOptions options = sweep_options(scene);
-  options.observer = observer;
-  options.keep_unknowns = keeps_unknowns(scene);
-  Sweep sweep;
-  solvers::ContactProblem problem = compose_problem(scene, model);
-  if (start.contacts.empty()) {
-    sweep.curve = problem.amplitude_sweep(scene.forcing.frequency, options);
-  } else {
-    const StartSamples samples = start_samples(start, scene);
-    options.start.observer = observer;
-    options.start.stay_near_guess = true;
-    auto [curve, first] =
-        problem.amplitude_sweep(scene.forcing.frequency, options, {samples.displacement, samples.force});
-    sweep.curve = std::move(curve);
-    sweep.start_distance = relative_distance(first.displacement, samples.displacement);
-  }
-  sweep.amplitude_unit = load.unit;
-  add_friction(scene, sweep);
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return sweep;
+  return balance_sweep(scene, model, observer, start, true);
 }
 
 namespace {

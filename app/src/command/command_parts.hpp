@@ -7,7 +7,6 @@
 #include "command/progress_bar.hpp"
 #include "report/run_report.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
-#include "wavebalance/app/files/table.hpp"
 
 /// What several commands have in common.
 namespace wavebalance::app {
@@ -16,8 +15,6 @@ namespace wavebalance::app {
 void require_output(const std::filesystem::path& output);
 /// "summary.json, report.html", what a command has written, but for the frames of a motion.
 std::string names_of(const std::vector<ResultFile>& files);
-/// The same as a record lists it, with what each file is about.
-Table table_of(const std::vector<ResultFile>& files);
 /// Says on the standard error what warnings a record has, and why it has no picture, if it has none.
 void say_warnings(const std::vector<std::string>& warnings);
 void say_no_picture(const std::string& reason);

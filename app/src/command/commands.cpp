@@ -139,12 +139,6 @@ std::string names_of(const std::vector<ResultFile>& files) {
   return list;
 }
 
-Table table_of(const std::vector<ResultFile>& files) {
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  return list;
-}
-
 void say_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& one : warnings) std::fprintf(stderr, "wavebalance: warning: %s\n", one.c_str());
 }

@@ -7,6 +7,7 @@
 
 #include "command/command_parts.hpp"
 #include "report/compare_report.hpp"
+#include "report/report_parts.hpp"
 #include "report/run_record.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
@@ -65,8 +66,7 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
   summary.emplace_back("unset", arguments.run.removed);
   if (!arguments.run.start_from.empty())
     summary.emplace_back("start_from", arguments.run.start_from.string());
-  summary.emplace_back("version", std::string(version()));
-  summary.emplace_back("files", table_of(files));
+  append_files(summary, files);
   return summary;
 }
 

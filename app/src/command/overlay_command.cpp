@@ -82,9 +82,8 @@ std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay
   Summary summary{{"folders", folders},
                   {"quantity", arguments.quantity},
                   {"curves", static_cast<std::int64_t>(overlay.curves.size())},
-                  {"warnings", overlay.warnings},
-                  {"version", std::string(version())}};
-  summary.emplace_back("files", table_of(files));
+                  {"warnings", overlay.warnings}};
+  append_files(summary, files);
   return json_text(summary);
 }
 

@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analysis/sweep_axis.hpp"
 #include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compare/size_study.hpp"

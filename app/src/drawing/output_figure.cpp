@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/sweep_axis.hpp"
 #include "drawing/sweep_lines.hpp"
 #include "plot/unit_prefix.hpp"
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "analysis/response_parts.hpp"
-#include "analysis/sweep_axis.hpp"
 #include "drawing/motion_panels.hpp"
 #include "drawing/output_figure.hpp"
 #include "drawing/period_window.hpp"

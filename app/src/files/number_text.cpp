@@ -30,4 +30,8 @@ double rounded(double value, int digits) {
   return std::strtod(text.c_str(), nullptr) + 0.0;  // stod refuses subnormals
 }
 
+std::string count_text(std::int64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 }  // namespace wavebalance::app

@@ -23,4 +23,30 @@ std::string text_in(const Summary& summary, const Quantity& quantity) {
   return text == nullptr ? "" : *text;
 }
 
+std::vector<std::string> columns_of(const Summary& row) {
+  std::vector<std::string> columns;
+  for (const Entry& one : row) columns.push_back(one.name);
+  return columns;
+}
+
+std::vector<Cell> cells_of(const Summary& row) {
+  std::vector<Cell> cells;
+  for (const Entry& one : row) cells.push_back(cell_of(one.value));
+  return cells;
+}
+
+Table table_of(const std::vector<Summary>& rows) {
+  if (rows.empty()) return {};
+  Table table(columns_of(rows.front()));
+  for (const Summary& row : rows) table.append_row(cells_of(row));
+  return table;
+}
+
+Cell cell_of(const SummaryValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
+  return std::get<std::string>(value);
+}
+
 }  // namespace wavebalance::app

@@ -15,46 +15,11 @@
 namespace wavebalance::app {
 namespace {
 
-/// Measures points of curves of one scene.
+/// Measures points of curves of one scene, over `periods` periods of the load.
 class PointMeasurer {
  public:
-  PointMeasurer(const Scene& scene, const StructureModel& model, const std::vector<Output>& outputs)
-      : outputs_(outputs),
-        harmonics_(scene.analysis.output_harmonics),
-        points_(scene.analysis.output_points),
-        periods_(scene.analysis.subharmonic),
-        problem_(compose_problem(scene, model)),
-        evaluate_(problem_.pair().trial(), points_),
-        rows_(rows_of_outputs(outputs, scene, model)) {}
-
-  MeasuredPoint operator()(const solvers::FrequencySweep& curve, const solvers::SweepPoint& point) {
-    const solvers::PeriodicResponse response =
-        problem_.response(curve, parameter_of(point, curve.parameter), point.unknown);
-    const solvers::Motion contacts = problem_.motion(response, points_);
-    Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(rows_.rows(), points_);
-    if (!rows_.isZero(0.0)) {
-      const Eigen::MatrixXcd all = problem_.condensed().full_coefficients(response.force_on_held_structure);
-      motion = evaluate_((rows_ * all).transpose(), response.frequency).displacement;
-    }
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].is_contact())
-        motion.row(Eigen::Index(i)) = contacts.displacement.row(outputs_[i].contact);
-    return measure(outputs_, motion, contacts.force, harmonics_, periods_);
-  }
-
- private:
-  const std::vector<Output>& outputs_;
-  int harmonics_, points_, periods_;
-  solvers::ContactProblem problem_;
-  solvers::MotionEvaluator evaluate_;
-  Eigen::MatrixXd rows_;
-};
-
-/// Measures motions of exact curves and of curves with impacts, over `periods` periods of the load.
-class MotionMeasurer {
- public:
-  MotionMeasurer(const Scene& scene, const StructureModel& model, const std::vector<Output>& outputs,
-                 solvers::ContactProblem problem, int periods)
+  PointMeasurer(const Scene& scene, const StructureModel& model, const std::vector<Output>& outputs,
+                solvers::ContactProblem problem, int periods)
       : outputs_(outputs),
         harmonics_(scene.analysis.output_harmonics),
         points_(scene.analysis.output_points),
@@ -62,23 +27,43 @@ class MotionMeasurer {
         over_amplitude_(scene.analysis.type == AnalysisType::amplitude_sweep),
         impacts_alone_(solves_by_impacts(scene)),
         problem_(std::move(problem)),
-        times_(time_fractions(points_)),
+        evaluate_(problem_.pair().trial(), points_),
         rows_(rows_of_outputs(outputs, scene, model)) {}
 
-  /// The force of an impact is not known.
+  /// Of a balance.
+  MeasuredPoint operator()(const solvers::FrequencySweep& curve, const solvers::SweepPoint& point) {
+    const solvers::PeriodicResponse response =
+        problem_.response(curve, parameter_of(point, curve.parameter), point.unknown);
+    const solvers::Motion contacts = problem_.motion(response, points_);
+    return measured(contacts.displacement, contacts.force, [&] {
+      const Eigen::MatrixXcd all = problem_.condensed().full_coefficients(response.force_on_held_structure);
+      return evaluate_((rows_ * all).transpose(), response.frequency).displacement;
+    });
+  }
+
+  /// Of an exact motion. The force of an impact is not known.
   MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_.rows(), points_);
-    if (!rows_.isZero(0.0))
-      rows = rows_ * solvers::structure_phases(held_at(point), motion, points_, precision_of(motion))
-                         .motion.displacement;
-    const Eigen::MatrixXd contacts = motion.displacement(times_);
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].is_contact()) rows.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
+    const Eigen::VectorXd times = time_fractions(points_);
     const bool impulses = impacts_alone_ && motion.phases.empty();
-    return measure(outputs_, rows, impulses ? Eigen::MatrixXd() : motion.force(times_), harmonics_, periods_);
+    return measured(motion.displacement(times), impulses ? Eigen::MatrixXd() : motion.force(times), [&] {
+      return Eigen::MatrixXd(rows_ *
+                             solvers::structure_phases(held_at(point), motion, points_, precision_of(motion))
+                                 .motion.displacement);
+    });
   }
 
  private:
+  /// `structure` gives the rows of outputs that are no contacts.
+  template <class Structure>
+  MeasuredPoint measured(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& forces,
+                         const Structure& structure) const {
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_.rows(), points_);
+    if (!rows_.isZero(0.0)) rows = structure();
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (outputs_[i].is_contact()) rows.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
+    return measure(outputs_, rows, forces, harmonics_, periods_);
+  }
+
   // Relative errors of the displacements of contacts by the harmonics left out, below what a picture shows.
   // Harmonics fall like 1 / n^4 with elastic contacts and like 1 / n^2 with impacts.
   static solvers::StructurePhasesOptions precision_of(const solvers::PhaseMotion& motion) {
@@ -97,7 +82,7 @@ class MotionMeasurer {
   int harmonics_, points_, periods_;
   bool over_amplitude_, impacts_alone_;
   solvers::ContactProblem problem_;
-  Eigen::VectorXd times_;
+  solvers::MotionEvaluator evaluate_;
   Eigen::MatrixXd rows_;
 };
 
@@ -113,49 +98,27 @@ std::vector<MeasuredPoint> along(std::size_t points, const Observer& observer, b
   return measured;
 }
 
-/// Of a curve of balances.
-std::vector<MeasuredPoint> along_balances(const Scene& scene, const StructureModel& model,
-                                          const std::vector<Output>& outputs,
-                                          const solvers::FrequencySweep& curve, const Observer& observer,
-                                          bool& cancelled) {
+/// Of the curve, 0, or of a branch, from 1.
+std::vector<MeasuredPoint> along_curve(const Scene& scene, const StructureModel& model,
+                                       const std::vector<Output>& outputs, const Sweep& sweep,
+                                       std::size_t number, const Observer& observer, bool& cancelled) {
+  const solvers::FrequencySweep& curve = sweep.curve_of(number);
+  const int times = number == 0 ? 1 : sweep.branches[number - 1].periods;
   if (curve.points.empty()) return {};
-  PointMeasurer measurer(scene, model, outputs);
-  return along(curve.points.size(), observer, cancelled, [&](std::size_t i) {
-    return curve.points[i].unknown.size() > 0 ? measurer(curve, curve.points[i]) : MeasuredPoint();
-  });
-}
-
-/// Of a curve whose points have these motions.
-std::vector<MeasuredPoint> along_motions(MotionMeasurer&& measurer,
-                                         const std::vector<solvers::PhaseMotion>& motions,
-                                         const solvers::FrequencySweep& curve, const Observer& observer,
-                                         bool& cancelled) {
-  return along(motions.size(), observer, cancelled,
-               [&](std::size_t i) { return measurer(curve.points[i], motions[i]); });
-}
-
-/// Of the curve, then of each branch.
-std::vector<std::vector<MeasuredPoint>> along_curves(const Scene& scene, const StructureModel& model,
-                                                     const std::vector<Output>& outputs, const Sweep& sweep,
-                                                     const Observer& observer, bool& cancelled) {
-  const auto curve_of = [&](std::size_t i) -> const solvers::FrequencySweep& {
-    return i == 0 ? sweep.curve : sweep.branches[i - 1].curve;
-  };
-  const auto periods_of = [&](std::size_t i) { return i == 0 ? 1 : sweep.branches[i - 1].periods; };
-  std::vector<std::vector<MeasuredPoint>> curves;
-  for (std::size_t i = 0; i <= sweep.branches.size(); ++i)
-    if (!sweep.exact_motions.empty()) {
-      const int periods = sweep.periods * periods_of(i);
-      solvers::ContactProblem problem = exact_problem(scene, model);
-      MotionMeasurer measurer(scene, model, outputs,
-                              periods == 1 ? std::move(problem) : problem.over_periods(periods), periods);
-      curves.push_back(
-          along_motions(std::move(measurer), sweep.exact_motions[i], curve_of(i), observer, cancelled));
-    } else {
-      curves.push_back(along_balances(i == 0 ? scene : with_longer_period(scene, periods_of(i)), model,
-                                      outputs, curve_of(i), observer, cancelled));
-    }
-  return curves;
+  if (sweep.exact_motions.empty()) {
+    const Scene longer = number == 0 ? scene : with_longer_period(scene, times);
+    PointMeasurer measurer(longer, model, outputs, compose_problem(longer, model),
+                           longer.analysis.subharmonic);
+    return along(curve.points.size(), observer, cancelled, [&](std::size_t i) {
+      return curve.points[i].unknown.size() > 0 ? measurer(curve, curve.points[i]) : MeasuredPoint();
+    });
+  }
+  const int periods = sweep.periods * times;
+  solvers::ContactProblem problem = exact_problem(scene, model);
+  PointMeasurer measurer(scene, model, outputs,
+                         periods == 1 ? std::move(problem) : problem.over_periods(periods), periods);
+  return along(curve.points.size(), observer, cancelled,
+               [&](std::size_t i) { return measurer(curve.points[i], sweep.exact_motions[number][i]); });
 }
 
 /// The point with the largest vibration of an output; nothing where none was measured.
@@ -173,7 +136,7 @@ MeasuredPoint exact_at_peak(const Scene& scene, const StructureModel& model,
   if (sweep.phases.empty() || scene.analysis.exact) return {};
   const SweepPhases::Point& peak = sweep.phases.front().peak;
   if (!peak || !peak->motion || peak->place > 0) return {};
-  MotionMeasurer measurer(scene, model, outputs, compose_problem(scene, model), scene.analysis.subharmonic);
+  PointMeasurer measurer(scene, model, outputs, compose_problem(scene, model), scene.analysis.subharmonic);
   return measurer(sweep.curve.points[peak_of(sweep.curve)], *peak->motion);
 }
 
@@ -185,7 +148,7 @@ MeasuredPoint exact_outputs(const Scene& scene, const StructureModel& model, con
   if (!of_balance || !response.phases || response.phases->motion.parts == nullptr) return {};
   Scene solved = scene;
   solved.time = solved_time(scene.time, response);
-  MotionMeasurer measurer(solved, model, outputs, compose_problem(solved, model), response.periods);
+  PointMeasurer measurer(solved, model, outputs, compose_problem(solved, model), response.periods);
   solvers::SweepPoint point;
   point.frequency = scene.forcing.frequency;
   return measurer(point, response.phases->motion);
@@ -199,9 +162,11 @@ SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sw
   if (found.empty()) return found;
   bool& cancelled = sweep.outputs_cancelled;
   const Observer watch = sweep.interrupted() ? Observer() : observer;
-  found.curves = along_curves(scene, model, found.outputs, sweep, watch, cancelled);
-  for (const Sweep& isola : sweep.isolas)
-    found.isolas.push_back(along_curves(scene, model, found.outputs, isola, watch, cancelled).front());
+  const auto measured = [&](const Sweep& of, std::size_t number) {
+    return along_curve(scene, model, found.outputs, of, number, watch, cancelled);
+  };
+  for (std::size_t i = 0; i <= sweep.branches.size(); ++i) found.curves.push_back(measured(sweep, i));
+  for (const Sweep& isola : sweep.isolas) found.isolas.push_back(measured(isola, 0));
   found.exact_at_peak = exact_at_peak(scene, model, found.outputs, sweep);
   for (std::size_t i = 0; i < found.outputs.size(); ++i)
     if (found.outputs[i].name == scene.analysis.peak_of) sweep.peak_of_output = highest(found.curves[0], i);

@@ -153,24 +153,18 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
                             ? recommendations(record, summary)
                             : paragraph({"Nothing was compared to the end: " + record.status + "."});
   if (sweep) outcome += paragraph({record.text.substr(0, record.text.find("\n\n"))});
-  PageParts page;
   const std::string name = arguments.run.scene.stem().string();
   const std::string heading = "Which basis for " + (name.empty() ? "this scene" : name) + "?";
-  page.title = heading + " Wavebalance";
-  page.assets = "";
-  page.libraries = {Library::d3};
-  page.body =
-      "<main>\n<h1>" + escaped(heading) + "</h1>\n" + section_html("What to take", outcome) +
-      section_html("Pictures", pictures_html(record.pictures, files)) +
-      section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
-      section_html("The reference", reference_html(record.reference)) +
-      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
-      section_html("What was asked",
-                   "<p>The command:</p>\n" + code_html(command_of(arguments)) +
-                       folded("The scene that was compared", code_html(write_scene(scene)))) +
-      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
-      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
-  return page_html(page);
+  PageParts page{.title = heading + " Wavebalance"};
+  page.body = section_html("What to take", outcome) +
+              section_html("Pictures", pictures_html(record.pictures, files)) +
+              section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
+              section_html("The reference", reference_html(record.reference)) +
+              last_sections(record.warnings,
+                            "<p>The command:</p>\n" + code_html(command_of(arguments)) +
+                                folded("The scene that was compared", code_html(write_scene(scene))),
+                            files, summary);
+  return report_page(std::move(page), heading);
 }
 
 }  // namespace wavebalance::app

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "wavebalance/app/page/html.hpp"
+#include "wavebalance/app/files/output.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -158,6 +158,29 @@ std::string pictures_html(const std::vector<RecordPicture>& pictures, const std:
   }
   const bool none_drawn = html.empty() && !pictures.empty();
   return none_drawn ? "<p>There is no picture: gnuplot was not found.</p>\n" : html;
+}
+
+std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
+                          const std::vector<ResultFile>& files, const Summary& summary) {
+  return section_html("Warnings", warnings.empty() ? "" : list_html(warnings)) +
+         section_html("What was asked", asked) +
+         section_html("Files",
+                      files_list(files) + folded("All values of the summary", values_table(summary)));
+}
+
+std::string report_page(PageParts page, const std::string& heading) {
+  page.assets = "";
+  page.libraries.insert(page.libraries.begin(), Library::d3);
+  page.body = "<main>\n<h1>" + escaped(heading) + "</h1>\n" + page.body +
+              fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  return page_html(page);
+}
+
+void append_files(Summary& summary, const std::vector<ResultFile>& files) {
+  summary.emplace_back("version", version());
+  Table list({"name", "about"});
+  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  summary.emplace_back("files", std::move(list));
 }
 
 }  // namespace wavebalance::app

@@ -6,6 +6,7 @@
 #include "report/run_report.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/page/html.hpp"
 
 /// Parts that the pages of all commands share, as HTML.
 namespace wavebalance::app {
@@ -50,5 +51,13 @@ std::string pictures_html(const std::vector<RecordPicture>& pictures, const std:
 std::string files_list(const std::vector<ResultFile>& files);
 /// Whether one of the files has this name.
 bool holds_file(const std::vector<ResultFile>& files, const std::string& name);
+
+/// The sections with which all reports end; `asked` is HTML.
+std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
+                          const std::vector<ResultFile>& files, const Summary& summary);
+/// A report of its own, with the heading, the sections of page.body and the version.
+std::string report_page(PageParts page, const std::string& heading);
+/// The version and the list of the files of a record, as its summary ends.
+void append_files(Summary& summary, const std::vector<ResultFile>& files);
 
 }  // namespace wavebalance::app

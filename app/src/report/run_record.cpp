@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "report/bar_motion.hpp"
+#include "report/report_parts.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -86,10 +87,7 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
   summary.emplace_back("scene", arguments.scene.string());
   summary.emplace_back("set", arguments.overrides);
   summary.emplace_back("unset", arguments.removed);
-  summary.emplace_back("version", std::string(version()));
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  summary.emplace_back("files", std::move(list));
+  append_files(summary, files);
   return summary;
 }
 

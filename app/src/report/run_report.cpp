@@ -159,18 +159,13 @@ std::string asked(const RunArguments& arguments, const Scene& scene, const std::
 std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
                         const Record& record, const Summary& summary, const std::vector<ResultFile>& files) {
   const std::string heading = heading_of(arguments, scene);
-  PageParts page;
-  page.title = heading + ", Wavebalance";
-  page.assets = "";
-  page.libraries = {Library::d3};
-  page.scripts = {"motion.js"};
+  PageParts page{.title = heading + ", Wavebalance", .scripts = {"motion.js"}};
   const std::string in_space = motion_in_space(files);
   if (!in_space.empty()) {
     page.libraries.push_back(Library::three);
     page.scripts.push_back("body.js");
   }
   page.body =
-      "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
       section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
                                         (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
                                         motion(files) + in_space + paragraph(rest_sentences(scene, summary)) +
@@ -184,11 +179,8 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
                        folded_table(summary, "special_points_of_isolas", "Special points of isolas")) +
       section_html("Outputs", outputs_of_record(record, files, summary)) +
       section_html("Motions of points of the curve", motions_of_points(record, files, summary)) +
-      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
-      section_html("What was asked", asked(arguments, scene, scene_text)) +
-      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
-      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
-  return page_html(page);
+      last_sections(record.warnings, asked(arguments, scene, scene_text), files, summary);
+  return report_page(std::move(page), heading);
 }
 
 }  // namespace wavebalance::app

@@ -174,22 +174,14 @@ std::string heading_of(const Study& study) {
 
 std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
                          const Summary& summary, const std::vector<ResultFile>& files) {
-  PageParts page;
   const std::string heading = heading_of(study);
-  page.title = heading + ", Wavebalance";
-  page.assets = "";
-  page.libraries = {Library::d3};
-  page.body =
-      "<main>\n<h1>" + escaped(heading) + "</h1>\n" +
-      section_html("What came out", list_html(lines_of(study_outcome(record)))) +
-      section_html("Pictures", pictures_html(record.pictures, files) + extremes_html(study, record)) +
-      section_html("Quantiles", quantiles_html(study, summary)) +
-      section_html("Runs that did not converge", failures_html(study, record)) +
-      section_html("Warnings", record.warnings.empty() ? "" : list_html(record.warnings)) +
-      section_html("What was asked", asked(arguments, study)) +
-      section_html("Files", files_list(files) + folded("All values of the summary", values_table(summary))) +
-      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
-  return page_html(page);
+  PageParts page{.title = heading + ", Wavebalance"};
+  page.body = section_html("What came out", list_html(lines_of(study_outcome(record)))) +
+              section_html("Pictures", pictures_html(record.pictures, files) + extremes_html(study, record)) +
+              section_html("Quantiles", quantiles_html(study, summary)) +
+              section_html("Runs that did not converge", failures_html(study, record)) +
+              last_sections(record.warnings, asked(arguments, study), files, summary);
+  return report_page(std::move(page), heading);
 }
 
 }  // namespace
@@ -236,10 +228,7 @@ RunFiles study_files(const StudyArguments& arguments, const Study& study, const 
   Summary summary = record.summary;
   summary.emplace_back("study", study.name);
   summary.emplace_back("scene", study.scene.string());
-  summary.emplace_back("version", std::string(version()));
-  Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
-  summary.emplace_back("files", std::move(list));
+  append_files(summary, files);
   if (arguments.report) files.front().contents = study_report(arguments, study, record, summary, files);
   run.summary = json_text(summary);
   return run;

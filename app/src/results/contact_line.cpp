@@ -11,10 +11,6 @@
 #include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {
-std::string count_text(std::int64_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 namespace {
 
 /// How many directions have an obstacle on either side; empty without any.

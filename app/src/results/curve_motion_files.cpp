@@ -5,28 +5,25 @@
 #include <algorithm>
 #include <utility>
 
-#include "analysis/sweep_axis.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
-#include "results/sweep_phases.hpp"
+#include "results/sweep_record.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
 namespace {
 
-std::vector<Cell> row_of(const Scene& scene, const CurveMotion& motion, bool with_phases) {
-  Summary values;
-  append_motion(values, scene, motion.contacts, motion.contact);
-  std::vector<Cell> row{motion.name + ".csv", motion.at, motion.place};
-  for (const Entry& one : values) row.emplace_back(std::get<double>(one.value));
-  row.emplace_back(motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
-  row.emplace_back(motion.residual);
-  row.emplace_back(motion.converged);
-  if (with_phases)
-    for (Cell& cell : phases_cells(motion.phases)) row.push_back(std::move(cell));
+Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxis& axis, bool with_phases) {
+  Summary row{{"file", motion.name + ".csv"}, {"at", motion.at}, {axis.column(), motion.place}};
+  append_motion(row, scene, motion.contacts, motion.contact);
+  row.emplace_back(quantities::unstable_multipliers,
+                   motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
+  row.emplace_back(quantities::residual, motion.residual);
+  row.emplace_back(quantities::converged, motion.converged);
+  if (with_phases) append_phases(row, motion.phases);
   return row;
 }
 
@@ -35,22 +32,6 @@ std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
   std::string type = motion.at;
   std::replace(type.begin(), type.end(), '_', ' ');
   return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
-}
-
-void append_files(Record& record, const Scene& scene, const StructureModel& model, const CurveMotion& motion,
-                  const std::string& place) {
-  const std::string about = "motion of the curve " + place;
-  const bool several = motion.contacts.rows() > 1;
-  record.files.push_back({motion.name + ".csv",
-                          csv_text(response_table(motion.contacts.contact(motion.contact))),
-                          about + (several ? ": the leading contact" : "")});
-  if (several)
-    record.files.push_back({motion.name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
-                            about + ": every contact"});
-  for (RecordFile& file : motion_files(model, motion.structure, motion.name)) {
-    file.about = about + ": the whole structure";
-    record.files.push_back(std::move(file));
-  }
 }
 
 /// The motion as that of a single response, with the instants of contact where these are known.
@@ -83,7 +64,7 @@ void append_contact_instants(Record& record, const Scene& scene, const std::vect
       all.append_row(std::move(row));
     }
   }
-  if (!all.columns().empty()) record.summary.emplace_back(quantities::phases, std::move(all));
+  if (!all.columns().empty()) record.add(quantities::phases, std::move(all));
 }
 
 }  // namespace
@@ -94,18 +75,11 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
   const SweepAxis axis = sweep_axis(sweep);
   const bool with_phases = std::any_of(motions.begin(), motions.end(),
                                        [](const CurveMotion& motion) { return motion.phases.has_value(); });
-  Summary measures;
-  append_motion(measures, scene, {}, 0);
-  std::vector<std::string> columns{"file", "at", axis.column()};
-  for (const Entry& one : measures) columns.push_back(one.name);
-  for (const Quantity& one : {quantities::unstable_multipliers, quantities::residual, quantities::converged})
-    columns.push_back(one.column());
-  if (with_phases)
-    for (std::string& column : phases_columns()) columns.push_back(std::move(column));
-  Table table(columns);
+  std::vector<Summary> rows;
   for (const CurveMotion& motion : motions) {
-    table.append_row(row_of(scene, motion, with_phases));
-    append_files(record, scene, model, motion, place_of(motion, axis));
+    rows.push_back(motion_row(scene, motion, axis, with_phases));
+    append_motion_files(record, scene, model, {motion.contacts, motion.contact, motion.structure},
+                        motion.name, "motion of the curve " + place_of(motion, axis));
     append_motion_picture(record, scene, sweep, motion, place_of(motion, axis));
     if (!motion.converged)
       record.warnings.push_back("The motion " + place_of(motion, axis) +
@@ -113,18 +87,16 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                                 ".csv holds the last iterate.");
   }
   if (!sweep.motions_left_out.empty())
-    record.warnings.push_back(
-        fmt::format("analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
-                    fmt::join(sweep.motions_left_out, ", ")));
+    warn(record, "analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
+         fmt::join(sweep.motions_left_out, ", "));
   for (const double place : scene.analysis.motion_at.places)
     if (sweep.motions_left_out.empty() &&
         std::none_of(motions.begin(), motions.end(), [&](const CurveMotion& motion) {
           return motion.at == axis.quantity && motion.place == place;
         }))
-      record.warnings.push_back(
-          fmt::format("analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
-                      cell_text(place), axis.unit));
-  record.summary.emplace_back(quantities::motions, std::move(table));
+      warn(record, "analysis.motion_at: the curve does not reach {} {}; no motion is written for it.",
+           cell_text(place), axis.unit);
+  record.add(quantities::motions, table_of(rows));
   append_contact_instants(record, scene, motions);
 }
 

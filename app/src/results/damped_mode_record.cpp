@@ -10,7 +10,8 @@
 #include "drawing/mode_figure.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
-#include "results/friction_record.hpp"
+#include "results/contact_record.hpp"
+#include "results/extremes.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/damped_modes.hpp"
@@ -40,19 +41,12 @@ std::string status_of(const DampedStudy& study, const solvers::DampedBackbone& c
 void append_setting(Summary& summary, const DampedStudy& study, const StructureModel& model) {
   const Scene& scene = study.scene();
   summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
-  summary.emplace_back(quantities::mode, std::int64_t{scene.analysis.mode});
+  summary.emplace_back(quantities::mode, scene.analysis.mode);
   append_discretisation(summary, mode_time(scene));
   summary.emplace_back(quantities::linear_frequency, study.mode().linear_omega() / (2.0 * std::numbers::pi));
   summary.emplace_back(quantities::linear_damping_ratio, study.mode().linear_damping_ratio());
   summary.emplace_back(quantities::slip_amplitude, study.slip_amplitude());
   append_structure(summary, scene, model);
-}
-
-template <class Number>
-double largest(const solvers::DampedBackbone& curve, Number number) {
-  double value = missing;
-  for (const solvers::DampedPoint& point : curve.points) value = std::fmax(value, number(point));
-  return value;
 }
 
 Record solution_record(const DampedStudy& study, const solvers::DampedBackbone& curve, double asked,
@@ -63,9 +57,10 @@ Record solution_record(const DampedStudy& study, const solvers::DampedBackbone& 
   record.status = record.interrupted ? "interrupted" : status_of(study, curve, asked);
   int iterations = 0;
   for (const solvers::DampedPoint& point : curve.points) iterations += point.iterations;
-  record.summary = solution_entries(record.converged, record.status,
-                                    largest(curve, [](const auto& point) { return point.residual; }),
-                                    iterations, study.mode().unknowns(), wall_seconds);
+  record.summary =
+      solution_entries(record.converged, record.status,
+                       largest_of(curve.points, [](const auto& point) { return point.residual; }), iterations,
+                       study.mode().unknowns(), wall_seconds);
   return record;
 }
 
@@ -74,16 +69,15 @@ Record curve_record(const DampedStudy& study, const StructureModel& model, const
   const double asked = study.scene().analysis.largest_amplitude;
   const solvers::DampedBackbone curve = study.curve(asked, observer);
   Record record = solution_record(study, curve, asked, seconds_since(start));
-  record.summary.emplace_back(quantities::max_displacement, largest(curve, [](const auto& point) {
-                                return point.displacement.maxCoeff();
-                              }));
+  record.add(quantities::max_displacement,
+             largest_of(curve.points, [](const auto& point) { return point.displacement.maxCoeff(); }));
   append_setting(record.summary, study, model);
-  record.summary.emplace_back(quantities::points, static_cast<std::int64_t>(curve.points.size()));
-  record.summary.emplace_back(quantities::largest_damping_ratio,
-                              largest(curve, [](const auto& point) { return point.damping_ratio(); }));
-  record.summary.emplace_back(quantities::least_frequency_ratio, -largest(curve, [&](const auto& point) {
-                                return -point.omega / study.mode().linear_omega();
-                              }));
+  record.add(quantities::points, curve.points.size());
+  record.add(quantities::largest_damping_ratio,
+             largest_of(curve.points, [](const auto& point) { return point.damping_ratio(); }));
+  record.add(quantities::least_frequency_ratio, least_of(curve.points, [&](const auto& point) {
+               return point.omega / study.mode().linear_omega();
+             }));
   record.backbone = damped_table(study, curve);
   record.figure = damped_figure(study.scene(), record.backbone);
   if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
@@ -106,12 +100,10 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   append_setting(record.summary, study, model);
   const auto value = [&](auto number) { return point != nullptr ? number(*point) : missing; };
   const double frequency = value([](const auto& one) { return one.omega / (2.0 * std::numbers::pi); });
-  record.summary.emplace_back(quantities::frequency, frequency);
-  record.summary.emplace_back(quantities::frequency_ratio, value([&](const auto& one) {
-                                return one.omega / study.mode().linear_omega();
-                              }));
-  record.summary.emplace_back(quantities::damping_ratio,
-                              value([](const auto& one) { return one.damping_ratio(); }));
+  record.add(quantities::frequency, frequency);
+  record.add(quantities::frequency_ratio,
+             value([&](const auto& one) { return one.omega / study.mode().linear_omega(); }));
+  record.add(quantities::damping_ratio, value([](const auto& one) { return one.damping_ratio(); }));
   append_friction(record, scene, response, frequency);
   if (point == nullptr) return record;
   record.response = response_table(response.leading());
@@ -126,10 +118,8 @@ Record damped_mode_record(const Scene& scene, const StructureModel& model, const
   goes_on(observer, {"linear modes"});
   const DampedStudy study(scene, model);
   goes_on(observer, {"backbone"});
-  Record record = scene.analysis.amplitude_ratio > 0.0 ? motion_record(study, model, observer)
-                                                       : curve_record(study, model, observer);
-  record.summary.emplace_back(quantities::warnings, record.warnings);
-  return record;
+  return scene.analysis.amplitude_ratio > 0.0 ? motion_record(study, model, observer)
+                                              : curve_record(study, model, observer);
 }
 
 }  // namespace wavebalance::app

@@ -89,22 +89,21 @@ std::string term_place(const Scene& scene, const ForcingTerm& term) {
 
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
+  struct Kind {
+    const char *name, *unit;
+  };
+  const Kind kind = term.kind == LoadKind::force               ? Kind{"force", " N"}
+                    : term.kind == LoadKind::base_displacement ? Kind{"base displacement", " m"}
+                                                               : Kind{"base acceleration", " m/s^2"};
   const std::string size = number_text(term.amplitude);
   const std::string series = !term.samples.empty() ? size + " times samples"
                              : term.harmonic == 0  ? "static, " + size
                                                    : fmt::format("harmonic {}, {}", term.harmonic, size);
   const std::string place = term_place(scene, term);
-  const char* unit = !term.samples.empty()                      ? ""
-                     : term.kind == LoadKind::force             ? " N"
-                     : term.kind == LoadKind::base_displacement ? " m"
-                                                                : " m/s^2";
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
-  const std::string kind = term.kind == LoadKind::force               ? "force"
-                           : term.kind == LoadKind::base_displacement ? "base displacement"
-                                                                      : "base acceleration";
-  return fmt::format("           {}: {}{}{}{}\n", kind, series, unit, phase,
-                     place.empty() ? "" : " " + place);
+  return fmt::format("           {}: {}{}{}{}\n", kind.name, series, term.samples.empty() ? kind.unit : "",
+                     phase, place.empty() ? "" : " " + place);
 }
 
 /// The weight, and what it amounts to.

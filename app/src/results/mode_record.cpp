@@ -7,18 +7,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/mode_stability.hpp"
 #include "drawing/mode_figure.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
-#include "results/mode_stability.hpp"
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
+#include "results/stability.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/solvers/modes/mode_stability.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -73,10 +73,10 @@ double worst_residual(const Backbone& curve) {
 void append_discretisation(Summary& summary, const ModeStudy& study) {
   const Analysis& analysis = study.scene().analysis;
   summary.emplace_back(quantities::analysis, name_of(analysis.type));
-  summary.emplace_back(quantities::mode, std::int64_t{analysis.mode});
+  summary.emplace_back(quantities::mode, analysis.mode);
   if (!study.elastic_mode() || study.scene().time.trial.empty()) {
-    summary.emplace_back(quantities::harmonics, std::int64_t{analysis.harmonics});
-    summary.emplace_back(quantities::samples, std::int64_t{analysis.samples});
+    summary.emplace_back(quantities::harmonics, analysis.harmonics);
+    summary.emplace_back(quantities::samples, analysis.samples);
   }
   if (study.elastic_mode()) append_discretisation(summary, mode_time(study.scene()));
   summary.emplace_back(quantities::linear_frequency, study.linear_frequency());
@@ -101,12 +101,12 @@ void append_curve(Summary& summary, const Backbone& curve, double gap) {
 }
 
 void append_statuses(Summary& summary, const Backbone& curve) {
-  summary.emplace_back(quantities::points, static_cast<std::int64_t>(curve.points.size()));
+  summary.emplace_back(quantities::points, curve.points.size());
   for (const auto status : {ModeStatus::converged, ModeStatus::internal_resonance, ModeStatus::cycling,
                             ModeStatus::no_contact, ModeStatus::singular})
     summary.emplace_back("points_" + std::string(to_string(status)), std::int64_t{curve.count(status)});
   summary.emplace_back(quantities::tongues, joined_names(all_resonances(curve)));
-  summary.emplace_back(quantities::interruptions, static_cast<std::int64_t>(curve.interruptions.size()));
+  summary.emplace_back("interruptions", curve.interruptions.size());
 }
 
 /// The points of a curve where no motion was found, which beside an internal resonance leave it converged.
@@ -125,10 +125,10 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
       ranges.push_back(gap.first_ratio < gap.last_ratio
                            ? fmt::format("{:.4f} to {:.4f}", gap.first_ratio, gap.last_ratio)
                            : fmt::format("{:.4f}", gap.first_ratio));
-  record.warnings.push_back(fmt::format(
-      "At {} of {} points of the curve no motion was found ({}), at frequency ratios {}; analysis.samples = 2 x "
-      "analysis.harmonics, or other harmonics, may leave fewer.",
-      failed, curve.points.size(), fmt::join(counts, ", "), fmt::join(ranges, ", ")));
+  warn(record,
+       "At {} of {} points of the curve no motion was found ({}), at frequency ratios {}; analysis.samples "
+       "= 2 x analysis.harmonics, or other harmonics, may leave fewer.",
+       failed, curve.points.size(), fmt::join(counts, ", "), fmt::join(ranges, ", "));
 }
 
 void append_quality(Summary& summary, double penetration, double min_force, double virial_residual) {
@@ -136,6 +136,84 @@ void append_quality(Summary& summary, double penetration, double min_force, doub
                        std::isnan(penetration) ? missing : std::max(0.0, penetration));
   summary.emplace_back(quantities::min_contact_force, min_force);
   summary.emplace_back(quantities::virial_residual, virial_residual);
+}
+
+/// The word for a rigid obstacle, at which contacts with mass have no linearised motion.
+constexpr const char* no_law_of_impact = "no_law_of_impact";
+
+Table table_of(const ModeStudy& study, const std::vector<solvers::ModeSpecialPoint>& points) {
+  Table table(
+      {"type", "frequency_Hz", "bracket_Hz", "energy_ratio", "multiplier_real", "multiplier_imag", "status"});
+  const double hertz = study.linear_frequency() / study.mode().linear_omega();
+  for (const auto& point : points)
+    table.append_row({std::string(to_string(point.type)), hertz * point.omega, hertz * point.bracket,
+                      point.energy_ratio, point.multiplier.real(), point.multiplier.imag(),
+                      std::string(point.located ? "located" : "bracketed")});
+  return table;
+}
+
+/// Without the digits that an error leaves open.
+double known_digits(double value, double error) {
+  if (!(error > 0.0)) return value;
+  const double decimals = std::pow(10.0, -std::floor(std::log10(error)));
+  return std::round(value * decimals) / decimals;
+}
+
+/// The stability along a backbone of an elastic mode; without points otherwise, and where analysis.stability
+/// is false.
+solvers::BackboneStability stability_of(const ModeStudy& study, const Backbone& curve,
+                                        const Observer& observer) {
+  if (!study.elastic_mode() || !study.scene().analysis.stability) return {};
+  solvers::ModeStabilityOptions options;
+  options.observer = observer;
+  return solvers::backbone_stability(*study.elastic_mode(),
+                                     {solvers::BackboneStatus::reached_energy, curve.points}, options);
+}
+
+/// The columns `unstable`, missing where it is not known, and `contacts` of a backbone_table() of the same
+/// points, whose first rows are the linear ones. Without effect where there is no stability.
+void add_stability(Table& table, const solvers::BackboneStability& stability) {
+  const auto& points = stability.points;
+  if (points.empty()) return;
+  const std::size_t first = table.rows() - points.size();
+  std::vector<double> unstable(table.rows(), 0.0), contacts(table.rows(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    unstable[first + i] = points[i].unstable >= 0 ? points[i].unstable : missing;
+    contacts[first + i] = points[i].contacts;
+  }
+  table.add_column("unstable", unstable).add_column("contacts", contacts);
+}
+
+/// The fields of a curve's stability.
+void append_stability(Summary& summary, const ModeStudy& study, const solvers::BackboneStability& stability) {
+  if (!study.scene().analysis.stability) return;
+  if (!study.elastic_mode()) {
+    summary.emplace_back(quantities::stability, no_law_of_impact);
+    return;
+  }
+  summary.emplace_back(quantities::stability,
+                       stability.cancelled ? "interrupted" : std::string(to_string(stability.status())));
+  summary.emplace_back(quantities::special_points, table_of(study, stability.special_points));
+}
+
+/// Those of one motion, and a warning where it is unstable.
+void append_stability(Record& record, const ModeStudy& study, const solvers::ModePoint& point) {
+  if (!study.scene().analysis.stability) return;
+  ResponseStability stability;
+  stability.status = no_law_of_impact;
+  double error = missing;
+  if (study.elastic_mode()) {
+    const auto found = solvers::ModeMultipliers(*study.elastic_mode())(point);
+    const bool known = found.status == solvers::StabilityStatus::converged;
+    stability.status = !known ? to_string(found.status) : found.unstable > 0 ? "unstable" : "stable";
+    stability.unstable = found.unstable;
+    if (found.multipliers.size() > 0)
+      stability.leading = {known_digits(found.multipliers[0].real(), found.error),
+                           known_digits(std::abs(found.multipliers[0].imag()), found.error)};
+    error = found.error;
+  }
+  append_stability(record, stability, "free motion");
+  record.add(quantities::leading_multiplier_error, error);
 }
 
 Record curve_record(const ModeStudy& study, const Observer& observer) {
@@ -155,11 +233,10 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
                  gapless ? missing : largest(curve, [](const auto& point) { return point.max_penetration; }),
                  -largest(curve, [](const auto& point) { return -point.min_force; }),
                  largest(curve, [](const auto& point) { return point.virial_residual; }));
-  record.summary.emplace_back(quantities::largest_energy_ratio,
-                              largest(curve, [](const auto& point) { return point.energy_ratio; }));
-  record.summary.emplace_back(quantities::largest_frequency_ratio, largest(curve, [&](const auto& point) {
-                                return point.omega / study.mode().linear_omega();
-                              }));
+  record.add(quantities::largest_energy_ratio,
+             largest(curve, [](const auto& point) { return point.energy_ratio; }));
+  record.add(quantities::largest_frequency_ratio,
+             largest(curve, [&](const auto& point) { return point.omega / study.mode().linear_omega(); }));
   append_stability(record.summary, study, stability);
   record.backbone = backbone_table(study, curve);
   add_stability(record.backbone, stability);
@@ -201,17 +278,17 @@ Record motion_record(const ModeStudy& study) {
   append_motion(record.summary, scene, moves ? response.contacts : solvers::Motion{}, response.contact);
   append_discretisation(record.summary, study);
   const double ratio = point.omega / study.mode().linear_omega();
-  record.summary.emplace_back(quantities::frequency, moves ? ratio * study.linear_frequency() : missing);
-  record.summary.emplace_back(quantities::frequency_ratio, moves ? ratio : missing);
-  record.summary.emplace_back(quantities::rayleigh_frequency_ratio,
-                              moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
-  record.summary.emplace_back(quantities::energy_ratio, moves ? point.energy_ratio : missing);
+  record.add(quantities::frequency, moves ? ratio * study.linear_frequency() : missing);
+  record.add(quantities::frequency_ratio, moves ? ratio : missing);
+  record.add(quantities::rayleigh_frequency_ratio,
+             moves ? std::sqrt(point.rayleigh) / study.mode().linear_omega() : missing);
+  record.add(quantities::energy_ratio, moves ? point.energy_ratio : missing);
   if (found && resonant) {
-    record.summary.emplace_back(quantities::tongues, resonance_name(point.resonance));
-    record.warnings.push_back(fmt::format(
-        "The motion lies on the internal resonance {}, in which mode {} has {:.0f} % of the kinetic energy: the "
-        "curve of the mode goes along it, and no motion off the resonance was found beyond.",
-        resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share));
+    record.add(quantities::tongues, resonance_name(point.resonance));
+    warn(record,
+         "The motion lies on the internal resonance {}, in which mode {} has {:.0f} % of the kinetic "
+         "energy: the curve of the mode goes along it, and no motion off the resonance was found beyond.",
+         resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share);
   }
   const bool gapless = scene.analysis.reference_length > 0.0;
   append_quality(record.summary, moves && !gapless ? point.max_penetration : missing,
@@ -238,13 +315,13 @@ void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
     if (other < 0 || other >= last) continue;
     const double apart = std::abs(omega[other] - omega[mode]) / omega[mode];
     if (apart > near) continue;
-    record.warnings.push_back(fmt::format(
-        "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
+    warn(
+        record, "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
         std::max(mode, other) + 1,
         apart <= rounding ? "are equal" : fmt::format("differ by {:.1g} %", 100.0 * apart),
         apart <= 2.0 * equal_frequencies
             ? "they were combined so that the first of them moves the contacts most."
-            : "beyond contact each may run into the other, and energies are those of the linear mode that was asked for."));
+            : "beyond contact each may run into the other, and energies are those of the linear mode that was asked for.");
   }
 }
 
@@ -260,7 +337,6 @@ Record mode_record(const Scene& scene, const StructureModel& model, const Observ
   goes_on(observer, {"backbone"});
   Record record = record_of(study, observer);
   warn_of_equal_frequencies(record, study);
-  record.summary.emplace_back(quantities::warnings, record.warnings);
   return record;
 }
 

@@ -14,4 +14,17 @@ namespace wavebalance::app {
 std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
                                      const std::string& name = "motion");
 
+/// One of several motions of a record.
+struct WrittenMotion {
+  const solvers::Motion& contacts;
+  int contact;                       ///< the leading one
+  const Eigen::MatrixXd& structure;  ///< coordinates of motion_files()
+  Table impacts = {};                ///< impacts_table(); without columns: none
+};
+
+/// Its files NAME.csv of the leading contact, NAME_contacts.csv of all where there are several,
+/// NAME_impacts.csv, and those of the structure; `about` says which motion it is.
+void append_motion_files(Record& record, const Scene& scene, const StructureModel& model,
+                         const WrittenMotion& motion, const std::string& name, const std::string& about);
+
 }  // namespace wavebalance::app

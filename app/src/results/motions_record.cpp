@@ -7,7 +7,8 @@
 
 #include "drawing/motions_figure.hpp"
 #include "files/missing.hpp"
-#include "results/impacts_record.hpp"
+#include "results/contact_record.hpp"
+#include "results/extremes.hpp"
 #include "results/motion_files.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
@@ -38,11 +39,11 @@ Table motions_table(const Scene& scene, const Motions& all) {
   for (std::size_t i = 0; i < all.motions.size(); ++i) {
     const FoundMotion& one = all.motions[i];
     const solvers::MotionStability& stability = one.found.stability;
-    table.append_row({name_of_motion(i + 1) + ".csv", std::int64_t(i + 1), std::int64_t{one.found.periods},
-                      stability.status, stability.unstable < 0 ? missing : double(stability.unstable),
-                      stability.leading.real(), stability.leading.imag(), largest_displacement(one),
-                      largest_force(scene, one), one.found.share, one.found.share_error,
-                      std::string(to_string(one.found.found_by))});
+    table.append_row(row_of(name_of_motion(i + 1) + ".csv", i + 1, one.found.periods, stability.status,
+                            stability.unstable < 0 ? missing : double(stability.unstable),
+                            stability.leading.real(), stability.leading.imag(), largest_displacement(one),
+                            largest_force(scene, one), one.found.share, one.found.share_error,
+                            to_string(one.found.found_by)));
   }
   return table;
 }
@@ -53,33 +54,21 @@ std::string words_of(const FoundMotion& motion, std::size_t number) {
   return fmt::format("motion {}{}, {}", number, periods, motion.found.stability.status);
 }
 
-void append_files(Record& record, const Scene& scene, const StructureModel& model, const FoundMotion& motion,
-                  std::size_t number) {
-  const std::string name = name_of_motion(number), about = words_of(motion, number);
-  const bool several = motion.contacts.rows() > 1;
-  record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
-                          about + (several ? ": the leading contact" : "")});
-  if (several)
-    record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
-                            about + ": every contact"});
-  if (solves_by_impacts(scene) || !motion.found.motion.impacts.empty())
-    record.files.push_back({name + "_impacts.csv",
-                            csv_text(impacts_table(scene, motion.found.motion.impacts)),
-                            about + ": its impacts"});
-  for (RecordFile& file : motion_files(model, motion.structure, name)) {
-    file.about = about + ": the whole structure";
-    record.files.push_back(std::move(file));
-  }
+WrittenMotion written(const Scene& scene, const FoundMotion& motion) {
+  const std::vector<solvers::Impact>& impacts = motion.found.motion.impacts;
+  const bool strikes = solves_by_impacts(scene) || !impacts.empty();
+  return {motion.contacts, motion.contact, motion.structure,
+          strikes ? impacts_table(scene, impacts) : Table()};
 }
 
 void warn_of_none(Record& record, const Motions& all, int longest) {
   if (all.none == 0) return;
   std::vector<std::string> ends;
   for (const auto& [status, count] : all.none_by_status) ends.push_back(fmt::format("{} {}", count, status));
-  record.warnings.push_back(fmt::format(
-      "{} of {} random starts came to no motion of up to {} periods within the periods integrated{}: "
-      "motions may be missing.",
-      all.none, all.starts, longest, ends.empty() ? "" : fmt::format(" ({})", fmt::join(ends, ", "))));
+  warn(record,
+       "{} of {} random starts came to no motion of up to {} periods within the periods integrated{}: "
+       "motions may be missing.",
+       all.none, all.starts, longest, ends.empty() ? "" : fmt::format(" ({})", fmt::join(ends, ", ")));
 }
 
 /// Motions that are known by integration alone.
@@ -90,12 +79,12 @@ void append_unsolved(Record& record, const Motions& all) {
     const std::string status(to_string(one.status));
     const double share = all.starts > 0 ? double(one.arrivals) / all.starts : missing;
     table.append_row({status, std::int64_t{one.periods}, one.max_displacement, one.max_force, share});
-    record.warnings.push_back(fmt::format(
-        "The structure settles to a motion over {} period{} of the load with a largest displacement of {:.6g} m, by "
-        "integration, which contact phases did not solve for ({}).",
-        one.periods, one.periods == 1 ? "" : "s", one.max_displacement, status));
+    warn(record,
+         "The structure settles to a motion over {} period{} of the load with a largest displacement of "
+         "{:.6g} m, by integration, which contact phases did not solve for ({}).",
+         one.periods, one.periods == 1 ? "" : "s", one.max_displacement, status);
   }
-  record.summary.emplace_back(quantities::unsolved_motions, table);
+  record.add("unsolved_motions", table);
 }
 
 /// The box of the random states, by mode.
@@ -104,15 +93,7 @@ void append_box(Record& record, const Motions& all) {
   Table table({"mode", "largest_displacement_m", "largest_velocity_m_per_s"});
   for (std::size_t i = 0; i < all.box.size(); ++i)
     table.append_row({std::int64_t(i + 1), all.box[i].displacement, all.box[i].velocity});
-  record.summary.emplace_back(quantities::start_box, table);
-}
-
-/// The largest of a number of all motions; missing without any.
-template <class Number>
-double largest(const Motions& all, const Number& number) {
-  double value = missing;
-  for (const FoundMotion& one : all.motions) value = std::fmax(value, double(number(one)));
-  return value;
+  record.add("start_box", table);
 }
 
 }  // namespace
@@ -129,29 +110,28 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   record.converged = all.status == "converged";
   record.interrupted = all.status == "cancelled";
   record.status = record.interrupted ? "interrupted" : all.status;
-  record.summary =
-      solution_entries(record.converged, record.status,
-                       largest(all, [](const FoundMotion& one) { return one.found.motion.residual; }),
-                       iterations, unknowns, all.wall_seconds);
-  record.summary.emplace_back(quantities::max_displacement, largest(all, largest_displacement));
-  record.summary.emplace_back(quantities::min_displacement, -largest(all, [](const FoundMotion& one) {
-                                return -one.contacts.displacement.minCoeff();
-                              }));
-  record.summary.emplace_back(quantities::max_contact_force, largest(all, [&](const FoundMotion& one) {
-                                return largest_force(scene, one);
-                              }));
-  record.summary.emplace_back(quantities::analysis, name_of(scene.analysis.type));
-  record.summary.emplace_back(quantities::frequency, scene.forcing.frequency);
+  record.summary = solution_entries(
+      record.converged, record.status,
+      largest_of(all.motions, [](const FoundMotion& one) { return one.found.motion.residual; }), iterations,
+      unknowns, all.wall_seconds);
+  record.add(quantities::max_displacement, largest_of(all.motions, largest_displacement));
+  record.add(quantities::min_displacement, least_of(all.motions, [](const FoundMotion& one) {
+               return one.contacts.displacement.minCoeff();
+             }));
+  record.add(quantities::max_contact_force,
+             largest_of(all.motions, [&](const FoundMotion& one) { return largest_force(scene, one); }));
+  record.add(quantities::analysis, name_of(scene.analysis.type));
+  record.add(quantities::frequency, scene.forcing.frequency);
   const bool impacts = solves_by_impacts(scene);
-  record.summary.emplace_back(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::exact));
-  record.summary.emplace_back(quantities::random_starts, std::int64_t{all.starts});
-  record.summary.emplace_back(quantities::starts_without_motion, std::int64_t{all.none});
+  record.add(quantities::solved_by, impacts ? "impacts" : name_of(TimeMethod::exact));
+  record.add(quantities::random_starts, all.starts);
+  record.add("starts_without_motion", all.none);
   warn_of_scene(record, scene);
   warn_of_none(record, all, scene.analysis.longest_period);
-  record.summary.emplace_back(quantities::motions, motions_table(scene, all));
+  record.add(quantities::motions, motions_table(scene, all));
   append_unsolved(record, all);
   append_box(record, all);
-  record.summary.emplace_back(quantities::warnings, record.warnings);
+  record.add(quantities::warnings, record.warnings);
   // read_start_motion() takes these, since tables are not read.
   for (std::size_t i = 0; i < all.motions.size(); ++i)
     if (all.motions[i].found.periods > 1)
@@ -160,7 +140,8 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Obs
   append_structure(record.summary, scene, model);
   record.figure = motions_figure(scene, all);
   for (std::size_t i = 0; i < all.motions.size(); ++i)
-    append_files(record, scene, model, all.motions[i], i + 1);
+    append_motion_files(record, scene, model, written(scene, all.motions[i]), name_of_motion(i + 1),
+                        words_of(all.motions[i], i + 1));
   return record;
 }
 

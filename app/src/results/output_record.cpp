@@ -5,11 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/sweep_axis.hpp"
 #include "drawing/output_figure.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "results/vibration_record.hpp"
+#include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {
@@ -126,7 +125,7 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
   if (outputs.empty()) return;
   record.sweep =
       with_outputs(record.sweep, outputs, scene.analysis.output_harmonics, scene.analysis.branches);
-  record.summary.emplace_back(quantities::outputs, peaks_table(sweep, outputs));
+  record.add(quantities::outputs, peaks_table(sweep, outputs));
   append_leading_output(record.summary, scene, outputs.outputs);
   if (!sweep.curve.points.empty())
     record.output_pictures.push_back(
@@ -145,10 +144,9 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
   for (std::size_t i = 0; i < outputs.size(); ++i)
     record.outputs.add_column(outputs[i].column + "_" + outputs[i].unit,
                               Eigen::VectorXd(motion.row(Eigen::Index(i)).transpose()));
-  record.summary.emplace_back(
-      quantities::outputs,
-      measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods),
-                     exact_outputs(scene, model, response, outputs), harmonics));
+  record.add(quantities::outputs,
+             measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods),
+                            exact_outputs(scene, model, response, outputs), harmonics));
   append_leading_output(record.summary, scene, outputs);
   record.output_pictures.push_back(
       {"outputs", outputs_figure(outputs, motion, PeriodWindow(response)), "the motion of each output"});

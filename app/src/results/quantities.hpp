@@ -5,7 +5,8 @@
 
 #include "wavebalance/app/files/summary.hpp"
 
-/// The values that records of runs hold, each named in this one place.
+/// The values of records that have a unit or words, or that are read again, each named in this one place.
+/// Others are written by their name where they are known.
 namespace wavebalance::app::quantities {
 
 using enum EntryKind;
@@ -25,32 +26,20 @@ inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"},
     contact_directions{"contact_directions", setting}, degrees_of_freedom{"degrees_of_freedom", setting},
     reduced_degrees_of_freedom{"reduced_degrees_of_freedom", setting};
 
-inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"},
-    strategy{"strategy"}, form{"form"}, start_distance{"start_distance"},
-    contact_mass_frequency_change{"contact_mass_frequency_change"}, condition_estimate{"condition_estimate"},
-    rounding_error_estimate{"rounding_error_estimate"}, warnings{"warnings"},
-    estimated_error{"estimated_error"}, ladder{"ladder"}, ladder_seconds{"ladder_seconds", diagnostic, "s"},
-    attractor_periods{"attractor_periods"}, phases_status{"phases_status"},
+inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"}, form{"form"},
+    warnings{"warnings"}, estimated_error{"estimated_error"},
+    ladder_seconds{"ladder_seconds", diagnostic, "s"}, phases_status{"phases_status"},
     error_of_vibration{"error_of_vibration"}, error_of_displacement{"error_of_displacement"},
     peak_value_resolution{"peak_value_resolution"}, peak_place_resolution{"peak_place_resolution"},
-    error_of_force{"error_of_force"}, phases_estimated_error{"phases_estimated_error"},
-    phases_unknowns{"phases_unknowns"}, phases{"phases"}, structure_left_out{"structure_left_out"},
-    start_functions{"start_functions"}, solved_by{"solved_by"},
-    largest_error_of_displacement{"largest_error_of_displacement"},
-    largest_error_of_force{"largest_error_of_force"}, points_phases_converged{"points_phases_converged"},
-    points_not_found{"points_not_found"}, points_phases_not_known{"points_phases_not_known"},
-    points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"}, interruptions{"interruptions"},
-    stability{"stability"}, stability_by{"stability_by"},
+    error_of_force{"error_of_force"}, phases{"phases"}, solved_by{"solved_by"}, points{"points"},
+    points_tongue{"points_tongue"}, tongues{"tongues"}, stability{"stability"}, stability_by{"stability_by"},
     points_stability_not_known{"points_stability_not_known"}, stability_not_known{"stability_not_known"},
     unstable_parts{"unstable_parts"}, special_points{"special_points"}, random_starts{"random_starts"},
-    starts_without_motion{"starts_without_motion"}, unsolved_motions{"unsolved_motions"},
-    start_box{"start_box"}, branches{"branches"}, special_points_of_branches{"special_points_of_branches"},
     motions{"motions"}, structure_curve{"structure_curve"},
     structure_special_points{"structure_special_points"}, other_motions{"other_motions"}, isola{"isola"},
-    isolas{"isolas"}, special_points_of_isolas{"special_points_of_isolas"},
-    isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
-    isola_seconds{"isola_seconds", diagnostic, "s"}, at_rest{"at_rest"}, rest_status{"rest_status"},
-    outputs{"outputs"}, endless_contact{"endless_contact"}, endless_time{"endless_time_s", diagnostic, "s"};
+    isolas{"isolas"}, isola_frequencies{"isola_frequencies"}, isola_starts{"isola_starts"},
+    isola_seconds{"isola_seconds", diagnostic, "s"}, outputs{"outputs"},
+    endless_time{"endless_time_s", diagnostic, "s"};
 
 inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "max displacement"},
     min_displacement{"min_displacement_m", result, "m", "min displacement"},

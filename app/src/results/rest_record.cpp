@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "compose/structure_facts.hpp"
 #include "files/missing.hpp"
@@ -55,23 +54,20 @@ void append_rest(Record& record, const Scene& scene, const StructureModel& model
   const std::optional<RestState> rest = rest_state(scene, model);
   if (!rest || rest->trivial()) return;
   if (!rest->converged) {
-    record.summary.emplace_back(quantities::rest_status, rest->status);
+    record.add("rest_status", rest->status);
     return;
   }
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool directed = has_directions(contacts);
-  Table table(directed ? std::vector<std::string>{"contact", "direction", "displacement_m", "gap_m",
-                                                  "contact_force_N"}
-                       : std::vector<std::string>{"contact", "displacement_m", "gap_m", "contact_force_N"});
+  std::vector<Summary> rows;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    std::vector<Cell> row{std::int64_t{contacts[i].number}};
-    if (directed) row.emplace_back(direction_name(contacts[i]));
-    row.insert(row.end(),
-               {rest->displacement[Eigen::Index(i)], has_gap(contacts[i].law) ? contacts[i].gap : missing,
-                rest->force[Eigen::Index(i)]});
-    table.append_row(std::move(row));
+    Summary& row = rows.emplace_back(Summary{{"contact", contacts[i].number}});
+    if (directed) row.emplace_back("direction", direction_name(contacts[i]));
+    row.emplace_back("displacement_m", rest->displacement[Eigen::Index(i)]);
+    row.emplace_back("gap_m", has_gap(contacts[i].law) ? contacts[i].gap : missing);
+    row.emplace_back("contact_force_N", rest->force[Eigen::Index(i)]);
   }
-  record.summary.emplace_back(quantities::at_rest, std::move(table));
+  record.add("at_rest", table_of(rows));
 }
 
 std::string rest_lines(const Scene& scene) {

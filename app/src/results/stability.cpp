@@ -6,13 +6,12 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
+#include "results/extremes.hpp"
 #include "results/quantities.hpp"
 #include "results/structure_points.hpp"
 #include "results/summary_parts.hpp"
-#include "results/sweep_phases.hpp"
-#include "results/unstable_parts.hpp"
+#include "results/sweep_record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -42,41 +41,32 @@ bool folds_are_known(const solvers::CurveStability& stability) {
          });
 }
 
-/// The columns of special points, after `first`.
-std::vector<std::string> special_columns(std::vector<std::string> first, const SweepAxis& axis,
-                                         bool with_phases) {
-  first.insert(first.end(), {"type", axis.column(), "bracket_" + axis.suffix, "multiplier_real",
-                             "multiplier_imag", "max_displacement_m", "status"});
-  if (!with_phases) return first;
-  const std::vector<std::string> of_phases = phases_columns();
-  first.insert(first.end(), of_phases.begin(), of_phases.end());
-  return first;
-}
-
 /// Rows of special points, each after `first`. Where the structure has no motion near there is no multiplier.
-void append_special_points(Table& table, const std::vector<Cell>& first,
-                           const solvers::CurveStability& stability, solvers::SweepParameter parameter,
-                           const SweepPhases* phases) {
+/// `phases` are those of the curve, and empty where they were sought along others alone.
+void append_special_points(std::vector<Summary>& rows, const Summary& first, const Sweep& sweep,
+                           const solvers::CurveStability& stability, const SweepPhases* phases) {
   for (std::size_t i = 0; i < stability.special_points.size(); ++i) {
     const solvers::SpecialPoint& point = stability.special_points[i];
     const bool sought = phases != nullptr && i < phases->special_points.size();
     const SweepPhases::Point near = sought ? phases->special_points[i] : SweepPhases::Point();
     const bool none = was_not_found(near);
-    std::vector<Cell> row = first;
-    row.insert(row.end(), {std::string(to_string(point.type)), parameter_of(point, parameter), point.bracket,
-                           none ? missing : point.multiplier.real(), none ? missing : point.multiplier.imag(),
-                           point.max_displacement, std::string(point.located ? "located" : "bracketed")});
-    if (phases != nullptr)
-      for (Cell& cell : phases_cells(near)) row.push_back(std::move(cell));
-    table.append_row(std::move(row));
+    const SweepAxis axis = sweep_axis(sweep);
+    Summary& row = rows.emplace_back(first);
+    row.emplace_back("type", to_string(point.type));
+    row.emplace_back(axis.column(), parameter_of(point, sweep.curve.parameter));
+    row.emplace_back("bracket_" + axis.suffix, point.bracket);
+    row.emplace_back("multiplier_real", none ? missing : point.multiplier.real());
+    row.emplace_back("multiplier_imag", none ? missing : point.multiplier.imag());
+    row.emplace_back(quantities::max_displacement, point.max_displacement);
+    row.emplace_back(quantities::status, point.located ? "located" : "bracketed");
+    if (phases != nullptr) append_phases(row, near);
   }
 }
 
 Table table_of(const Sweep& sweep) {
-  const SweepPhases* phases = sweep.phases_of(0);
-  Table table(special_columns({}, sweep_axis(sweep), phases != nullptr));
-  append_special_points(table, {}, sweep.stability, sweep.curve.parameter, phases);
-  return sweep.structure_points ? with_structure_points(table, sweep) : table;
+  std::vector<Summary> rows;
+  append_special_points(rows, {}, sweep, sweep.stability, sweep.phases_of(0));
+  return sweep.structure_points ? with_structure_points(std::move(rows), sweep) : table_of(rows);
 }
 
 /// No branch is followed there.
@@ -89,10 +79,10 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
     if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
   }
   if (places.empty()) return;
-  record.warnings.push_back(fmt::format(
-      "At the Neimark-Sacker point{} {} {} the motion becomes quasi-periodic: what begins there has no "
-      "period and is not followed.",
-      places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit));
+  warn(record,
+       "At the Neimark-Sacker point{} {} {} the motion becomes quasi-periodic: what begins there has no "
+       "period and is not followed.",
+       places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit);
 }
 
 /// Where no motion of the curve stays.
@@ -106,10 +96,10 @@ void warn_where_all_are_unstable(Record& record, const std::vector<solvers::Poin
   const std::string known = unknown > 0
                                 ? fmt::format("whose stability is known, {} of {}, ", unstable, points.size())
                                 : std::string("of the curve ");
-  record.warnings.push_back(fmt::format(
-      "All motions {}are unstable: a structure that is disturbed leaves them for motions that lie on other curves or are "
-      "not periodic.",
-      known));
+  warn(record,
+       "All motions {}are unstable: a structure that is disturbed leaves them for motions that lie on other "
+       "curves or are not periodic.",
+       known);
 }
 
 /// Whether a curve with this end can turn `count` times: an even number where it leaves the interval in the
@@ -132,35 +122,34 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   const bool differ = known && folds.size() != of_samples.size();
   if (differ) record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
   if (!can_turn(sweep.curve.status, listed.size())) {
-    record.warnings.push_back(fmt::format(
-        "turning_points_{} lists {} point{}, but a curve with this end turns an {} number of times: a fold is missing "
-        "from the list, or a point of it is none.{}",
-        suffix, listed.size(), listed.size() == 1 ? "" : "s", listed.size() % 2 == 0 ? "odd" : "even",
-        differ ? " All turns of the samples are in turning_points_of_samples_" + suffix + "." : ""));
+    warn(record,
+         "turning_points_{} lists {} point{}, but a curve with this end turns an {} number of times: a fold "
+         "is missing from the list, or a point of it is none.{}",
+         suffix, listed.size(), listed.size() == 1 ? "" : "s", listed.size() % 2 == 0 ? "odd" : "even",
+         differ ? " All turns of the samples are in turning_points_of_samples_" + suffix + "." : "");
     return;
   }
   if (!known || folds.size() >= of_samples.size()) return;
-  record.warnings.push_back(fmt::format(
-      "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
-      "functions and points.",
-      of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s"));
+  warn(record,
+       "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
+       "functions and points.",
+       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s");
 }
 
 }  // namespace
 
 void append_stability(Record& record, const ResponseStability& stability, std::string_view motion) {
-  record.summary.emplace_back(quantities::stability, stability.status);
-  if (stability.unstable >= 0)
-    record.summary.emplace_back(quantities::unstable_multipliers, std::int64_t{stability.unstable});
-  else
-    record.summary.emplace_back(quantities::unstable_multipliers, missing);
-  record.summary.emplace_back(quantities::leading_multiplier_real, stability.leading.real());
-  record.summary.emplace_back(quantities::leading_multiplier_imag, stability.leading.imag());
+  record.add(quantities::stability, stability.status);
+  record.add(quantities::unstable_multipliers, stability.unstable >= 0
+                                                   ? SummaryValue(std::int64_t{stability.unstable})
+                                                   : SummaryValue(missing));
+  record.add(quantities::leading_multiplier_real, stability.leading.real());
+  record.add(quantities::leading_multiplier_imag, stability.leading.imag());
   if (stability.unstable <= 0) return;
-  record.warnings.push_back(fmt::format(
-      "The {} is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that is "
-      "disturbed leaves it.",
-      motion, stability.unstable, stability.unstable == 1 ? "" : "s"));
+  warn(record,
+       "The {} is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that is "
+       "disturbed leaves it.",
+       motion, stability.unstable, stability.unstable == 1 ? "" : "s");
 }
 
 namespace {
@@ -173,13 +162,11 @@ void append_status_along(Record& record, const Sweep& sweep, bool complete) {
   const auto known = count([](const auto& point) { return point.unstable >= 0; });
   const std::int64_t left = std::ssize(sweep.curve.points) - known;
   const bool partly = complete && known > 0 && left > 0;
-  record.summary.emplace_back(quantities::stability, std::string(!complete ? "interrupted"
-                                                                 : partly  ? "partly_known"
-                                                                           : along.status));
-  record.summary.emplace_back(quantities::points_stability_not_known, left);
-  if (partly) record.summary.emplace_back(quantities::stability_not_known, along.status);
+  record.add(quantities::stability, !complete ? "interrupted" : partly ? "partly_known" : along.status);
+  record.add(quantities::points_stability_not_known, left);
+  if (partly) record.add(quantities::stability_not_known, along.status);
   Table parts = unstable_parts(sweep);
-  if (!parts.empty()) record.summary.emplace_back(quantities::unstable_parts, std::move(parts));
+  if (!parts.empty()) record.add(quantities::unstable_parts, std::move(parts));
 }
 
 }  // namespace
@@ -194,13 +181,13 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   append_status_along(record, sweep, complete);
   warn_where_all_are_unstable(record, sweep.stability_of(0).points);
   if (!scene.analysis.special_points) return;
-  record.summary.emplace_back(quantities::special_points, table_of(sweep));
+  record.add(quantities::special_points, table_of(sweep));
   append_structure_points(record, sweep);
   if (!sweep.unexplained.empty())
-    record.warnings.push_back(fmt::format(
-        "Before {:.6g} {} the number of unstable multipliers changes without a special point in the list: one is missing "
-        "there.",
-        fmt::join(sweep.unexplained, ", "), sweep_axis(sweep).unit));
+    warn(record,
+         "Before {:.6g} {} the number of unstable multipliers changes without a special point in the list: "
+         "one is missing there.",
+         fmt::join(sweep.unexplained, ", "), sweep_axis(sweep).unit);
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 
@@ -209,30 +196,15 @@ namespace {
 /// Where a branch began and how it ended.
 std::vector<Cell> branch_row(const Sweep& sweep, std::size_t index) {
   const solvers::Branch& branch = sweep.branches[index];
-  const solvers::CurveStability& parent =
-      branch.parent == 0 ? sweep.stability : sweep.branches[std::size_t(branch.parent) - 1].stability;
-  const auto frequency_at = [&](int point) {
-    return point < 0 ? missing : parent.special_points[std::size_t(point)].frequency;
-  };
-  double lowest = missing, highest = missing, largest = missing;
-  for (const auto& point : branch.curve.points) {
-    lowest = std::fmin(lowest, point.frequency);
-    highest = std::fmax(highest, point.frequency);
-    largest = std::fmax(largest, point.max_displacement);
-  }
-  const double last = branch.curve.points.empty() ? missing : branch.curve.points.back().frequency;
-  return {std::int64_t(index) + 1,
-          std::int64_t{branch.parent},
-          std::string(to_string(parent.special_points[std::size_t(branch.special_point)].type)),
-          frequency_at(branch.special_point),
-          std::int64_t{branch.periods * sweep.periods},
-          lowest,
-          highest,
-          largest,
-          std::int64_t(branch.curve.points.size()),
-          std::string(to_string(branch.end)),
-          last,
-          std::string(branch.stability.points.empty() ? "none" : to_string(branch.stability.status()))};
+  const solvers::CurveStability& parent = sweep.balances_of(std::size_t(branch.parent));
+  const solvers::SpecialPoint& origin = parent.special_points[std::size_t(branch.special_point)];
+  const std::vector<solvers::SweepPoint>& points = branch.curve.points;
+  return row_of(index + 1, branch.parent, to_string(origin.type), origin.frequency,
+                branch.periods * sweep.periods, least_of(points, &solvers::SweepPoint::frequency),
+                largest_of(points, &solvers::SweepPoint::frequency),
+                largest_of(points, &solvers::SweepPoint::max_displacement), points.size(),
+                to_string(branch.end), points.empty() ? missing : points.back().frequency,
+                branch.stability.points.empty() ? "none" : to_string(branch.stability.status()));
 }
 
 bool ended_well(const solvers::Branch& branch) {
@@ -252,76 +224,58 @@ void append_branches(Record& record, const Sweep& sweep) {
     table.append_row(branch_row(sweep, i));
     warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points, sweep);
     if (ended_well(sweep.branches[i])) continue;
-    record.warnings.push_back(
-        fmt::format("Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end)));
+    warn(record, "Branch {} was not followed to an end: {}.", i + 1, to_string(sweep.branches[i].end));
   }
-  record.summary.emplace_back(quantities::branches, table);
-  Table special(special_columns({"branch"}, sweep_axis(sweep), !sweep.phases.empty()));
+  record.add("branches", table);
+  std::vector<Summary> special;
   for (std::size_t i = 0; i < sweep.branches.size(); ++i)
-    append_special_points(special, {std::int64_t(i) + 1}, sweep.branches[i].stability,
-                          sweep.branches[i].curve.parameter, sweep.phases_of(i + 1));
-  record.summary.emplace_back(quantities::special_points_of_branches, special);
+    append_special_points(special, {{"branch", i + 1}}, sweep, sweep.branches[i].stability,
+                          sweep.phases_of(i + 1));
+  record.add("special_points_of_branches", table_of(special));
 }
 
 namespace {
 
 /// Where an isola lies and how it ended.
 std::vector<Cell> isola_row(const Sweep& isola, std::size_t number) {
-  double lowest = missing, highest = missing, largest = missing, force = missing, unstable = missing;
-  for (const auto& point : isola.curve.points) {
-    lowest = std::fmin(lowest, point.frequency);
-    highest = std::fmax(highest, point.frequency);
-    largest = std::fmax(largest, point.max_displacement);
-    force = std::fmax(force, point.max_force);
-  }
+  const std::vector<solvers::SweepPoint>& points = isola.curve.points;
   const StabilityAlong stability = isola.stability_of(0);
+  double unstable = missing;
   for (const auto& point : stability.points)
     if (point.unstable >= 0) unstable = (std::isnan(unstable) ? 0.0 : unstable) + (point.unstable > 0);
-  return {static_cast<std::int64_t>(number),
-          isola.origin.frequency,
-          std::string(isola.origin.start == 0  ? "rest"
-                      : isola.origin.start < 0 ? "resonance"
-                                               : "random"),
-          lowest,
-          highest,
-          largest,
-          force,
-          std::int64_t(isola.curve.points.size()),
-          unstable,
-          isola.status(),
-          std::string(stability.points.empty() ? "none" : stability.status)};
+  const char* from = isola.origin.start == 0 ? "rest" : isola.origin.start < 0 ? "resonance" : "random";
+  return row_of(number, isola.origin.frequency, from, least_of(points, &solvers::SweepPoint::frequency),
+                largest_of(points, &solvers::SweepPoint::frequency),
+                largest_of(points, &solvers::SweepPoint::max_displacement),
+                largest_of(points, &solvers::SweepPoint::max_force), points.size(), unstable, isola.status(),
+                stability.points.empty() ? "none" : stability.status);
 }
 
 void warn_of_isola(Record& record, const Sweep& isola, std::size_t number) {
   warn_of_quasi_periodic_motions(record, isola.stability.special_points, isola);
   if (isola.origin.meets_known)
-    record.warnings.push_back(fmt::format(
-        "Isola {}, found at {:.6g} Hz, ends on a curve that was known: a step on one of the two was too long, and "
-        "they are parts of one curve or cross. A smaller analysis.largest_step tells which.",
-        number, isola.origin.frequency));
-  if (!isola.converged())
-    record.warnings.push_back(
-        fmt::format("Isola {} was not followed to an end: {}.", number, isola.status()));
+    warn(record,
+         "Isola {}, found at {:.6g} Hz, ends on a curve that was known: a step on one of the two was too "
+         "long, and they are parts of one curve or cross. A smaller analysis.largest_step tells which.",
+         number, isola.origin.frequency);
+  if (!isola.converged()) warn(record, "Isola {} was not followed to an end: {}.", number, isola.status());
 }
 
 void append_isolas_found(Record& record, const Sweep& sweep) {
   Table table({"isola", "found_at_Hz", "found_from", "lowest_frequency_Hz", "highest_frequency_Hz",
                "max_displacement_m", "max_contact_force_N", "points", "points_unstable", "status",
                "stability"});
-  Table special(special_columns({"isola"}, sweep_axis(sweep), !sweep.phases.empty()));
+  std::vector<Summary> special;
+  const SweepPhases none, *without = sweep.phases.empty() ? nullptr : &none;
   for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
     const Sweep& isola = sweep.isolas[i];
     table.append_row(isola_row(isola, i + 1));
     warn_of_isola(record, isola, i + 1);
-    const SweepPhases none;
-    const SweepPhases* phases = isola.phases_of(0);
-    append_special_points(special, {std::int64_t(i) + 1}, isola.stability, isola.curve.parameter,
-                          sweep.phases.empty() ? nullptr
-                          : phases == nullptr  ? &none
-                                               : phases);
+    append_special_points(special, {{"isola", i + 1}}, isola, isola.stability,
+                          without != nullptr && isola.phases_of(0) != nullptr ? isola.phases_of(0) : without);
   }
-  record.summary.emplace_back(quantities::isolas, table);
-  record.summary.emplace_back(quantities::special_points_of_isolas, special);
+  record.add(quantities::isolas, table);
+  record.add("special_points_of_isolas", table_of(special));
 }
 
 }  // namespace
@@ -330,17 +284,17 @@ void append_isolas(Record& record, const Scene& scene, const Sweep& sweep) {
   if (scene.contact.law == no_law || sweep.curve.points.empty()) return;
   const IsolaSearch& search = sweep.isola_search;
   const bool sought = !search.frequencies.empty();
-  record.summary.emplace_back(quantities::other_motions, std::string(sought ? "sought" : "not_sought"));
+  record.add(quantities::other_motions, sought ? "sought" : "not_sought");
   if (!sought) return;
-  record.summary.emplace_back(quantities::isola_frequencies, std::int64_t(search.frequencies.size()));
-  record.summary.emplace_back(quantities::isola_starts, std::int64_t{search.starts});
-  record.summary.emplace_back(quantities::isola_seconds, search.wall_seconds);
+  record.add(quantities::isola_frequencies, search.frequencies.size());
+  record.add(quantities::isola_starts, search.starts);
+  record.add(quantities::isola_seconds, search.wall_seconds);
   append_isolas_found(record, sweep);
   if (!search.unmatched.empty())
-    record.warnings.push_back(fmt::format(
-        "At {:.6g} Hz the structure settles to a motion of the load's period near which the balance has no response: "
-        "more functions may lead to one.",
-        fmt::join(search.unmatched, ", ")));
+    warn(record,
+         "At {:.6g} Hz the structure settles to a motion of the load's period near which the balance has no "
+         "response: more functions may lead to one.",
+         fmt::join(search.unmatched, ", "));
 }
 
 }  // namespace wavebalance::app

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
+#include "results/summary_parts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -40,10 +39,9 @@ Table table_of(const solvers::StructurePoints& points, const SweepAxis& axis) {
                "error_of_displacement", "of_balance"});
   for (std::size_t i = 0; i < points.events.size(); ++i) {
     const solvers::ExactEvent& event = points.events[i];
-    table.append_row({std::string(to_string(event.type)), event.value, event.multiplier.real(),
-                      event.multiplier.imag(), event.motion.displacement(instants()).maxCoeff(),
-                      std::int64_t(event.motion.phases.size()), event.motion.estimated_error,
-                      copies_of(points, i)});
+    table.append_row(row_of(to_string(event.type), event.value, event.multiplier.real(),
+                            event.multiplier.imag(), event.motion.displacement(instants()).maxCoeff(),
+                            event.motion.phases.size(), event.motion.estimated_error, copies_of(points, i)));
   }
   return table;
 }
@@ -62,27 +60,93 @@ void warn_of_parts_missed(Record& record, const solvers::StructurePoints& points
   if (points.passed_by.empty()) return;
   std::vector<double> places;
   for (const std::size_t fold : points.passed_by) places.push_back(points.events[fold].value);
-  record.warnings.push_back(fmt::format(
-      "The curve of the structure has {} fold{} that this curve passes by, at {} {}: what lies between "
-      "them is missing.",
-      places.size(), places.size() == 1 ? "" : "s", range_of(places), unit));
+  warn(record,
+       "The curve of the structure has {} fold{} that this curve passes by, at {} {}: what lies between "
+       "them is missing.",
+       places.size(), places.size() == 1 ? "" : "s", range_of(places), unit);
+}
+
+bool is_matched(solvers::StructurePointStatus status) {
+  return status == solvers::StructurePointStatus::found || status == solvers::StructurePointStatus::repeated;
+}
+
+bool is_jump(solvers::SpecialPointType type) {
+  return type == solvers::SpecialPointType::grazing || type == solvers::SpecialPointType::slip ||
+         type == solvers::SpecialPointType::stick;
+}
+
+/// A fold, say, of the structure beside one of its grazings, which the balance has not: its samples take both
+/// for one.
+std::optional<double> left_out_beside(const solvers::StructurePoints& structure, std::size_t event) {
+  const auto has_it = [&](std::size_t other) {
+    return std::any_of(structure.of_balance.begin(), structure.of_balance.end(),
+                       [&](const auto& near) { return near.event == other && is_matched(near.status); });
+  };
+  for (const std::size_t other : {event - 1, event + 1})
+    if (other < structure.events.size() && !is_jump(structure.events[other].type) && !has_it(other))
+      return structure.events[other].value;
+  return std::nullopt;
+}
+
+/// Where the special point of a curve lies: that of the structure where its whole curve was followed.
+double place_of(const Sweep& sweep, std::size_t number, std::size_t index) {
+  const bool main = number == 0;
+  const solvers::SpecialPoint& point = sweep.balances_of(number).special_points[index];
+  if (main && sweep.structure_points && sweep.structure_points->whole) {
+    const solvers::NearStructurePoint& near = sweep.structure_points->of_balance[index];
+    const std::optional<double> other = is_matched(near.status) && is_jump(point.type)
+                                            ? left_out_beside(*sweep.structure_points, near.event)
+                                            : std::nullopt;
+    if (is_matched(near.status)) return other.value_or(sweep.structure_points->events[near.event].value);
+  }
+  return parameter_of(point, sweep.curve.parameter);
+}
+
+/// The point at which stability changes between two neighbours whose stability is known, those before point
+/// `first` and at point `last` of a curve: where multipliers pass the unit circle, or jump at a grazing or a
+/// first slip.
+std::optional<double> change_between(const Sweep& sweep, std::size_t number, std::size_t first,
+                                     std::size_t last) {
+  const auto& points = sweep.balances_of(number).special_points;
+  std::optional<double> jump;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].next_point < first || points[i].next_point > last) continue;
+    jump = place_of(sweep, number, i);
+    if (!is_jump(points[i].type)) return jump;
+  }
+  return jump;
+}
+
+void append_parts(Table& table, const Sweep& sweep, std::size_t number, std::size_t isola) {
+  const solvers::FrequencySweep& curve = sweep.curve_of(number);
+  const std::vector<solvers::PointStability> points = sweep.stability_of(number).points;
+  const auto place = [&](std::size_t i) { return parameter_of(curve.points[i], curve.parameter); };
+  for (std::size_t i = 0; i < points.size() && i < curve.points.size(); ++i) {
+    if (points[i].unstable <= 0) continue;
+    const std::size_t first = i;
+    while (i + 1 < points.size() && points[i + 1].unstable > 0) ++i;
+    std::size_t before = first, after = i + 1;  // past points whose stability is not known
+    while (before > 0 && points[before - 1].unstable < 0) --before;
+    while (after + 1 < points.size() && points[after].unstable < 0) ++after;
+    std::vector<Cell> row =
+        row_of(number, change_between(sweep, number, before, first).value_or(place(first)),
+               change_between(sweep, number, i + 1, after).value_or(place(i)));
+    if (table.has_column("isola")) row.emplace_back(std::int64_t(isola));
+    table.append_row(std::move(row));
+  }
 }
 
 }  // namespace
 
-Table with_structure_points(const Table& special_points, const Sweep& sweep) {
-  std::vector<std::string> columns = special_points.columns();
-  columns.insert(columns.end(), {"structure_" + sweep_axis(sweep).column(), "structure_status"});
-  Table table(columns);
-  for (std::size_t i = 0; i < special_points.rows(); ++i) {
+Table with_structure_points(std::vector<Summary> special_points, const Sweep& sweep) {
+  for (std::size_t i = 0; i < special_points.size(); ++i) {
     const solvers::NearStructurePoint& near = sweep.structure_points->of_balance[i];
-    std::vector<Cell> row;
-    for (const std::string& column : special_points.columns()) row.push_back(special_points.at(i, column));
-    row.push_back(is_known(near) ? sweep.structure_points->events[near.event].value : missing);
-    row.push_back(std::string(to_string(near.status)));
-    table.append_row(std::move(row));
+    special_points[i].emplace_back(
+        "structure_" + sweep_axis(sweep).column(),
+        is_known(near) ? sweep.structure_points->events[near.event].value : missing);
+    special_points[i].emplace_back("structure_status", to_string(near.status));
   }
-  return table;
+  return table_of(special_points);
 }
 
 std::optional<std::vector<double>> structure_folds(const Sweep& sweep) {
@@ -96,9 +160,9 @@ std::optional<std::vector<double>> structure_folds(const Sweep& sweep) {
 void append_structure_points(Record& record, const Sweep& sweep) {
   if (!sweep.structure_points) return;
   const solvers::StructurePoints& points = *sweep.structure_points;
-  record.summary.emplace_back(quantities::structure_curve, std::string(points.whole ? "whole" : "stretches"));
+  record.add(quantities::structure_curve, points.whole ? "whole" : "stretches");
   warn_of_parts_missed(record, points, sweep_axis(sweep).unit);
-  record.summary.emplace_back(quantities::structure_special_points, table_of(points, sweep_axis(sweep)));
+  record.add(quantities::structure_special_points, table_of(points, sweep_axis(sweep)));
   const std::int64_t repeated = count_of(points, StructurePointStatus::repeated),
                      none = count_of(points, StructurePointStatus::none),
                      left = count_of(points, StructurePointStatus::not_known) +
@@ -107,17 +171,29 @@ void append_structure_points(Record& record, const Sweep& sweep) {
   if (repeated > 0) errors.push_back(fmt::format("{} repeat one of the structure", repeated));
   if (none > 0) errors.push_back(fmt::format("{} have none of their type near", none));
   if (!errors.empty())
-    record.warnings.push_back(fmt::format(
-        "Of {} special points of the curve {} are an error of the functions and points: {}. {}",
-        points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
-        points.events.empty()
-            ? std::string("No special point of the structure was found.")
-            : fmt::format("structure_special_points lists the {} of the structure.", points.events.size())));
+    warn(record, "Of {} special points of the curve {} are an error of the functions and points: {}. {}",
+         points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
+         points.events.empty()
+             ? std::string("No special point of the structure was found.")
+             : fmt::format("structure_special_points lists the {} of the structure.", points.events.size()));
   if (left == 0) return;
-  record.warnings.push_back(
-      fmt::format("For {} of {} special points of the curve it is not known whether the structure has them: "
-                  "structure_status names them.",
-                  left, points.of_balance.size()));
+  warn(record,
+       "For {} of {} special points of the curve it is not known whether the structure has them: "
+       "structure_status names them.",
+       left, points.of_balance.size());
+}
+
+Table unstable_parts(const Sweep& sweep) {
+  const SweepAxis axis = sweep_axis(sweep);
+  std::vector<std::string> columns{"branch", "begin_" + axis.suffix, "end_" + axis.suffix};
+  if (!sweep.isolas.empty()) columns.emplace_back("isola");
+  Table table(columns);
+  for (std::size_t isola = 0; isola <= sweep.isolas.size(); ++isola) {
+    const Sweep& one = isola == 0 ? sweep : sweep.isolas[isola - 1];
+    for (std::size_t number = 0; number <= one.branches.size(); ++number)
+      append_parts(table, one, number, isola);
+  }
+  return table;
 }
 
 }  // namespace wavebalance::app

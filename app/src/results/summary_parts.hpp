@@ -1,10 +1,19 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <string>
+#include <utility>
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
+
+/// Adds a sentence to the warnings of the record.
+template <class... Values>
+void warn(Record& record, fmt::format_string<Values...> text, Values&&... values) {
+  record.warnings.push_back(fmt::format(text, std::forward<Values>(values)...));
+}
 
 /// The first entries of every summary.
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
@@ -29,24 +38,16 @@ void add_contacts(Record& record, const Scene& scene, const solvers::Motion& con
 /// Which motion was found where those of several periods of the load were sought.
 void append_period(Record& record, int periods, int motion_periods);
 
-/// What the structure does from rest, where it was integrated.
-void append_attractor(Record& record, const Scene& scene, const Response& response);
-
-/// What the structure settles to beside an unstable response, and what was not sought.
-void append_settled(Record& record, const Scene& scene, const Response& response);
-
-/// Whether motions beside the response were sought.
-void append_other_motions(Record& record, const Scene& scene, const Response& response);
-
-/// The energy that contact takes from the structure in a period of the load, of laws that dissipate.
-void append_dissipation(Summary& summary, const Scene& scene, const Response& response);
-
 /// Sentences about loads and gaps that were probably meant otherwise: no load at all, and a gap below zero
 /// with obstacles on both sides.
 void warn_of_scene(Record& record, const Scene& scene);
 /// The same about contacts of which none closes, by how far (m) the one that comes nearest to its gap (m)
 /// stays from it; NaN where contacts differ.
 void warn_of_open_contacts(Record& record, double distance, double gap, const std::string& unit);
+
+/// Why a structure that is free to move has no periodic motion, and along what it moves. A response that was
+/// not found for another reason says nothing of its load.
+void warn_of_unbalanced_load(Record& record, const StructureModel& model);
 
 /// Where the solution started, and what to do if that led nowhere.
 void append_start(Record& record, const StartMotion& start, bool found, double distance);
@@ -56,8 +57,6 @@ void set_warnings(Record& record);
 /// The fields of the motion of the direction of contact `leading`; missing values of an empty motion.
 void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& contacts, int leading);
 
-/// The motion of the structure near the response: its phases of contact and the errors of the response.
-void append_phases(Record& record, const Scene& scene, const Response& response);
 /// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
 /// them.
 Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion);

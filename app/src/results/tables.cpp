@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "analysis/sweep_axis.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "results/sweep_phases.hpp"
+#include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -42,108 +41,95 @@ Table contacts_table(const Scene& scene, const solvers::Motion& contacts) {
 
 namespace {
 
-const std::vector<std::string> point_columns{quantities::frequency.column(),
-                                             quantities::max_displacement.column(),
-                                             quantities::rms_displacement.column(),
-                                             quantities::min_displacement.column(),
-                                             "max_abs_displacement_m",
-                                             quantities::max_contact_force.column(),
-                                             quantities::contact_fraction.column(),
-                                             quantities::vibration.column(),
-                                             quantities::rms_vibration.column()};
+using solvers::SweepPoint;
 
-std::vector<Cell> point_cells(const solvers::SweepPoint& point, solvers::SweepParameter parameter) {
-  return {parameter_of(point, parameter),
-          point.max_displacement,
-          point.rms_displacement,
-          point.min_displacement,
-          point.max_abs_displacement,
-          point.max_force,
-          point.contact_fraction,
-          point.vibration,
-          point.rms_vibration};
+Summary point_row(const SweepPoint& point, solvers::SweepParameter parameter, const std::string& place) {
+  return {{place, parameter_of(point, parameter)},
+          {quantities::max_displacement, point.max_displacement},
+          {quantities::rms_displacement, point.rms_displacement},
+          {quantities::min_displacement, point.min_displacement},
+          {"max_abs_displacement_m", point.max_abs_displacement},
+          {quantities::max_contact_force, point.max_force},
+          {quantities::contact_fraction, point.contact_fraction},
+          {quantities::vibration, point.vibration},
+          {quantities::rms_vibration, point.rms_vibration}};
 }
 
-/// Which columns a curve's table has beside those of its points.
+/// Which columns the table of a sweep has beside those of its points.
 struct MoreColumns {
-  bool stability, phases, branches, isolas, impacts, friction;
+  bool stability, phases, branches, isolas;
 };
 
-std::vector<std::string> columns_of(const std::string& place, const MoreColumns& more) {
-  std::vector<std::string> columns = point_columns;
-  columns.front() = place;
-  if (more.stability) columns.insert(columns.end(), {"unstable", "contacts"});
-  if (more.impacts)
-    columns.insert(columns.end(),
-                   {"impacts", "max_impulse_Ns", "impact_energy_J", "max_impact_velocity_m_per_s"});
-  if (more.friction)
-    columns.insert(columns.end(), {"friction_work_J", "stick_fraction", "slip_fraction", "open_fraction"});
-  if (more.branches) columns.insert(columns.end(), {"branch", "period"});
-  if (more.isolas) columns.push_back(quantities::isola.column());
-  if (!more.phases) return columns;
-  for (std::string& column : phases_columns()) columns.push_back(std::move(column));
-  if (more.stability) columns.push_back(quantities::stability_by.column());
-  return columns;
-}
+/// The curve of a sweep, 0, or of a branch, from 1; `isola` is the number of the sweep among the isolas.
+struct CurveRows {
+  const Sweep& sweep;
+  MoreColumns more;
+  std::size_t number = 0, isola = 0;
+  const solvers::FrequencySweep& curve = sweep.curve_of(number);
+  int periods = sweep.periods * (number == 0 ? 1 : sweep.branches[number - 1].periods);
+  StabilityAlong stability = sweep.stability_of(number);
 
-/// The points of the curve, 0, or of a branch, from 1; `isola` is the number of the sweep among the isolas.
-void append_rows(Table& table, const Sweep& sweep, std::size_t number, const MoreColumns& more,
-                 std::int64_t isola = 0) {
-  const solvers::FrequencySweep& curve = number == 0 ? sweep.curve : sweep.branches[number - 1].curve;
-  const int periods = number == 0 ? 1 : sweep.branches[number - 1].periods;
-  const StabilityAlong stability = sweep.stability_of(number);
-  const SweepPhases* phases = sweep.phases_of(number);
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    std::vector<Cell> row = point_cells(curve.points[i], curve.parameter);
+  /// A point of the curve; beyond them one that shows the columns.
+  Summary operator()(std::size_t i) const {
+    Summary row = point_row(at(curve.points, i), curve.parameter, sweep_axis(sweep).column());
+    const auto put = [&](const auto& name, auto value) { row.emplace_back(name, value); };
     if (more.stability) {
       const bool known = i < stability.points.size();
-      row.emplace_back(known && stability.points[i].unstable >= 0 ? stability.points[i].unstable : missing);
-      row.emplace_back(known ? stability.points[i].contacts : missing);
+      put("unstable", known && stability.points[i].unstable >= 0 ? stability.points[i].unstable : missing);
+      put("contacts", known ? stability.points[i].contacts : missing);
     }
-    if (more.impacts) {
-      const PointImpacts& impacts = sweep.impacts[number][i];
-      row.insert(row.end(), {std::int64_t{impacts.count}, impacts.largest_impulse, impacts.energy_lost,
-                             impacts.largest_speed});
+    if (!sweep.impacts.empty()) {
+      const PointImpacts& impacts = at(sweep.impacts[number], i);
+      put(quantities::impacts, impacts.count);
+      put(quantities::max_impulse, impacts.largest_impulse);
+      put(quantities::impact_energy, impacts.energy_lost);
+      put(quantities::max_impact_velocity, impacts.largest_speed);
     }
-    if (more.friction) {
-      const FrictionShares& friction = sweep.friction[number][i];
-      row.insert(row.end(), {friction.work, friction.stick, friction.slip, friction.open});
-    }
-    if (more.branches)
-      row.insert(row.end(), {static_cast<std::int64_t>(number), std::int64_t{periods * sweep.periods}});
-    if (more.isolas) row.emplace_back(isola);
-    if (more.phases) {
-      const bool sought = phases != nullptr && i < phases->points.size();
-      for (Cell& cell : phases_cells(sought ? phases->points[i] : SweepPhases::Point()))
-        row.push_back(std::move(cell));
-      if (more.stability) row.emplace_back(i < stability.by.size() ? stability.by[i] : "none");
-    }
-    table.append_row(std::move(row));
+    if (!sweep.friction.empty()) append_shares(row, at(sweep.friction[number], i));
+    if (more.branches) put("branch", number);
+    if (more.branches) put("period", periods);
+    if (more.isolas) put(quantities::isola, isola);
+    if (!more.phases) return row;
+    const SweepPhases* phases = sweep.phases_of(number);
+    append_phases(row, phases == nullptr ? SweepPhases::Point() : at(phases->points, i));
+    if (more.stability) put(quantities::stability_by, i < stability.by.size() ? stability.by[i] : "none");
+    return row;
   }
+
+ private:
+  template <class Value>
+  static const Value& at(const std::vector<Value>& values, std::size_t i) {
+    static const Value none{};
+    return i < values.size() ? values[i] : none;
+  }
+};
+
+void append_curve(Table& table, const CurveRows& rows) {
+  for (std::size_t i = 0; i < rows.curve.points.size(); ++i) table.append_row(cells_of(rows(i)));
 }
 
 }  // namespace
 
 Table sweep_table(const solvers::FrequencySweep& curve) {
-  Table table(point_columns);
-  for (const auto& point : curve.points) table.append_row(point_cells(point, curve.parameter));
+  const std::string place = quantities::frequency.column();
+  Table table(columns_of(point_row({}, curve.parameter, place)));
+  for (const SweepPoint& point : curve.points)
+    table.append_row(cells_of(point_row(point, curve.parameter, place)));
   return table;
 }
 
 Table sweep_table(const Sweep& sweep, bool with_branches) {
   const SweepPhases* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
-                         phases != nullptr && !phases->points.empty(),
-                         with_branches,
-                         !sweep.isola_search.frequencies.empty(),
-                         !sweep.impacts.empty(),
-                         !sweep.friction.empty()};
-  Table table(columns_of(sweep_axis(sweep).column(), more));
-  append_rows(table, sweep, 0, more);
+                         phases != nullptr && !phases->points.empty(), with_branches,
+                         !sweep.isola_search.frequencies.empty()};
+  const CurveRows first{sweep, more};
+  Table table(columns_of(first(first.curve.points.size())));
+  append_curve(table, first);
   for (std::size_t i = 1; with_branches && i <= sweep.branches.size(); ++i)
-    append_rows(table, sweep, i, more);
+    append_curve(table, {sweep, more, i});
   for (std::size_t i = 0; i < sweep.isolas.size(); ++i)
-    append_rows(table, sweep.isolas[i], 0, more, static_cast<std::int64_t>(i) + 1);
+    append_curve(table, {sweep.isolas[i], more, 0, i + 1});
   return table;
 }
 

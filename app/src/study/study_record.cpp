@@ -33,13 +33,6 @@ std::vector<ValueColumn> value_columns(const std::vector<StudyRow>& rows) {
   return columns;
 }
 
-Cell cell_of(const SummaryValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) return *number;
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
-  if (const auto* truth = std::get_if<bool>(&value)) return *truth;
-  return std::get<std::string>(value);
-}
-
 Cell found_cell(const StudyRow& row, const ValueColumn& column) {
   if (const Entry* found = find_entry(row.values, column.name)) return cell_of(found->value);
   return column.text ? Cell(std::string()) : Cell(missing);

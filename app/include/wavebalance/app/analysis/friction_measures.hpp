@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/contact/coulomb_law.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -45,6 +46,9 @@ struct FrictionShares {
 };
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);
+
+/// As columns of a table.
+void append_shares(Summary& row, const FrictionShares& shares);
 
 /// The same at each point of a curve of the scene that keeps its unknowns, at the quadrature points. Empty
 /// without such contacts. O(points samples).

@@ -5,6 +5,7 @@
 
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
@@ -105,6 +106,10 @@ class ModeStudy {
 
 /// "3:2"
 std::string resonance_name(const solvers::InternalResonance& resonance);
+
+/// The extremes and the rms of the contacts' displacements u (contacts x instants), each that of the contact
+/// where it is largest, as columns of a table; missing without a motion.
+void append_amplitudes(Summary& row, const Eigen::MatrixXd& u);
 
 /// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
 /// virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch

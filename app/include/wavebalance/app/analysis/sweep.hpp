@@ -104,11 +104,21 @@ struct Sweep {
   std::size_t peak() const;
   /// "reached_end" or "closed", or the reason why not, such as "interrupted" or "missed_part".
   std::string status() const;
+  /// The curve, 0, or a branch, from 1, and the stability of its balances.
+  const solvers::FrequencySweep& curve_of(std::size_t number) const {
+    return number == 0 ? curve : branches[number - 1].curve;
+  }
+  const solvers::CurveStability& balances_of(std::size_t number) const {
+    return number == 0 ? stability : branches[number - 1].stability;
+  }
   /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability
   /// that its record tells.
   const SweepPhases* phases_of(std::size_t number) const;
   StabilityAlong stability_of(std::size_t number) const;
 };
+
+/// What the sweep varies.
+SweepAxis sweep_axis(const Sweep& sweep);
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
 /// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step

@@ -35,11 +35,13 @@ struct Quantity {
 
 /// A named value with what is known of it.
 struct Entry {
-  Entry(std::string its_name, SummaryValue its_value)
-      : name(std::move(its_name)), value(std::move(its_value)) {}
-  Entry(const Quantity& quantity, SummaryValue its_value)
+  template <class Value>
+  Entry(std::string its_name, Value&& its_value)
+      : name(std::move(its_name)), value(stored_value(std::forward<Value>(its_value))) {}
+  template <class Value>
+  Entry(const Quantity& quantity, Value&& its_value)
       : name(quantity.name),
-        value(std::move(its_value)),
+        value(stored_value(std::forward<Value>(its_value))),
         kind(quantity.kind),
         unit(quantity.unit),
         words(quantity.words) {}
@@ -69,6 +71,14 @@ const Value* value_in(const Summary& summary, std::string_view name) {
 double number_in(const Summary& summary, const Quantity& quantity);
 /// A text; empty if there is none.
 std::string text_in(const Summary& summary, const Quantity& quantity);
+
+/// A row of a table of named scalars: its columns, and its cells.
+std::vector<std::string> columns_of(const Summary& row);
+std::vector<Cell> cells_of(const Summary& row);
+/// Rows with the same names; without columns if there are none.
+Table table_of(const std::vector<Summary>& rows);
+/// A scalar as a cell.
+Cell cell_of(const SummaryValue& value);
 
 /// `summary` as a JSON object in its order; numbers that are not finite become null.
 std::string json_text(const Summary& summary);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,6 +16,24 @@ namespace wavebalance::app {
 
 /// One value of a table or of a summary.
 using Cell = std::variant<double, std::int64_t, bool, std::string>;
+
+/// A value as tables and summaries hold it: whole numbers of any width as std::int64_t, texts as std::string.
+template <class Value>
+auto stored_value(Value&& value) {
+  using Plain = std::remove_cvref_t<Value>;
+  if constexpr (std::is_integral_v<Plain> && !std::is_same_v<Plain, bool>)
+    return static_cast<std::int64_t>(value);
+  else if constexpr (std::is_convertible_v<Value, std::string_view>)
+    return std::string(std::string_view(value));
+  else
+    return Plain(std::forward<Value>(value));
+}
+
+/// The cells of a row.
+template <class... Values>
+std::vector<Cell> row_of(Values&&... values) {
+  return {Cell(stored_value(std::forward<Values>(values)))...};
+}
 
 /// Anything that holds doubles side by side: std::vector<double>, Eigen::VectorXd, std::span<const double>.
 template <class Range>

@@ -53,7 +53,7 @@ std::string table_html(const std::vector<std::vector<std::string>>& rows, bool n
 /// What page_html() puts together.
 struct PageParts {
   std::string title;
-  std::string body;  ///< HTML, with one `main` element
+  std::string body = {};  ///< HTML, with one `main` element
   std::string assets =
       "assets/";  ///< folder of write_assets() as seen from the page; empty: all within the page
   std::vector<Library> libraries = {};    ///< those that are not available are left out; KaTeX needs `assets`

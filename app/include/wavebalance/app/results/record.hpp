@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/app/analysis/response.hpp"
@@ -50,6 +51,12 @@ struct Record {
   Figure figure;                              ///< without panels when there is nothing to draw
   std::vector<RecordFigure> motion_pictures;  ///< of the motions of points of a curve
   std::vector<RecordFigure> output_pictures;  ///< of analysis.outputs and of contacts, each for itself
+
+  /// At the end of the summary, by a Quantity or by its name alone.
+  template <class Name, class Value>
+  void add(const Name& name, Value&& value) {
+    summary.emplace_back(name, std::forward<Value>(value));
+  }
 };
 
 /// Where a solution starts, what watches it, and on how many threads it runs.

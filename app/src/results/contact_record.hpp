@@ -1,9 +1,18 @@
 #pragma once
+#include <vector>
+
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/results/record.hpp"
-#include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
+
+/// The name of a state of a contact, of any of the enums that have some of them.
+template <class State>
+std::string state_name(State state) {
+  if (state == State::open) return "open";
+  if (state == State::stick) return "stick";
+  return state == State::slip ? "slip" : "closed";
+}
 
 /// What contacts with friction do: their work, shares of the period, slip and wear in the summary, and
 /// friction.csv with the loops of force and displacement and the state at every instant, and how far the
@@ -16,5 +25,13 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
 /// instants).
 void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
                                const Response& response);
+
+/// impact, time_fraction, contact, velocity_before_m_per_s, velocity_after_m_per_s, impulse_Ns,
+/// energy_lost_J: a row for each impact of the motion's period, by time; contacts are counted from 1.
+Table impacts_table(const Scene& scene, const std::vector<solvers::Impact>& impacts);
+
+/// What impacts do in a response: how many there are, the largest impulse, the energy that they take in a
+/// period of the load, impacts.csv, and where there is no such motion what happens in its place.
+void append_impacts(Record& record, const Scene& scene, const Response& response);
 
 }  // namespace wavebalance::app

@@ -1,0 +1,254 @@
+#include "results/response_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/response_parts.hpp"
+#include "drawing/record_figure.hpp"
+#include "files/missing.hpp"
+#include "results/contact_record.hpp"
+#include "results/motion_files.hpp"
+#include "results/output_record.hpp"
+#include "results/quantities.hpp"
+#include "results/rest_record.hpp"
+#include "results/stability.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+Table level_table(const Refinement& refinement) {
+  Table table({"trial", "weight", "functions", "quadrature_points", "estimated_error", "truncation_error",
+               "quadrature_error", "residual", "iterations", "seconds"});
+  for (const auto& level : refinement.levels)
+    table.append_row({refinement.trial, refinement.weight, std::int64_t{level.functions},
+                      std::int64_t{level.points}, level.estimated_error, level.truncation, level.quadrature,
+                      level.residual, std::int64_t{level.iterations}, level.seconds});
+  return table;
+}
+
+void append_refinement(Summary& summary, const Refinement& refinement, double tolerance) {
+  summary.emplace_back(quantities::tolerance, tolerance);
+  summary.emplace_back(quantities::estimated_error, refinement.estimated_error);
+  summary.emplace_back("ladder", level_table(refinement));
+  summary.emplace_back(quantities::ladder_seconds, refinement.seconds);
+}
+
+/// Instants of the period at which the motion of a bar is kept for its report.
+constexpr int bar_instants = 128;
+
+/// The response's motion of the structure at bar_instants or, where that does not divide it, at all instants.
+Eigen::MatrixXd bar_motion_of(const Scene& scene, const StructureModel& model, const Response& response) {
+  const Eigen::MatrixXd& reduced = response.structure.displacement;
+  if (scene.structure.type != StructureType::bar || reduced.cols() == 0) return {};
+  const Eigen::MatrixXd nodes = model.recover(reduced);
+  const Eigen::Index step = nodes.cols() % bar_instants == 0 ? nodes.cols() / bar_instants : 1;
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(nodes.rows() + 1, nodes.cols() / step);
+  for (Eigen::Index k = 0; k < motion.cols(); ++k) motion.col(k).tail(nodes.rows()) = nodes.col(k * step);
+  return motion;
+}
+
+/// The response's motion of the structure at the instants that the scene writes.
+Eigen::MatrixXd written_motion(const Scene& scene, const Response& response) {
+  const Eigen::MatrixXd& all = response.structure.displacement;
+  const Eigen::Index points = scene.analysis.motion_points;
+  if (all.cols() <= points) return all;
+  return all(Eigen::all, Eigen::seqN(0, points, all.cols() / points));
+}
+
+void append_rigid(Summary& summary, const Response& response) {
+  if (!response.rigid) return;
+  const RigidContact& rigid = *response.rigid;
+  const bool moves = response.moves;
+  summary.emplace_back(quantities::max_penetration, moves ? std::max(0.0, rigid.max_penetration) : missing);
+  summary.emplace_back(quantities::min_contact_force, moves ? rigid.min_force : missing);
+  summary.emplace_back(quantities::complementarity, moves ? rigid.product : missing);
+}
+
+/// ", which analysis.subharmonic = 2 computes", where the scene takes it.
+std::string computed_by(const Scene& scene, int periods) {
+  SceneChange change = as_response(scene);
+  change.set.push_back(fmt::format("analysis.subharmonic={}", periods));
+  if (!accepts(scene, change)) return "";
+  return fmt::format(
+      ", which {}analysis.subharmonic = {} computes",
+      scene.analysis.type == AnalysisType::forced_response ? "" : "analysis.type = \"forced_response\" with ",
+      periods);
+}
+
+void append_attractor(Record& record, const Scene& scene, const Response& response) {
+  if (response.attractor_periods < 0) return;
+  record.add("attractor_periods", response.attractor_periods);
+  const int attractor = response.attractor_periods;
+  const char* start = response.flow ? "From contacts at rest" : "From rest";
+  if (attractor > 0 && response.periods % attractor == 0) {
+    if (!response.moves)
+      record.warnings.push_back(
+          "From rest the structure settles to a motion of this period, which the equations of these functions "
+          "and points were not solved for. More time.functions or time.method = \"exact\" may find it.");
+    return;
+  }
+  record.warnings.push_back(
+      attractor == 0
+          ? fmt::format("{} the motion did not repeat after up to 16 periods of the load within the periods "
+                        "integrated: it is aperiodic, or has not settled yet.",
+                        start)
+          : fmt::format("{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
+                        computed_by(scene, attractor)));
+}
+
+void append_settled(Record& record, const Scene& scene, const Response& response) {
+  if (!response.settled) return;
+  const SettledBeside& beside = *response.settled;
+  record.add(quantities::settled_periods, beside.periods);
+  record.add(quantities::settled_max_displacement, beside.periods > 0 ? beside.max_displacement : missing);
+  const std::string others =
+      std::string(" Other motions were not sought") +
+      (accepts(scene, {.analysis = "motions"}) ? "; analysis.type = \"motions\" seeks them." : ".");
+  if (beside.periods > 0)
+    warn(record,
+         "From rest the structure settles to {} motion, which repeats after {} of the load and has a "
+         "largest displacement of {:.6g} m{}.{}",
+         response.moves ? "another" : "a",
+         beside.periods == 1 ? "one period" : fmt::format("{} periods", beside.periods),
+         beside.max_displacement,
+         response.moves ? "" : " by integration; contact phases did not solve for it", others);
+  else
+    record.warnings.push_back(
+        (beside.periods == 0
+             ? "From rest the motion did not repeat after up to 16 periods of the load within the periods "
+               "integrated."
+             : "What the structure settles to from rest is not known.") +
+        others);
+}
+
+void append_other_motions(Record& record, const Scene& scene, const Response& response) {
+  if (!response.moves || scene.contact.law == no_law) return;
+  const bool integrated = integrates_in_time(scene.analysis.type) && !is_by_phases(response);
+  const bool from_rest = response.settled || (response.attractor_periods >= 0 && !integrated);
+  record.add(quantities::other_motions, from_rest ? "settled_from_rest" : "not_sought");
+}
+
+void append_dissipation(Summary& summary, const Scene& scene, const Response& response) {
+  if (!has_damped_contact(scene)) return;
+  const solvers::Motion& motion = response.contacts;
+  const solvers::ContactLaws laws = make_laws(scene);
+  double power = !response.moves || motion.empty() ? missing : 0.0;
+  for (int row = 0; row < motion.rows(); row += laws[row].rows())
+    if (!laws[row].friction()) power += motion.force.row(row).dot(motion.velocity.row(row)) / motion.points();
+  summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
+}
+
+/// The relative error of the vibration of the leading contact; missing without a motion.
+double vibration_error(const solvers::PhaseMotion& motion, const Response& response) {
+  if (motion.parts == nullptr) return missing;
+  const Eigen::MatrixXd exact = motion.displacement(time_fractions(response.contacts.points()));
+  const double vibration = solvers::largest_vibration(exact.row(response.contact)).half_peak_to_peak;
+  return std::abs(solvers::largest_vibration(response.leading().displacement).half_peak_to_peak - vibration) /
+         vibration;
+}
+
+void append_phases(Record& record, const Scene& scene, const Response& response) {
+  const solvers::ResponsePhases& found = *response.phases;
+  const bool known = found.motion.parts != nullptr;
+  if (is_by_phases(response)) {
+    record.add(quantities::tolerance, scene.time.tolerance);
+    record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
+    record.add("start_functions", response.start_functions);
+  } else {
+    record.add(quantities::phases_status, to_string(found.motion.status));
+    record.add(quantities::error_of_vibration, vibration_error(found.motion, response));
+    record.add(quantities::error_of_displacement, found.displacement_error);
+    record.add(quantities::error_of_force, found.force_error);
+  }
+  record.add("phases_estimated_error", known ? found.motion.estimated_error : missing);
+  record.add("phases_unknowns", found.motion.unknowns);
+  record.add(quantities::phases, phases_table(scene, found.motion));
+  const bool none = found.motion.status == solvers::PhasesStatus::not_found && !is_by_phases(response);
+  if (response.stability && !none)
+    record.add(quantities::stability_by, response.stability->by_phases ? "phases" : "balance");
+  if (!none) return;
+  record.warnings.emplace_back(
+      "Contact phases found no motion of the structure near this response, which solves the equations at its samples "
+      "alone. Whether there is one is not known. More functions may lead to it.");
+}
+
+}  // namespace
+
+int structure_points(const Scene& scene) {
+  const int written = std::max(0, scene.analysis.motion_points);
+  if (!scene.analysis.outputs.empty() || (has_friction(scene) && written == 0))
+    return scene.analysis.output_points;
+  if (written > 0 || scene.structure.type != StructureType::bar) return written;
+  return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
+}
+
+Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {
+  Record record;
+  record.warnings = model.warnings;
+  record.converged = response.converged;
+  record.status = response.status;
+  warn_of_unbalanced_load(record, model);
+  record.summary = solution_entries(response.converged, response.status, response.residual,
+                                    response.iterations, response.unknowns, response.wall_seconds);
+  append_motion(record.summary, scene, response.moves ? response.contacts : solvers::Motion{},
+                response.contact);
+  append_dissipation(record.summary, scene, response);
+  append_friction(record, scene, response, scene.forcing.frequency);
+  append_equivalent_damping(record, scene, model, response);
+  append_impacts(record, scene, response);
+  record.add(quantities::analysis, name_of(scene.analysis.type));
+  record.add(quantities::frequency, scene.forcing.frequency);
+  if ((scene.analysis.type == AnalysisType::forced_response || is_by_phases(response)) && !response.impacts)
+    record.add("strategy", response.strategy);
+  if (!response.solved_by.empty()) record.add(quantities::solved_by, response.solved_by);
+  warn_of_scene(record, scene);
+  const bool touches =
+      !response.struck.empty() || (response.forces_are_known() && response.contacts.force.any());
+  if (response.moves && scene.contact.law != no_law && !touches) {
+    const bool ring = names_plane(scene.contact);  // which is reached along any radius
+    const double gap = ring ? missing : model.gaps[response.contact];
+    warn_of_open_contacts(record, gap - response.leading().displacement.maxCoeff(), gap,
+                          displacement_unit(scene));
+  }
+  if (!response.impacts) append_period(record, response.periods, response.motion_periods);
+  if (response.periods > 1 && !response.impacts)
+    record.add(quantities::change_after_one_period, response.moves ? response.change_after_one : missing);
+  append_attractor(record, scene, response);
+  if (!response.form.empty()) record.add(quantities::form, response.form);
+  append_rigid(record.summary, response);
+  if (response.phases)
+    append_phases(record, scene, response);
+  else if (scene.analysis.phases && response.converged && !is_by_phases(response))
+    record.add(quantities::phases_status, "no_modes");
+  if (response.stability) append_stability(record, *response.stability);
+  append_settled(record, scene, response);
+  append_other_motions(record, scene, response);
+  append_condition(record, response.condition, response.rounding_error);
+  if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
+  if (response.structure_harmonics > 0) record.add("structure_left_out", response.structure_left_out);
+  if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response) && !response.impacts)
+    append_discretisation(record.summary, solved_time(scene.time, response));
+  append_structure(record.summary, scene, model);
+  append_rest(record, scene, model);
+  append_outputs(record, scene, model, response);
+  if (!response.moves || response.contacts.empty()) return record;
+  record.response = response_table(response.leading());
+  record.figure = response_figure(scene, response);
+  lead_with_output(record, scene);
+  add_contacts(record, scene, response.contacts, response.contact);
+  record.bar_motion = bar_motion_of(scene, model, response);
+  if (scene.analysis.motion_points > 0)
+    for (RecordFile& file : motion_files(model, written_motion(scene, response)))
+      record.files.push_back(std::move(file));
+  return record;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,256 @@
+#include "results/sweep_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drawing/record_figure.hpp"
+#include "files/missing.hpp"
+#include "results/curve_motion_files.hpp"
+#include "results/extremes.hpp"
+#include "results/output_record.hpp"
+#include "results/quantities.hpp"
+#include "results/rest_record.hpp"
+#include "results/stability.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/results/tables.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+using solvers::SweepPoint;
+
+double displacement_error(const SweepPhases::Point& point) {
+  return point ? point->displacement_error : missing;
+}
+double force_error(const SweepPhases::Point& point) { return point ? point->force_error : missing; }
+
+/// Over the curve and its branches.
+void append_phases_of_points(Record& record, const Sweep& sweep) {
+  std::vector<SweepPhases::Point> points;
+  for (const SweepPhases& curve : sweep.phases)
+    points.insert(points.end(), curve.points.begin(), curve.points.end());
+  if (points.empty()) return;
+  const auto found = std::count_if(points.begin(), points.end(), [](const SweepPhases::Point& point) {
+    return point && point->status == solvers::PhasesStatus::converged;
+  });
+  const auto none = std::count_if(points.begin(), points.end(), was_not_found);
+  const auto all = static_cast<std::int64_t>(points.size());
+  record.add("largest_error_of_displacement", largest_of(points, displacement_error));
+  record.add("largest_error_of_force", largest_of(points, force_error));
+  record.add("points_phases_converged", found);
+  record.add("points_not_found", none);
+  record.add("points_phases_not_known", all - found - none);
+  if (none == 0) return;
+  warn(record,
+       "At {} of {} points of the curve contact phases found no motion of the structure near the response, "
+       "as between the folds of the balance and those of the structure. No verdict of stability is given "
+       "there. More functions may lead to a motion.",
+       none, all);
+}
+
+/// "the fold at 1312.3 Hz", of those without a motion near.
+void append_places(std::vector<std::string>& places, const std::vector<solvers::SpecialPoint>& points,
+                   const SweepPhases& phases, const Sweep& sweep) {
+  for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
+    if (!was_not_found(phases.special_points[i])) continue;
+    std::string type(to_string(points[i].type));
+    std::replace(type.begin(), type.end(), '_', ' ');
+    places.push_back(fmt::format("the {} at {:.7g} {}", type, parameter_of(points[i], sweep.curve.parameter),
+                                 sweep_axis(sweep).unit));
+  }
+}
+
+void warn_of_places(Record& record, const Sweep& sweep) {
+  std::vector<std::string> places;
+  if (was_not_found(sweep.phases.front().peak)) places.emplace_back("the peak");
+  for (std::size_t i = 0; i < sweep.phases.size(); ++i)
+    append_places(places, sweep.balances_of(i).special_points, sweep.phases[i], sweep);
+  if (places.empty()) return;
+  warn(record,
+       "No motion of the structure was found near these points of the curve: {}. The balance solves the "
+       "equations at its samples alone there, and whether the structure has these points is not known. More "
+       "functions may lead to them.",
+       fmt::join(places, ", "));
+}
+
+void append_phases(Record& record, const Sweep& sweep) {
+  if (sweep.phases.empty()) return;
+  const SweepPhases::Point& peak = sweep.phases.front().peak;
+  record.add(quantities::phases_status, phases_status(peak));
+  record.add(quantities::error_of_displacement, displacement_error(peak));
+  record.add(quantities::error_of_force, force_error(peak));
+  append_phases_of_points(record, sweep);
+  warn_of_places(record, sweep);
+}
+
+void append_vibration(Record& record, const Scene& scene, const Sweep& sweep) {
+  const solvers::FrequencySweep& curve = sweep.curve;
+  const SweepAxis axis = sweep_axis(sweep);
+  std::vector<double> places, values;
+  for (const SweepPoint& point : curve.points) {
+    places.push_back(parameter_of(point, curve.parameter));
+    values.push_back(point.vibration);
+  }
+  const bool any = !values.empty();
+  const std::size_t peak = any ? vibration_peak_of(curve) : 0;
+  const PeakResolution resolution =
+      any ? peak_resolution(places, values, peak) : PeakResolution{missing, missing};
+  record.add(quantities::vibration, any ? values[peak] : missing);
+  record.add(quantities::vibration_place(axis.unit), any ? places[peak] : missing);
+  record.add(quantities::rms_vibration, largest_of(curve.points, &SweepPoint::rms_vibration));
+  record.add(quantities::peak_value_resolution, resolution.value);
+  record.add(quantities::peak_place_resolution, resolution.place);
+  if (!sweep.phases.empty() && !scene.analysis.exact)
+    record.add(quantities::error_of_vibration,
+               error_of_vibration(curve, sweep.phases.front().peak, scene.analysis.output_points));
+}
+
+void append_friction_along(Record& record, const Sweep& sweep) {
+  if (sweep.friction.empty()) return;
+  const std::vector<FrictionShares>& along = sweep.friction.front();
+  record.add(quantities::max_slip_fraction, largest_of(along, &FrictionShares::slip));
+  record.add(quantities::max_open_fraction, largest_of(along, &FrictionShares::open));
+}
+
+void append_impacts(Record& record, const Sweep& sweep) {
+  if (sweep.impacts.empty()) return;
+  const std::vector<PointImpacts>& along = sweep.impacts.front();
+  record.add(quantities::max_impulse, largest_of(along, &PointImpacts::largest_impulse));
+  record.add(quantities::max_impact_velocity, largest_of(along, &PointImpacts::largest_speed));
+  if (sweep.periods > 1) record.add(quantities::period_of_motion, sweep.periods);
+}
+
+/// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
+/// where contacts differ, and where the displacement alone does not say it.
+double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
+  if (curve.points.empty() || solves_by_impacts(scene)) return missing;
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {
+    return !other.pair && other.same_law(contacts.front());
+  });
+  const std::string& law = scene.contact.law;
+  if (one && curve.form != solvers::ContactForm::force && !is_damped(law) && !acts_on_both_sides(law))
+    return make_laws(scene)[0].force(displacement);
+  return largest_of(curve.points, &SweepPoint::max_force);
+}
+
+/// Whether a contact closes anywhere along the curve.
+bool touches(const Sweep& sweep) {
+  if (sweep.impacts.empty()) return largest_of(sweep.curve.points, &SweepPoint::max_force) > 0.0;
+  return std::any_of(sweep.impacts.front().begin(), sweep.impacts.front().end(),
+                     [](const PointImpacts& point) { return point.count > 0; });
+}
+
+/// Of each point, the most where they differ.
+int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
+  if (sweep.impacts.empty()) return model.contacts() * scene.time.functions;
+  const auto unknowns = [](const PointImpacts& point) { return 2.0 * point.count + 1.0; };
+  return sweep.impacts.front().empty() ? 0 : int(largest_of(sweep.impacts.front(), unknowns));
+}
+
+}  // namespace
+
+void append_phases(Summary& row, const SweepPhases::Point& point) {
+  row.emplace_back(quantities::error_of_displacement, displacement_error(point));
+  row.emplace_back(quantities::error_of_force, force_error(point));
+  row.emplace_back(quantities::phases_status, phases_status(point));
+}
+
+PeakResolution peak_resolution(std::span<const double> places, std::span<const double> values,
+                               std::size_t index) {
+  if (index == 0 || index + 1 >= values.size()) return {};
+  const auto [low, high] = std::minmax_element(places.begin(), places.end());
+  const double extent = std::max(*high - *low, 1e-300), height = values[index];
+  const auto distance = [&](std::size_t a, std::size_t b) {
+    return std::hypot((places[a] - places[b]) / extent, (values[a] - values[b]) / height);
+  };
+  const double before = distance(index - 1, index), after = distance(index, index + 1);
+  if (!(before > 0.0) || !(after > 0.0)) return {};
+  const double rise = (values[index] - values[index - 1]) / before,
+               fall = (values[index + 1] - values[index]) / after;
+  const double slope = (rise * after + fall * before) / (before + after),
+               curvature = (fall - rise) / (before + after);
+  if (!(curvature < 0.0)) return {};
+  const double way = -0.5 * slope / curvature;
+  const std::size_t beside = way < 0.0 ? index - 1 : index + 1;
+  return {std::abs(0.25 * slope * slope / curvature / height),
+          std::abs(way / (way < 0.0 ? before : after) * (places[beside] - places[index]))};
+}
+
+void leave_out_contact_fractions(const Scene& scene, Sweep& sweep) {
+  const std::vector<SceneContact> contacts = contacts_of(scene);
+  if (std::none_of(contacts.begin(), contacts.end(),
+                   [](const SceneContact& one) { return acts_everywhere(one.law); }))
+    return;
+  const auto leave_out = [](solvers::FrequencySweep& curve) {
+    for (solvers::SweepPoint& point : curve.points) point.contact_fraction = missing;
+  };
+  leave_out(sweep.curve);
+  for (solvers::Branch& branch : sweep.branches) leave_out(branch.curve);
+  for (Sweep& isola : sweep.isolas) leave_out(isola.curve);
+}
+
+Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
+                    const SweepOutputs& outputs, const std::vector<CurveMotion>& motions) {
+  Record record;
+  record.interrupted = sweep.stopped();
+  record.converged = sweep.converged() && !record.interrupted;
+  record.status = record.interrupted ? "interrupted" : sweep.status();
+  record.warnings = model.warnings;
+  warn_of_unbalanced_load(record, model);
+  if (!sweep.start_status.empty() && !record.interrupted)
+    warn(record, "Where the curve was to begin no periodic motion was found that a curve begins with: {}.{}",
+         sweep.start_status,
+         sweep.start_status == "undetermined"
+             ? " Nothing holds a body, whose motion may be anywhere; a soft spring to ground holds it."
+             : "");
+  const double highest = largest_of(sweep.curve.points, &SweepPoint::max_displacement);
+  const int points = static_cast<int>(sweep.curve.points.size());
+  record.summary =
+      solution_entries(record.converged, record.status, largest_of(sweep.curve.points, &SweepPoint::residual),
+                       points, unknowns_of(scene, model, sweep), sweep.wall_seconds);
+  record.add(quantities::max_displacement, highest);
+  record.axis = sweep_axis(sweep);
+  record.add(
+      quantities::peak_place(record.axis.unit),
+      points == 0 ? missing : parameter_of(sweep.curve.points[peak_of(sweep.curve)], sweep.curve.parameter));
+  record.add(quantities::min_displacement, least_of(sweep.curve.points, &SweepPoint::min_displacement));
+  record.add(quantities::rms_displacement, largest_of(sweep.curve.points, &SweepPoint::rms_displacement));
+  append_vibration(record, scene, sweep);
+  append_friction_along(record, sweep);
+  record.add(quantities::max_contact_force, largest_force(scene, sweep.curve, highest));
+  record.add(quantities::contact_fraction, largest_of(sweep.curve.points, &SweepPoint::contact_fraction));
+  record.add(quantities::analysis, name_of(scene.analysis.type));
+  if (scene.analysis.type == AnalysisType::amplitude_sweep)
+    record.add(quantities::frequency, scene.forcing.frequency);
+  record.add(quantities::points, points);
+  warn_of_scene(record, scene);
+  if (points > 0 && scene.contact.law != no_law && !touches(sweep))
+    warn_of_open_contacts(record, common_gap(scene) - highest, common_gap(scene), displacement_unit(scene));
+  if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
+  append_impacts(record, sweep);
+  append_stability(record, scene, sweep);
+  append_phases(record, sweep);
+  if (scene.analysis.branches) append_branches(record, sweep);
+  append_isolas(record, scene, sweep);
+  append_motions(record, scene, model, sweep, motions);
+  if (!sweep.impacts.empty()) {
+    record.add(quantities::solved_by, "impacts");
+  } else if (!sweep.exact_motions.empty() || scene.analysis.exact) {
+    record.add(quantities::solved_by, name_of(TimeMethod::exact));
+  } else {
+    append_discretisation(record.summary, scene.time);
+    record.add(quantities::form, to_string(sweep.curve.form));
+    append_condition(record, sweep.curve.condition, sweep.curve.rounding_error);
+  }
+  append_structure(record.summary, scene, model);
+  append_rest(record, scene, model);
+  record.sweep = sweep_table(sweep, scene.analysis.branches);
+  append_outputs(record, scene, sweep, outputs);
+  if (points > 0) record.figure = sweep_figure(scene, sweep, outputs);
+  return record;
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,34 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/curve_motions.hpp"
+#include "wavebalance/app/outputs/output_measures.hpp"
+#include "wavebalance/app/results/record.hpp"
+
+namespace wavebalance::app {
+
+/// The record of a curve over frequency or amplitude, with what was measured of its outputs and the motions
+/// of analysis.motion_at.
+Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
+                    const SweepOutputs& outputs, const std::vector<CurveMotion>& motions);
+
+/// Leaves the share of the period out at all points where a spring acts everywhere: it is never open, so that
+/// the share says nothing.
+void leave_out_contact_fractions(const Scene& scene, Sweep& sweep);
+
+/// The errors of a point and the status of its phases.
+void append_phases(Summary& row, const SweepPhases::Point& point);
+
+/// How well the points of a curve resolve the highest of them.
+struct PeakResolution {
+  double value = 0.0;  ///< by how much the parabola through it and its neighbours is higher, over its height
+  double place = 0.0;  ///< how far from it the parabola is highest, in the unit of `places`
+};
+
+/// Of the point `index` of a curve; zeros at an end of the curve, which is where it is.
+PeakResolution peak_resolution(std::span<const double> places, std::span<const double> values,
+                               std::size_t index);
+
+}  // namespace wavebalance::app
