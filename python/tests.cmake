@@ -18,7 +18,7 @@ else()
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/tests/*_test.py)
   foreach(test IN LISTS tests)
     get_filename_component(name ${test} NAME_WE)
-    wavebalance_add_python_test(${name} LABEL "unit;python" COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
+    wavebalance_add_python_test(${name} LABEL unit python COMMAND -m pytest -q -p no:cacheprovider --rootdir ${CMAKE_CURRENT_SOURCE_DIR}/tests ${test})
   endforeach()
   # The rooms of the app that each topic is about, for `make check ROOM=app/study`.
   set(rooms_of_analyses app/analysis app/outputs app/results)
