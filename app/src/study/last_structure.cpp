@@ -13,13 +13,11 @@ Scene structure_part(const Scene& scene) {
   part.analysis.type = scene.analysis.type;
   part.contact.law = scene.contact.law;
   part.contact.mass = scene.contact.mass;
-  for (const ContactPair& pair : scene.contact.pairs) {
-    part.contact.pairs.emplace_back();
-    ContactPair& one = part.contact.pairs.back();
-    one.dofs = pair.dofs;
-    one.coefficients = pair.coefficients;
-    one.side = pair.side;
-    one.law = pair.law;
+  part.contact.tangent = scene.contact.tangent;
+  part.contact.pairs = scene.contact.pairs;
+  for (ContactPair& pair : part.contact.pairs) {
+    pair.values.clear();
+    pair.gap = 0.0;
   }
   return part;
 }
