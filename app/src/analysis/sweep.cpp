@@ -78,7 +78,7 @@ std::string SweepAxis::label() const {
 SweepAxis sweep_axis(const Sweep& sweep) {
   if (sweep.curve.parameter == solvers::SweepParameter::frequency) return {};
   const std::string& unit = sweep.amplitude_unit;
-  return {"amplitude", unit, unit == "m/s^2" ? "m_per_s2" : unit};
+  return {"amplitude", unit, unit == "m/s^2" ? "m_per_s2" : unit == "kg m" ? "kg_m" : unit};
 }
 
 bool Sweep::stopped() const {

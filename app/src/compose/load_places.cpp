@@ -153,7 +153,8 @@ std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
   };
   add(unit);
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
-    if (scene.forcing.terms[i].kind == LoadKind::force) add(force_of(scene.forcing, i, files, unit));
+    if (scene.forcing.terms[i].kind == LoadKind::force || scene.forcing.terms[i].kind == LoadKind::unbalance)
+      add(force_of(scene.forcing, i, files, unit));
   std::vector<int> rows;
   for (Eigen::Index row = 0; row < loads.size(); ++row)
     if (loads[row] != 0.0) rows.push_back(static_cast<int>(row));

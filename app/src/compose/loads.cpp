@@ -86,6 +86,14 @@ void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm
   add_force(forces, {-(coupling.mass * direction), harmonics, 2});
 }
 
+/// m e (h w)^2 cos(h w t + phase) along the first row, and a quarter of a turn later along the second.
+void add_unbalance(std::vector<PeriodicForce>& forces, ForcingTerm term, const StructureFiles& files) {
+  for (const int dof : term.dofs) {
+    add_force(forces, {-forces_at_dofs({dof}, files), harmonics_of(term), 2});
+    term.phase -= 90.0;
+  }
+}
+
 }  // namespace
 
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
@@ -105,6 +113,8 @@ std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& p
     const ForcingTerm& term = forcing.terms[i];
     if (term.kind == LoadKind::base_displacement)
       add_base_displacement(forces, term, places);
+    else if (term.kind == LoadKind::unbalance)
+      add_unbalance(forces, term, *places.files);
     else if (term.kind == LoadKind::base_acceleration)
       add_force(forces, {-(places.files == nullptr ? places.inertia : inertia_of(term, *places.files)),
                          harmonics_of(term), 0});

@@ -166,28 +166,51 @@ void read_loads(StructureFiles& files, Eigen::Index size) {
                   read_load(files.term_paths[i], term_section(i) + ".load", size, files.paths[1])));
 }
 
+/// C + speed G and K + speed^2 K_s, as C and K.
+void add_turning_parts(StructureFiles& files) {
+  fem::Matrices& matrices = files.matrices;
+  const Eigen::Index size = matrices.stiffness.rows();
+  const auto part = [&](std::size_t path, const std::string& key, double sign, const char* kind) {
+    Eigen::SparseMatrix<double> matrix = read_matrix(files.paths[path], key);
+    require_size(matrix, key, files.paths[path], size, files.paths[1]);
+    const Eigen::SparseMatrix<double> other = matrix.transpose();
+    if ((matrix - sign * other).norm() <= 1e-10 * matrix.norm()) return matrix;
+    throw StructureFault(key, fmt::format("the matrix in {} is not {}; expected all of it, both triangles",
+                                          files.paths[path], kind));
+  };
+  if (!files.paths[5].empty()) {
+    if (matrices.damping.size() == 0) matrices.damping.resize(size, size);
+    matrices.damping += files.spin_speed * part(5, "structure.gyroscopic", -1.0, "skew-symmetric");
+  }
+  if (!files.paths[6].empty())
+    matrices.stiffness +=
+        files.spin_speed * files.spin_speed * part(6, "structure.spin_stiffness", 1.0, "symmetric");
+}
+
 /// What a scene says of its files, none of which has been read.
 StructureFiles named_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   StructureFiles files;
-  files.paths = {structure.mass, structure.stiffness, structure.damping, scene.forcing.load,
-                 structure.dof_map};
+  files.paths = {structure.mass,    structure.stiffness,  structure.damping,       scene.forcing.load,
+                 structure.dof_map, structure.gyroscopic, structure.spin_stiffness};
+  files.spin_speed = spin_speed(scene);
   files.term_paths = term_paths(scene);
   files.mesh_path = structure.mesh;
   files.moving = moving_rows(scene);
-  files.unsymmetric = structure.unsymmetric;
+  files.unsymmetric = structure.unsymmetric || !structure.gyroscopic.empty();
   files.free = structure.free;
   files.reduced = scene.structure.kept_modes >= 0;
   return files;
 }
 
 bool same_names(const StructureFiles& a, const StructureFiles& b) {
-  return a.paths == b.paths && a.term_paths == b.term_paths && a.mesh_path == b.mesh_path &&
-         a.moving == b.moving && a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
+  return a.paths == b.paths && a.spin_speed == b.spin_speed && a.term_paths == b.term_paths &&
+         a.mesh_path == b.mesh_path && a.moving == b.moving && a.unsymmetric == b.unsymmetric &&
+         a.free == b.free && a.reduced == b.reduced;
 }
 
 StructureFiles read_files(StructureFiles files) {
-  const std::array<std::string, 5>& paths = files.paths;
+  const auto& paths = files.paths;
   fem::Matrices& matrices = files.matrices;
   matrices.stiffness = read_matrix(paths[1], stiffness_key);
   const Eigen::Index size = matrices.stiffness.rows();
@@ -198,6 +221,7 @@ StructureFiles read_files(StructureFiles files) {
     matrices.damping = read_matrix(paths[2], damping_key);
     require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
   }
+  add_turning_parts(files);
   if (!paths[4].empty()) {
     files.dof_map = read_map(paths[4], size, paths[1]);
     files.internal_from = fem::first_internal_node(matrices.stiffness, *files.dof_map);

@@ -19,14 +19,16 @@ struct MovedMesh;
 
 /// The files of a structure of matrices, read and checked.
 struct StructureFiles {
-  std::array<std::string, 5> paths;  ///< files of mass, stiffness, damping, load and dof map; empty: none
-  std::vector<int> moving;           ///< rows of the files, from 0, that a base displacement moves, ascending
-  std::vector<int> massless;         ///< rows of the files, from 0, without mass, which are condensed
-  Eigen::MatrixXd followers;         ///< massless x n: their displacements from those of the unknowns
-  std::vector<int> rows;             ///< n, the other rows of the files: those of the unknowns
-  fem::Matrices matrices;            ///< n x n; damping 0 x 0 if there is no file of it
-  fem::Matrices coupling;            ///< n x moving, the parts of M, C and K between unknowns and moving rows
-  Eigen::VectorXd load;              ///< n, or 0 if there is no file of it
+  /// Files of mass, stiffness, damping, load, dof map, G and K_s; empty: none.
+  std::array<std::string, 7> paths;
+  double spin_speed = 0.0;    ///< rad/s
+  std::vector<int> moving;    ///< rows of the files, from 0, that a base displacement moves, ascending
+  std::vector<int> massless;  ///< rows of the files, from 0, without mass, which are condensed
+  Eigen::MatrixXd followers;  ///< massless x n: their displacements from those of the unknowns
+  std::vector<int> rows;      ///< n, the other rows of the files: those of the unknowns
+  fem::Matrices matrices;     ///< n x n; damping 0 x 0 if there is no file of it
+  fem::Matrices coupling;     ///< n x moving, the parts of M, C and K between unknowns and moving rows
+  Eigen::VectorXd load;       ///< n, or 0 if there is no file of it
   std::vector<std::string> term_paths;      ///< of each term of the forcing, its file of a load; empty: none
   std::vector<Eigen::VectorXd> term_loads;  ///< likewise, n each, or 0
   std::optional<fem::DofMap> dof_map;

@@ -244,7 +244,13 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
   model.mesh = files->mesh;
   fem::Matrices matrices = files->matrices;
-  if (structure.stiffness_damping > 0.0) matrices.damping = structure.stiffness_damping * matrices.stiffness;
+  if (structure.stiffness_damping > 0.0) {
+    const Sparse proportional = structure.stiffness_damping * matrices.stiffness;
+    if (matrices.damping.size() == 0)
+      matrices.damping = proportional;
+    else  // gyroscopic forces
+      matrices.damping += proportional;
+  }
   const Eigen::VectorXd unit = unit_load(scene, *files);
   const Loads loads{scene.forcing.amplitude * unit,
                     forces_of(scene.forcing, {.force = unit,

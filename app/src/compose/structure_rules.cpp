@@ -55,6 +55,19 @@ void check_free(const Document& document, const Scene& scene) {
               "not with analysis.branches; expected analysis.branches = false");
 }
 
+/// The speed belongs to matrices that vary with it, and stays along a curve over the frequency.
+void check_turning(const Document& document, const Scene& scene) {
+  const MatricesStructure& structure = scene.structure.matrices;
+  const bool turns = !structure.gyroscopic.empty() || !structure.spin_stiffness.empty();
+  if (!turns && structure.spin_speed > 0.0)
+    fail_rule(document, {"structure.spin_speed"},
+              "expected structure.gyroscopic or structure.spin_stiffness beside it");
+  if (turns && structure.spin_speed == 0.0 && scene.analysis.type == AnalysisType::frequency_sweep)
+    fail_missing(document, "structure", "spin_speed",
+                 "a number in rad/s, at which the structure turns along the whole curve; a study over "
+                 "forcing.frequency turns it with the load");
+}
+
 /// It is defined for periodic motions that are sought as such.
 void check_loss_factor(const Document& document, const Scene& scene) {
   if (scene.structure.loss_factor == 0.0) return;
@@ -155,6 +168,7 @@ void check_structure_rules(const Document& document, Scene& scene) {
     check_directions(document, scene);
     check_files(document, scene);
     check_free(document, scene);
+    check_turning(document, scene);
   }
   check_gaps(document, scene);
 }

@@ -25,6 +25,10 @@ namespace {
 /// Digits that a reader takes in; scene.toml has all of them.
 std::string seven_digits(double value) { return number_text(rounded(value, 7)); }
 
+std::string turning_text(double speed) {
+  return speed > 0.0 ? fmt::format(", turning at {} rad/s", seven_digits(speed)) : "";
+}
+
 std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.
   const double first = std::sqrt(bar.youngs_modulus / bar.density) / (4.0 * bar.length);
@@ -34,12 +38,11 @@ std::string bar_line(const Structure& bar) {
 
 std::string blade_line(const Scene& scene) {
   const BladeStructure& blade = scene.structure.blade;
-  const std::string turning = fmt::format(", turning at {} rad/s", number_text(blade.rotation_speed));
   return fmt::format(
       "structure  blade, {} x {} x {} elements {}, {} degrees of freedom, reduced to {} ({}){}\n",
       blade.chord_elements, blade.thickness_elements, blade.span_elements, name_of(blade.element),
       structure_dofs(scene), reduced_size(scene), count_text(scene.structure.kept_modes, "mode"),
-      blade.rotation_speed > 0.0 ? turning : "");
+      turning_text(blade.rotation_speed));
 }
 
 std::string matrices_line(const Scene& scene) {
@@ -47,9 +50,10 @@ std::string matrices_line(const Scene& scene) {
   const auto condensed = static_cast<int>(structure_files(scene)->massless.size());
   const std::string size = (condensed > 0 ? count_text(condensed, "row") + " without mass condensed, " : "") +
                            count_text(structure_dofs(scene), "degree");
-  if (modes < 0) return fmt::format("structure  matrices, {} of freedom\n", size);
-  return fmt::format("structure  matrices, {} of freedom, reduced to {} ({})\n", size, reduced_size(scene),
-                     count_text(modes, "mode"));
+  const std::string reduced =
+      modes < 0 ? "" : fmt::format(", reduced to {} ({})", reduced_size(scene), count_text(modes, "mode"));
+  return fmt::format("structure  matrices, {} of freedom{}{}\n", size, reduced,
+                     turning_text(spin_speed(scene)));
 }
 
 std::string structure_line(const Scene& scene) {
@@ -89,12 +93,8 @@ std::string term_place(const Scene& scene, const ForcingTerm& term) {
 
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
-  struct Kind {
-    const char *name, *unit;
-  };
-  const Kind kind = term.kind == LoadKind::force               ? Kind{"force", " N"}
-                    : term.kind == LoadKind::base_displacement ? Kind{"base displacement", " m"}
-                                                               : Kind{"base acceleration", " m/s^2"};
+  std::string kind = name_of(term.kind);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
   const std::string size = number_text(term.amplitude);
   const std::string series = !term.samples.empty() ? size + " times samples"
                              : term.harmonic == 0  ? "static, " + size
@@ -102,8 +102,9 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string place = term_place(scene, term);
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
-  return fmt::format("           {}: {}{}{}{}\n", kind.name, series, term.samples.empty() ? kind.unit : "",
-                     phase, place.empty() ? "" : " " + place);
+  const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term.kind)) : "";
+  return fmt::format("           {}: {}{}{}{}\n", kind, series, unit, phase,
+                     place.empty() ? "" : " " + place);
 }
 
 /// The weight, and what it amounts to.

@@ -85,7 +85,8 @@ inline constexpr std::array peak_places{
     Quantity{"frequency_at_max_displacement_Hz", result, "Hz", "frequency at max displacement"},
     Quantity{"amplitude_at_max_displacement_N", result, "N", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_m", result, "m", "amplitude at max displacement"},
-    Quantity{"amplitude_at_max_displacement_m_per_s2", result, "m/s^2", "amplitude at max displacement"}};
+    Quantity{"amplitude_at_max_displacement_m_per_s2", result, "m/s^2", "amplitude at max displacement"},
+    Quantity{"amplitude_at_max_displacement_kg_m", result, "kg m", "amplitude at max displacement"}};
 
 /// That of a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& peak_place(std::string_view unit) {
@@ -98,7 +99,8 @@ inline constexpr std::array vibration_places{
     Quantity{"frequency_at_largest_vibration_Hz", result, "Hz", "frequency at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_N", result, "N", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_m", result, "m", "amplitude at largest vibration"},
-    Quantity{"amplitude_at_largest_vibration_m_per_s2", result, "m/s^2", "amplitude at largest vibration"}};
+    Quantity{"amplitude_at_largest_vibration_m_per_s2", result, "m/s^2", "amplitude at largest vibration"},
+    Quantity{"amplitude_at_largest_vibration_kg_m", result, "kg m", "amplitude at largest vibration"}};
 
 /// That of a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& vibration_place(std::string_view unit) {

@@ -59,10 +59,11 @@ template <>
 inline constexpr std::array<NamedValue<NyquistCoefficient>, 2> enum_names<NyquistCoefficient>{
     {{NyquistCoefficient::drop, "drop"}, {NyquistCoefficient::keep, "keep"}}};
 template <>
-inline constexpr std::array<NamedValue<LoadKind>, 3> enum_names<LoadKind>{
+inline constexpr std::array<NamedValue<LoadKind>, 4> enum_names<LoadKind>{
     {{LoadKind::force, "force"},
      {LoadKind::base_displacement, "base_displacement"},
-     {LoadKind::base_acceleration, "base_acceleration"}}};
+     {LoadKind::base_acceleration, "base_acceleration"},
+     {LoadKind::unbalance, "unbalance"}}};
 template <>
 inline constexpr std::array<NamedValue<AnalysisType>, 7> enum_names<AnalysisType>{
     {{AnalysisType::forced_response, "forced_response"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numbers>
 #include <stdexcept>
 
 #include "scene/enum_names.hpp"
@@ -21,14 +22,31 @@ std::string name_of(AnalysisType value) { return std::string(enum_name(value)); 
 std::string name_of(TimeMethod value) { return std::string(enum_name(value)); }
 std::string name_of(LoadKind value) { return std::string(enum_name(value)); }
 
+std::string_view unit_of(LoadKind kind) {
+  switch (kind) {
+    case LoadKind::force:
+      return "N";
+    case LoadKind::base_displacement:
+      return "m";
+    case LoadKind::base_acceleration:
+      return "m/s^2";
+    case LoadKind::unbalance:
+      return "kg m";
+  }
+  return "";
+}
+
+double spin_speed(const Scene& scene) {
+  const MatricesStructure& structure = scene.structure.matrices;
+  if (structure.gyroscopic.empty() && structure.spin_stiffness.empty()) return 0.0;
+  return structure.spin_speed > 0.0 ? structure.spin_speed : 2.0 * std::numbers::pi * scene.forcing.frequency;
+}
+
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   if (forcing.amplitude != 0.0) return ReferenceLoad{forcing.amplitude, "N"};
   for (const ForcingTerm& term : forcing.terms) {
     if (term.amplitude == 0.0 || (term.harmonic == 0 && term.samples.empty())) continue;
-    const bool force = term.kind == LoadKind::force;
-    return ReferenceLoad{term.amplitude, force                                      ? "N"
-                                         : term.kind == LoadKind::base_displacement ? "m"
-                                                                                    : "m/s^2"};
+    return ReferenceLoad{term.amplitude, unit_of(term.kind)};
   }
   return std::nullopt;
 }
@@ -152,8 +170,9 @@ void add_files(std::vector<std::string>& files, const contact::LawValues& values
 
 std::vector<std::string> input_files(const Scene& scene) {
   const MatricesStructure& matrices = scene.structure.matrices;
-  std::vector<std::string> files{matrices.mass,    matrices.stiffness, matrices.damping,
-                                 matrices.dof_map, matrices.mesh,      scene.forcing.load};
+  std::vector<std::string> files{matrices.mass,           matrices.stiffness, matrices.damping,
+                                 matrices.dof_map,        matrices.mesh,      matrices.gyroscopic,
+                                 matrices.spin_stiffness, scene.forcing.load};
   add_files(files, scene.contact.values);
   for (const ForcingTerm& term : scene.forcing.terms) files.insert(files.end(), {term.samples, term.load});
   for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);

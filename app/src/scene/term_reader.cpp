@@ -30,7 +30,8 @@ class TermReader {
 
   void check_samples() const {
     if (term_.samples.empty()) {
-      if (entry("amplitude") == nullptr) fail_without("amplitude", "a number in N, m or m/s^2, or samples");
+      if (entry("amplitude") == nullptr)
+        fail_without("amplitude", "a number in N, m, m/s^2 or kg m, or samples");
       return;
     }
     for (const std::string_view name : {"harmonic", "phase"})
@@ -44,7 +45,7 @@ class TermReader {
       for (const std::string_view name : {"dofs", "load", "direction"})
         if (const DocumentEntry* given = entry(name))
           fail_at(document_, *given, "only with structure.type = \"matrices\"");
-      if (term_.kind == LoadKind::base_displacement)
+      if (term_.kind == LoadKind::base_displacement || term_.kind == LoadKind::unbalance)
         fail_at(document_, *entry("kind"),
                 "only with structure.type = \"matrices\"; expected \"force\" or \"base_acceleration\"");
       return;
@@ -55,11 +56,24 @@ class TermReader {
       fail_at(
           document_, *entry("direction"),
           "expected structure.dof_map beside it, which says which rows move that way, or dofs in its place");
+    if (term_.kind == LoadKind::unbalance) check_unbalance();
     if (term_.kind == LoadKind::base_displacement && term_.dofs.empty())
       fail_without("dofs", "a list of integers, the rows that move");
     if (term_.kind == LoadKind::base_acceleration && term_.dofs.empty() && term_.direction.empty())
       fail_without("dofs",
                    "a list of integers, the rows that point along the motion of the base, or direction");
+  }
+
+  void check_unbalance() const {
+    if (const DocumentEntry* given = entry("samples"))
+      fail_at(document_, *given, "does not belong to an unbalance; expected harmonic and phase");
+    if (term_.harmonic == 0)
+      fail_at(document_, *entry("harmonic"), "an unbalance turns; expected 1 or more, times the frequency");
+    if (term_.dofs.empty())
+      fail_without("dofs", "the two rows of the plane in which it turns, or one of them");
+    if (term_.dofs.size() > 2)
+      fail_at(document_, *entry("dofs"),
+              "expected the two rows of the plane in which it turns, or one of them");
   }
 
   /// The key belongs to terms of one kind, and stands in place of dofs.

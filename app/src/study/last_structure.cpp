@@ -9,6 +9,7 @@ Scene structure_part(const Scene& scene) {
   Scene part;
   part.structure = scene.structure;
   part.forcing = scene.forcing;
+  part.structure.matrices.spin_speed = spin_speed(scene);  // by default that of the load
   part.forcing.frequency = 0.0;
   part.analysis.type = scene.analysis.type;
   part.contact.law = scene.contact.law;

@@ -37,13 +37,16 @@ std::vector<SceneKey> term_keys(std::size_t index) {
   std::vector<SceneKey> keys;
   const auto part = [index](auto& scene) -> auto& { return scene.forcing.terms[index]; };
   const Section term(keys, "forcing.terms", part);
-  term(&ForcingTerm::kind, "kind", "",
-       "a force, or the motion of supports: a base_displacement moves dofs of matrices, which are then no "
-       "unknowns, a base_acceleration moves all that holds the structure, with displacements relative to it",
-       derived("\"force\"", [](const Scene&) { return name_of(LoadKind::force); }));
-  term(&ForcingTerm::amplitude, "amplitude", "",
-       "in N, m or m/s^2, of amplitude cos(harmonic 2 pi frequency t + phase), or a factor on samples",
-       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
+  term(
+      &ForcingTerm::kind, "kind", "",
+      "a force, or the motion of supports: a base_displacement moves dofs of matrices, which are then no "
+      "unknowns, a base_acceleration moves all that holds the structure, with displacements relative to it; an "
+      "unbalance turns with harmonic times the frequency and pulls with its square",
+      derived("\"force\"", [](const Scene&) { return name_of(LoadKind::force); }));
+  term(
+      &ForcingTerm::amplitude, "amplitude", "",
+      "in N, m, m/s^2 or, mass times eccentricity, kg m, of amplitude cos(harmonic 2 pi frequency t + phase), or a factor on samples",
+      derived("1.0 with samples", [](const Scene&) { return 1.0; }));
   term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
        derived("1", [](const Scene&) { return std::int64_t{1}; }));
   term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",
@@ -55,7 +58,8 @@ std::vector<SceneKey> term_keys(std::size_t index) {
       path, none_by_default());
   term(&ForcingTerm::dofs, "dofs", "",
        "matrices: rows that each take the whole force or move with the base, as load_dofs; required with a "
-       "base, of which they are the rows that move (displacement) or point along its motion (acceleration)",
+       "base, of which they are the rows that move (displacement) or point along its motion (acceleration), "
+       "and with an unbalance: two rows, towards the second of which it turns from the first, or one",
        named_dofs,
        derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
   term(&ForcingTerm::load, "load", "",

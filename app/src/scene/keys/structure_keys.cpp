@@ -32,6 +32,12 @@ void add_bar(std::vector<SceneKey>& keys) {
       optional, only_with(of_responses()));
 }
 
+/// Analyses of structures whose matrices are not symmetric.
+Condition of_turning() {
+  return analysis_is(
+      {"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting", "motions"});
+}
+
 void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
   matrices(
@@ -50,7 +56,17 @@ void add_matrices(std::vector<SceneKey>& keys) {
       &MatricesStructure::unsymmetric, "unsymmetric", "",
       "true accepts a gyroscopic damping and a circulatory stiffness; false takes what is not symmetric for "
       "half of a matrix",
-      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping"})));
+      optional, only_with(of_turning()));
+  matrices(&MatricesStructure::gyroscopic, "gyroscopic", "N s^2/m",
+           "gyroscopic matrix G of a rotor, skew-symmetric: the damping is C + spin_speed G", path, optional,
+           only_with(of_turning()));
+  matrices(&MatricesStructure::spin_stiffness, "spin_stiffness", "N s^2/m",
+           "symmetric matrix K_s of what turning stiffens or softens: the stiffness is K + spin_speed^2 K_s",
+           path, optional, only_with(of_turning()));
+  matrices(&MatricesStructure::spin_speed, "spin_speed", "rad/s",
+           "speed at which a structure with gyroscopic or spin_stiffness turns; 0 for that of the load, 2 pi "
+           "forcing.frequency, but not along a frequency sweep, whose matrices do not vary",
+           not_negative, optional, only_with(of_turning()));
   matrices(
       &MatricesStructure::free, "free", "",
       "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "

@@ -54,7 +54,7 @@ bool integrates_in_time(AnalysisType type);
 /// Whether motions are followed over the frequency or the amplitude of the load.
 bool is_sweep(AnalysisType type);
 /// What a further load is, forcing.terms.kind: a force, or the motion of supports.
-enum class LoadKind { force, base_displacement, base_acceleration };
+enum class LoadKind { force, base_displacement, base_acceleration, unbalance };
 
 /// Contents of the files that a scene names; see structure_files.hpp.
 struct StructureFiles;
@@ -76,6 +76,9 @@ struct MatricesStructure {
   std::string dof_map = {};            ///< file that names the n rows by nodes [fem::read_dof_map]; or empty
   std::string mesh = {};               ///< file of the nodes and elements [fem::read_mesh]; or empty
   bool unsymmetric = false;            ///< damping and stiffness may be unsymmetric
+  std::string gyroscopic = {};         ///< file of G, skew-symmetric: C + spin_speed G; or empty
+  std::string spin_stiffness = {};     ///< file of K_s, symmetric: K + spin_speed^2 K_s; or empty
+  double spin_speed = 0.0;             ///< rad/s; 0: that of the load, 2 pi Forcing::frequency
   bool free = false;                   ///< the structure is free to move
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
   ReadFiles files = {};
@@ -201,7 +204,7 @@ bool has_impacts(const Contact& contact);
 struct ForcingTerm {
   LoadKind kind = LoadKind::force;
   int harmonic = 1;            ///< of Forcing::frequency; 0: static, without phase
-  double amplitude = 1.0;      ///< N; m of a base displacement; m/s^2 of a base acceleration
+  double amplitude = 1.0;      ///< in unit_of(kind)
   double phase = 0.0;          ///< degrees ahead of a cosine
   std::string samples = {};    ///< CSV file, its last column one period at uniform times; or empty
   std::vector<int> dofs = {};  ///< matrices: as Forcing::load_dofs; empty: where Forcing::amplitude acts
@@ -349,6 +352,8 @@ std::string name_of(NyquistCoefficient value);
 std::string name_of(AnalysisType value);
 std::string name_of(TimeMethod value);
 std::string name_of(LoadKind value);
+/// Of the amplitude of a term: "N", "m", "m/s^2" or "kg m", mass times eccentricity of an unbalance.
+std::string_view unit_of(LoadKind kind);
 
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
@@ -371,11 +376,14 @@ bool names_exact_method(const Scene& scene);
 /// moves_by_events().
 bool solves_by_phases(const Scene& scene);
 
+/// At which matrices with gyroscopic or spin_stiffness turn, rad/s; 0 for other structures.
+double spin_speed(const Scene& scene);
+
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,
 /// where that is 0, the first term that is not static. Null without any.
 struct ReferenceLoad {
   double amplitude;       ///< of the scene
-  std::string_view unit;  ///< "N", "m" or "m/s^2"
+  std::string_view unit;  ///< of unit_of()
 };
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing);
 
