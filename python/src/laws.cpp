@@ -10,6 +10,7 @@
 #include "bindings.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/contact/table_law.hpp"
+#include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::python {
@@ -165,10 +166,15 @@ solvers::ContactLaws laws_of(const py::object& laws) {
 solvers::ContactLaws laws_of(const py::object& laws, const solvers::LinearStructure& structure) {
   solvers::ContactLaws all = laws_of(laws);
   all.require(structure.contacts());
-  if (all.have_impacts())
+  if (solvers::need_events(all, structure)) {
+    const bool impacts = all.have_impacts();
     throw std::invalid_argument(
-        "laws: motions with impacts (restitution) have no functions; expected wavebalance.run(structure.scene(law, "
-        "frequency=...)), or a rigid obstacle without restitution");
+        std::string("laws: motions with ") +
+        (impacts ? "impacts (restitution)" : "rigid, static, moving or damped friction") +
+        " have no functions; expected wavebalance.run(structure.scene(law, frequency=...)), or " +
+        (impacts ? "a rigid obstacle without restitution"
+                 : "Coulomb friction with a tangential stiffness alone"));
+  }
   if (!contacts_are_massless(structure, all.rigid(structure.contacts())))
     throw std::invalid_argument(
         "laws: a rigid obstacle needs contacts without mass; expected Structure(..., "

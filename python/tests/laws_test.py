@@ -90,6 +90,19 @@ def test_a_rigid_law_with_restitution_is_a_scene_with_impacts():
         structure.scene(wb.Rigid(1.0, restitution=0.8), frequency=1.0, pair=wb.Pair())
 
 
+@pytest.mark.parametrize("law", [
+    wb.Coulomb(0.3, None, 2.0), wb.Coulomb(0.3, 40.0, 2.0, surface_speed=0.1), wb.Coulomb(0.3, 40.0, 2.0, tangential_damping=0.2)])
+def test_friction_without_a_balance_is_a_scene_from_event_to_event(law):
+    structure = wb.Structure(np.eye(1), 0.1 * np.eye(1), np.eye(1), [1.0], contacts=[0])
+    with pytest.raises(ValueError, match=r"friction have no functions; expected wavebalance.run\(structure.scene"):
+        wb.forced_response(structure, law, 0.2)
+    with pytest.raises(ValueError, match="no pair"):
+        structure.scene(law, frequency=0.2, pair=wb.Pair())
+    record = wb.run(structure.scene(law, frequency=0.2))
+    assert record.converged and record.summary["solved_by"] == "exact"
+    assert record.summary["friction"]["slip_m"][0] > 0.1
+
+
 def jeffcott():
     """A rotor of 1 kg on springs of 1 N/m, under a load of 0.363 N that turns."""
     turning = [([0.0, 0.363], [0.0, -1j])]

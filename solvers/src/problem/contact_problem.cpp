@@ -61,14 +61,18 @@ void ContactProblem::require_well_posed() const {
       return require_massless_rigid_contacts(structure(), laws_);
 }
 
+bool need_events(const ContactLaws& laws, const LinearStructure& structure) {
+  if (laws.have_impacts()) return true;
+  if (!laws.act_over_period()) return false;
+  const int contacts = static_cast<int>(structure.contacts());
+  for (int row = 0; row < contacts; row += laws[row].rows())
+    if (const auto friction = laws[row].friction(); friction && friction->needs_states) return true;
+  return !laws.have_finite_force() && !contacts_are_massless(structure, laws.rigid(contacts));
+}
+
 bool ContactProblem::moves_by_events() const {
-  if (laws_.have_impacts()) return true;
-  if (!laws_.act_over_period()) return false;
-  for (int row = 0; row < contacts(); row += laws_[row].rows())
-    if (const auto friction = laws_[row].friction(); friction && friction->needs_states) return true;
-  const bool with_mass =
-      !laws_.have_finite_force() && !contacts_are_massless(structure(), laws_.rigid(contacts()));
-  return with_mass || (dynamics() != nullptr && dynamics()->holding() > 0.0);
+  if (need_events(laws_, structure())) return true;
+  return laws_.act_over_period() && dynamics() != nullptr && dynamics()->holding() > 0.0;
 }
 
 SettledExact ContactProblem::settled_exact(double frequency, const TimeSteppingOptions& stepping,

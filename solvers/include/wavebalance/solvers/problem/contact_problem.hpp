@@ -33,6 +33,10 @@ struct ResponseStart {
   Eigen::VectorXd force{};         ///< N; empty where none is known
 };
 
+/// Whether no balance has motions of a structure that is held, under these laws: with impacts, rigid friction
+/// at a contact with mass, or friction that needs states.
+bool need_events(const ContactLaws& laws, const LinearStructure& structure);
+
 /// A structure with its contacts and their laws in one pair of time bases, under a cosine load and its other
 /// forces: what there is to ask of it. Frequencies are those of the load (Hz), of which a motion spans one
 /// period or, as it is said, several. What a question takes is put right before it, so that questions may
