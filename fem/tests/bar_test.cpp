@@ -96,7 +96,7 @@ TEST(Bar, NamesTheOptionThatIsWrong) {
            {{.elements = 0}, "elements is 0; it must be in 1..500000000"},
            {{.stiffness_damping = -1}, "stiffness_damping is -1; it must be finite and at least 0"},
            {{.lumped_fraction = 1.5}, "lumped_fraction is 1.5; it must be in [0, 1]"}})
-    expect_error([&] { bar(options); }, std::string("BarOptions: ") + words);
+    expect_error([&wrong = options] { bar(wrong); }, std::string("BarOptions: ") + words);
 }
 
 }  // namespace
