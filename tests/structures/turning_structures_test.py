@@ -125,5 +125,11 @@ def test_a_part_that_is_not_what_it_says_is_refused_by_key(matrices, name, rows,
     assert part in str(error)
 
 
+def test_check_says_the_speed_and_whose_frequencies_it_has():
+    text = wb.check(ROTOR)
+    assert "4 degrees of freedom, turning at 251.3274 rad/s" in text
+    assert "without gyroscopic forces" in text
+
+
 def test_a_speed_needs_a_part_that_it_turns():
     refused(ROTOR, "structure.spin_speed", "structure.gyroscopic", overrides={"structure.spin_speed": 10.0}, unset=["structure.gyroscopic"])

@@ -101,10 +101,12 @@ def test_an_exact_curve_with_a_stop_has_the_motions_of_two_forces_at_its_points(
         assert curve.sweep["max_displacement_m"][point] == pytest.approx(forced.summary["max_displacement_m"], rel=1e-6)
 
 
-def test_an_amplitude_sweep_is_over_mass_times_eccentricity():
+def test_an_amplitude_sweep_is_over_mass_times_eccentricity(tmp_path):
     analysis = 'type = "amplitude_sweep"\namplitude_from = 1e-3\namplitude_to = 4e-3'
-    record = solved(rotor(analysis=analysis, contact=STOP))
+    record = wb.run(rotor(analysis=analysis, contact=STOP))
     assert record.converged and next(iter(record.sweep)) == "amplitude_kg_m"
+    record.write(tmp_path / "out")
+    assert "at an amplitude of 0.004 kg m" in (tmp_path / "out" / "report.html").read_text()
     assert record.summary["amplitude_at_max_displacement_kg_m"] == pytest.approx(4e-3, rel=1e-9)
 
 

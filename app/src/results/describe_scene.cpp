@@ -333,7 +333,9 @@ std::string matrices_lines(const Scene& scene) {
   if (structure_dofs(scene) > most)
     return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);
   const StructureFacts facts = structure_facts(scene);
-  return "modes      " + modes_text(facts) + "\ncompliance " + compliance_text(facts) + "\n" +
+  const std::string at_rest =
+      scene.structure.matrices.gyroscopic.empty() ? "" : ", without gyroscopic forces";
+  return "modes      " + modes_text(facts) + at_rest + "\ncompliance " + compliance_text(facts) + "\n" +
          rest_lines(scene);
 }
 
