@@ -44,8 +44,7 @@ enum class AnalysisType {
 /// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
 /// itself by phases of contact.
 enum class TimeMethod { balance, exact };
-/// Fourier functions of the balances from which phases are sought, one after the other until there is a
-/// motion.
+/// Fourier functions of the balances from which phases are sought, in turn until there is a motion.
 inline constexpr std::array phases_starts{63, 127, 255, 511};
 /// time.tolerance of phases unless it is said.
 inline constexpr double default_phases_tolerance = 1e-9;
@@ -67,8 +66,7 @@ struct ReadFiles {
   bool operator==(const ReadFiles&) const { return true; }
 };
 
-/// A structure from any finite element code. Paths are absolute once loaded; in a file they are relative to
-/// it.
+/// A structure from any finite element code. Paths are absolute once loaded, in a file relative to it.
 struct MatricesStructure {
   std::string mass = {};               ///< file of a matrix [fem::read_matrix], n x n, kg
   std::string stiffness = {};          ///< likewise, N/m
@@ -194,13 +192,11 @@ bool names_rigid_friction(const Contact& contact);
 /// Whether one of these has friction against a surface that moves, with static_friction above friction, or
 /// with dashpots beside its springs, so that its force follows from its states alone.
 bool names_friction_of_states(const Contact& contact);
-/// Whether it is a rigid law with contact.restitution, so that motions are solved for by their impacts and
-/// have no functions.
+/// Whether it is a rigid law with contact.restitution, whose motions are found by their impacts.
 bool has_impacts(const Contact& contact);
 
-/// One entry of [[forcing.terms]], which acts beside Forcing::amplitude: amplitude cos(harmonic 2 pi
-/// frequency t
-/// + phase), or amplitude times a periodic function given by samples.
+/// One entry of [[forcing.terms]]: amplitude cos(harmonic 2 pi frequency t + phase), or amplitude times a
+/// periodic function given by samples.
 struct ForcingTerm {
   LoadKind kind = LoadKind::force;
   int harmonic = 1;            ///< of Forcing::frequency; 0: static, without phase
@@ -232,9 +228,9 @@ struct Forcing {
 };
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
-/// 2>". Time stepping and nonlinear
-/// modes with rigid contact do not use it. A tolerance stands in place of functions and
-/// quadrature_points, which are then chosen, and where it stands without trial and weight these are too.
+/// 2>". Time stepping and nonlinear modes with rigid contact do not use it. A tolerance stands in place of
+/// functions and quadrature_points, which are then chosen, and where it stands without trial and weight these
+/// are too.
 struct Time {
   std::string trial;
   std::string weight;
@@ -359,16 +355,15 @@ std::string_view unit_of(LoadKind kind);
 std::vector<std::string> input_files(const Scene& scene);
 
 /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other laws
-/// or of a structure that is free to move, of friction of such a structure, of friction without steps over
-/// samples, and of rigid friction at a contact that keeps its mass, as it does where the scene names no
-/// bases.
+/// or of a structure that is free to move, of friction of such a structure or of states alone, and of rigid
+/// friction at a contact that keeps its mass, as it does where the scene names no bases.
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);
 
 /// Whether its coexisting motions are sought from event to event.
 bool seeks_by_events(const Scene& scene);
-/// Whether analysis and method, which are read before contacts, ask for exact motions, with laws other than
+/// Whether analysis and method, which are read before contacts, ask for exact motions of other laws than
 /// impacts.
 bool names_exact_method(const Scene& scene);
 /// Whether its motion is solved for exactly, without functions and points of its own: time.method, and
@@ -388,8 +383,7 @@ struct ReferenceLoad {
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing);
 
 /// The scene whose motions have `times` times the period: with as many times the quadrature and output
-/// points, and the functions of as many times the harmonics, so that a motion of the scene repeated is one of
-/// its own.
+/// points, and the functions of as many times the harmonics, so that it has the scene's motions repeated.
 Scene with_longer_period(Scene scene, int times);
 
 /// Whether the mass of the contacts is redistributed: in responses and sweeps as contact.mass says, in modes
@@ -399,9 +393,7 @@ bool redistributes_mass(const Scene& scene);
 /// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other
 /// basis. Throws std::invalid_argument if `basis` names no basis.
 int daubechies_coefficients(const std::string& basis);
-
-/// True for "haar", "bspline" and "daubechiesN", false for "fourier". Throws std::invalid_argument for other
-/// names.
+/// True for "haar", "bspline" and "daubechiesN", false for "fourier"; else throws std::invalid_argument.
 bool is_wavelet(const std::string& basis);
 
 }  // namespace wavebalance::app
