@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "bindings.hpp"
+#include "problem.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 #include "wavebalance/contact/table_law.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
@@ -124,7 +125,15 @@ py::list law_catalogue() {
   return rows;
 }
 
+/// Whether no balance has the motions, so that a scene of them has no bases.
+bool needs_events(const Structure& structure, const py::object& laws) {
+  const solvers::ContactLaws all = laws_of(laws);
+  all.require(structure.contacts());
+  return solvers::need_events(all, structure) || (structure.is_free() && all.act_over_period());
+}
+
 void add_factories(py::module_& module) {
+  module.def("needs_events", &needs_events);
   module.def("law_catalogue", &law_catalogue);
   module.def("make_law", [](const std::string& name, const contact::LawValues& values) {
     return std::visit([](const auto& law) { return Law(law); }, contact::law_entry(name).make(values));

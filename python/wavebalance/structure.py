@@ -21,7 +21,6 @@ _PAIR_DIRECTIONS = (  # keys of [[contact.pairs]]
     ("tangent", "tangent_coefficients"),
     ("second_tangent", "second_tangent_coefficients"),
 )
-_KEYS_OF_EVENTS = ("restitution", "static_friction", "surface_speed", "tangential_damping", "normal_damping")
 Matrix = Any
 Force = tuple[npt.ArrayLike, npt.ArrayLike]
 
@@ -157,20 +156,13 @@ class Structure(_core.Structure):
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
         if self.contact_mass != "keep":
             result["contact"]["mass"] = self.contact_mass
-        if not self._needs_events(result["contact"]["pairs"]):
+        if not _core.needs_events(self, as_laws(laws)):
             result["time"] = (default_pair() if pair is None else pair).scene_keys()
         elif pair is not None:
             raise ValueError(f"motions under {laws!r} are solved from event to event and have no functions; expected no pair")
         if analysis:
             result["analysis"] = analysis
         return result
-
-    def _needs_events(self, pairs: Sequence[dict[str, Any]]) -> bool:
-        """Whether no balance has motions with these contacts: impacts, rigid friction with mass, friction of states."""
-        rigid = self.contact_mass == "keep" and any(
-            pair.get("law") == "coulomb" and not pair.get("tangential_stiffness") for pair in pairs
-        )
-        return rigid or any(key in pair for pair in pairs for key in _KEYS_OF_EVENTS)
 
     def _contact_keys(self, laws: LawLike) -> dict[str, Any]:
         given = as_laws(laws)

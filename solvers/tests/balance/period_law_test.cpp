@@ -114,8 +114,8 @@ TEST(PeriodLaw, OfSeveralRowsIsTheLawsOfOneInstantWhereTheseSayTheSame) {
   ForcedResponseOptions displacement;
   displacement.form = ContactForm::displacement;
   const PeriodicResponse together = testing::solved_response(problem, Wedge{3.0, 0.2, 0.0}, displacement);
-  const PeriodicResponse apart =
-      testing::solved_response(problem, ContactLaws({AnyContactLaw(wedge_stop), AnyContactLaw()}), displacement);
+  const PeriodicResponse apart = testing::solved_response(
+      problem, ContactLaws({AnyContactLaw(wedge_stop), AnyContactLaw()}), displacement);
   EXPECT_GT(apart.contact_force.maxCoeff(), 0.0);
   EXPECT_LE((together.displacement - apart.displacement).norm(), 1e-12 * apart.displacement.norm());
   EXPECT_EQ(together.iterations, apart.iterations);

@@ -64,7 +64,7 @@ void add_matrices(std::vector<SceneKey>& keys) {
            "symmetric matrix K_s of what turning stiffens or softens: the stiffness is K + spin_speed^2 K_s",
            path, optional, only_with(of_turning()));
   matrices(&MatricesStructure::spin_speed, "spin_speed", "rad/s",
-           "speed at which a structure with gyroscopic or spin_stiffness turns; 0 for that of the load, 2 pi "
+           "speed at which a structure with gyroscopic or spin_stiffness turns; 0 turns it with the load, 2 pi "
            "forcing.frequency, but not along a frequency sweep, whose matrices do not vary",
            not_negative, optional, only_with(of_turning()));
   matrices(

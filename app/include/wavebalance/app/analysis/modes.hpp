@@ -107,8 +107,8 @@ class ModeStudy {
 /// "3:2"
 std::string resonance_name(const solvers::InternalResonance& resonance);
 
-/// The extremes and the rms of the contacts' displacements u (contacts x instants), each that of the contact
-/// where it is largest, as columns of a table; missing without a motion.
+/// The extremes and the rms of the contacts' displacements u (contacts x instants), each at the contact where
+/// it is largest, as columns of a table; missing without a motion.
 void append_amplitudes(Summary& row, const Eigen::MatrixXd& u);
 
 /// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,

@@ -117,7 +117,7 @@ struct Sweep {
   StabilityAlong stability_of(std::size_t number) const;
 };
 
-/// What the sweep varies.
+/// The quantity over which a sweep runs, with its unit.
 SweepAxis sweep_axis(const Sweep& sweep);
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same

@@ -83,12 +83,12 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options);
 Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
                              const solvers::Observer& observer = {});
 
-/// The pairs that are compared, and those of common_pairs() that are not with the reasons.
+/// The pairs that are compared, and the other ones of common_pairs() with the reasons.
 struct SplitPairs {
   std::vector<BasisPair> admissible;
   std::vector<PairResult> others;
 };
-/// Those of the options, or the admissible ones of common_pairs().
+/// Splits the pairs of the options, or common_pairs(), by whether they are admissible.
 SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options);
 
 /// What each pair did, in the order of `pairs`; `points` as size_study() returns them.

@@ -82,7 +82,7 @@ std::optional<solvers::ContactProblem> timed_problem(const MeasuredScene& measur
 /// Sets the time of `solve`. False, with the status "singular", where it throws solvers::SingularSystem.
 bool time_solve(const std::function<void()>& solve, const Repetition& repetition, SolvePoint& point);
 
-/// Sets the errors of a motion, which are no smaller than those of the reference where these are given.
+/// Sets the errors of a motion, which are at least the errors of the reference where these are given.
 void set_errors(const MeasuredScene& measured, const solvers::Motion& motion, SolvePoint& point,
                 double least_displacement = 0.0, double least_force = 0.0);
 

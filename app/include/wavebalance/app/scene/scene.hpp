@@ -76,7 +76,7 @@ struct MatricesStructure {
   bool unsymmetric = false;            ///< damping and stiffness may be unsymmetric
   std::string gyroscopic = {};         ///< file of G, skew-symmetric: C + spin_speed G; or empty
   std::string spin_stiffness = {};     ///< file of K_s, symmetric: K + spin_speed^2 K_s; or empty
-  double spin_speed = 0.0;             ///< rad/s; 0: that of the load, 2 pi Forcing::frequency
+  double spin_speed = 0.0;             ///< rad/s; 0: 2 pi Forcing::frequency, with the load
   bool free = false;                   ///< the structure is free to move
   std::vector<int> contact_dofs = {};  ///< from 1; -i: dof i with its obstacle on the negative side
   ReadFiles files = {};
