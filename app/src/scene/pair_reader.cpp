@@ -87,6 +87,14 @@ class PairReader {
     for (const SharedParameter& one : law_parameters()) read_parameter(one.first.name);
   }
 
+  static std::string elastic_laws() {
+    std::string names;
+    for (const contact::LawEntry& law : contact::law_catalogue())
+      if (law.name != no_law && !law.rigid)
+        names += (names.empty() ? "\"" : ", \"") + std::string(law.name) + "\"";
+    return names;
+  }
+
   /// Laws of pairs are beside a law of the scene.
   void check_mixture(const DocumentEntry& own) const {
     if (scene_.contact.law == no_law)
@@ -94,6 +102,10 @@ class PairReader {
           document_, own,
           "does not belong to a scene with contact.law = \"none\", which has no contact; expected another "
           "contact.law, or none, where all pairs have a law");
+    if (is_rigid(pair_.law) && !is_rigid(scene_.contact.law))
+      fail_at(document_, own,
+              "none is rigid beside contact.law = \"" + scene_.contact.law + "\"; expected " +
+                  elastic_laws() + ", or contact.law = \"rigid\"");
   }
 
   void read_parameter(std::string_view name) {
@@ -128,18 +140,20 @@ std::size_t count_pairs(const Document& document) {
 
 namespace {
 
-/// The first of the laws of pairs that is one; nullptr where there is none.
+/// The first of the laws of pairs that is one, before others a rigid one; nullptr where there is none.
 const DocumentEntry* first_law(const Document& document) {
   const std::vector<SceneKey> keys = pair_keys(0);
   const auto law =
       std::find_if(keys.begin(), keys.end(), [](const SceneKey& key) { return key.name == "law"; });
-  const auto found =
-      std::find_if(document.entries.begin(), document.entries.end(), [&](const DocumentEntry& entry) {
-        const auto* text = std::get_if<std::string>(&entry.value);
-        return is_pair_section(entry.section) && entry.key == "law" && text != nullptr &&
-               contains(law->choices, *text);
-      });
-  return found == document.entries.end() ? nullptr : &*found;
+  const DocumentEntry* first = nullptr;
+  for (const DocumentEntry& entry : document.entries) {
+    const auto* text = std::get_if<std::string>(&entry.value);
+    if (!is_pair_section(entry.section) || entry.key != "law" || text == nullptr) continue;
+    if (!contains(law->choices, *text)) continue;
+    if (is_rigid(*text)) return &entry;
+    if (first == nullptr) first = &entry;
+  }
+  return first;
 }
 
 }  // namespace
@@ -153,7 +167,12 @@ Document with_law_of_pairs(Document document) {
           {document.name, section.line, "", section.name + ".law", "",
            "missing, where other pairs have one; expected a law here, or contact.law, which holds "
            "for pairs without one"});
-  document.entries.push_back({"contact", "law", law->value, law->found, law->line, law->override});
+  const DocumentEntry* restitution = document.find(law->section, "restitution");
+  std::vector<DocumentEntry> shared{{"contact", "law", law->value, law->found, law->line, law->override}};
+  if (restitution != nullptr && document.find("contact", "restitution") == nullptr)
+    shared.push_back({"contact", "restitution", restitution->value, restitution->found, restitution->line,
+                      restitution->override});
+  document.entries.insert(document.entries.end(), shared.begin(), shared.end());
   return document;
 }
 

@@ -133,7 +133,7 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
        "where the obstacle stands: the displacement may exceed gap, or -gap on the negative side, or both",
        derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));
   pair(&ContactPair::law, "law", "", "contact law of this pair",
-       one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law && !law.rigid; })),
+       one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law; })),
        derived("that of [contact]", [](const Scene& scene) { return scene.contact.law; }));
   pair(&ContactPair::name, "name", "",
        "of the contact, by which texts and pictures show it beside its number", none_by_default());
