@@ -68,7 +68,7 @@ void add_force(std::vector<PeriodicForce>& forces, PeriodicForce added) {
   forces.push_back(std::move(added));
 }
 
-/// -K_b x_b - C_b x_b' - M_b x_b'' of the rows that move.
+/// -K_b x_b - C_b x_b' - M_b x_b'' of the rows that move and of those that they carry.
 void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm& term,
                            const LoadPlaces& places) {
   const StructureFiles& files = *places.files;
@@ -78,12 +78,16 @@ void add_base_displacement(std::vector<PeriodicForce>& forces, const ForcingTerm
     direction[place - files.moving.begin()] = dof > 0 ? 1.0 : -1.0;
   }
   const Eigen::VectorXcd harmonics = harmonics_of(term);
-  const fem::Matrices& coupling = files.coupling;
-  const Eigen::VectorXd spring = coupling.stiffness * direction;
+  const auto moved = [&](auto member) {
+    Eigen::VectorXd force = files.coupling.*member * direction;
+    if (places.carried.size() > 0) force += files.matrices.*member * (places.carried * direction).eval();
+    return force;
+  };
+  const Eigen::VectorXd spring = moved(&fem::Matrices::stiffness);
   add_force(forces, {-spring, harmonics, 0});
-  if (coupling.damping.size() > 0) add_force(forces, {-(coupling.damping * direction), harmonics, 1});
+  if (files.matrices.damping.size() > 0) add_force(forces, {-moved(&fem::Matrices::damping), harmonics, 1});
   if (places.stiffness_damping > 0.0) add_force(forces, {-places.stiffness_damping * spring, harmonics, 1});
-  add_force(forces, {-(coupling.mass * direction), harmonics, 2});
+  add_force(forces, {-moved(&fem::Matrices::mass), harmonics, 2});
 }
 
 /// m e (h w)^2 cos(h w t + phase) along the first row, and a quarter of a turn later along the second.

@@ -21,6 +21,7 @@ struct LoadPlaces {
   Eigen::VectorXd inertia;                ///< n, M r, kg, for a base of which all move alike
   const StructureFiles* files = nullptr;  ///< of matrices, whose terms have places of their own
   double stiffness_damping = 0.0;         ///< s
+  Eigen::MatrixXd carried = {};           ///< carried_rows()
 };
 
 /// The series of a term over a period of forcing.frequency: a harmonic, or samples by FFT. Throws

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "compose/carried_rows.hpp"
 #include "compose/load_places.hpp"
 #include "compose/massless_rows.hpp"
 #include "compose/moved_mesh.hpp"
@@ -235,9 +236,8 @@ StructureFiles read_files(StructureFiles files) {
   return files;
 }
 
-/// Rows in contact neither move with a base nor have been condensed.
+/// Rows in contact have not been condensed.
 void check_touched(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
-  check_unknown(dofs, files, key);
   for (const int dof : dofs)
     if (std::binary_search(files.massless.begin(), files.massless.end(), std::abs(dof) - 1))
       throw StructureFault(
@@ -310,12 +310,14 @@ std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
 void check_against_files(const Scene& scene, const StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows(), all = files.file_rows();
   check_dofs(scene.structure.matrices.contact_dofs, all, "structure.contact_dofs");
+  check_unknown(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
   check_touched(scene.structure.matrices.contact_dofs, files, "structure.contact_dofs");
   check_pairs(scene.contact.pairs, all);
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
     for (const auto& [name, rows] : rows_of(scene.contact.pairs[i]))
       check_touched(*rows, files, pair_section(i) + name);
   check_loads(scene, files);
+  check_carried(scene, files);
   const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
   if (scene.structure.kept_modes < 0) return;
   if (boundary >= size)
@@ -337,7 +339,8 @@ solvers::ContactDirections contact_directions(const Scene& scene, const Structur
   int contacts = 0;
   for (const SceneContact& contact : contact_places(scene)) {
     for (std::size_t i = 0; i < contact.dofs.size(); ++i)
-      entries.emplace_back(contacts, unknown[std::size_t(contact.dofs[i] - 1)], contact.coefficients[i]);
+      if (const int row = unknown[std::size_t(contact.dofs[i] - 1)]; row >= 0)
+        entries.emplace_back(contacts, row, contact.coefficients[i]);
     ++contacts;
   }
   solvers::ContactDirections directions(contacts, std::ssize(files.rows));

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "compose/carried_rows.hpp"
 #include "compose/load_places.hpp"
 #include "compose/loads.hpp"
 #include "compose/structure_files.hpp"
@@ -256,7 +257,8 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
                     forces_of(scene.forcing, {.force = unit,
                                               .inertia = {},
                                               .files = files.get(),
-                                              .stiffness_damping = structure.stiffness_damping})};
+                                              .stiffness_damping = structure.stiffness_damping,
+                                              .carried = carried_rows(scene, *files)})};
   const solvers::ContactDirections directions = contact_directions(scene, *files);
   if (structure.kept_modes < 0) {
     set_structure(model, std::move(matrices), loads);

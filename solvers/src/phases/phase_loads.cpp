@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "structure/held_structure.hpp"
 #include "wavebalance/solvers/structure/periodic_force.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -59,7 +60,14 @@ FreeContacts::FreeContacts(const LinearStructure& structure, Eigen::VectorXcd ha
     : structure_(structure),
       harmonics_(std::move(harmonics)),
       repeats_(repeats_within_period(harmonics_)),
-      condensation_(condensation_of(held_by_springs(structure, holding))) {}
+      condensation_(condensation_of(held_by_springs(structure, holding))) {
+  const std::vector<Eigen::Index> rows = hold(structure).drift_rows;
+  if (rows.empty()) return;
+  LinearStructure held = held_by_springs(structure, holding);
+  const double size = std::max(holding, structure.stiffness.diagonal().cwiseAbs().maxCoeff());
+  for (const Eigen::Index row : rows) held.stiffness.coeffRef(row, row) += size > 0.0 ? size : 1.0;
+  at_rest_ = condensation_of(held);
+}
 
 Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
   const int contacts = structure_.contacts();
@@ -68,7 +76,8 @@ Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
   for (Eigen::Index n = 0; n < loads.cols(); ++n) {
     if (loads.col(n).isZero(0.0)) continue;
     const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats_ * frequency * double(n));
-    const CondensedPoint point = condensation_.dynamic_compliance({rate * rate, rate, 1.0}, {});
+    Condensation& used = n == 0 && at_rest_ ? *at_rest_ : condensation_;
+    const CondensedPoint point = used.dynamic_compliance({rate * rate, rate, 1.0}, {});
     amplitudes.col(repeats_ * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
   }
   return amplitudes;

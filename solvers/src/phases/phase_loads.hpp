@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
@@ -35,6 +36,9 @@ class FreeContacts {
   Eigen::VectorXcd harmonics_;
   int repeats_;
   Condensation condensation_;
+  /// At rest, of a structure with motions that no contact resists: these are held, since a load that balances
+  /// leaves their position open.
+  std::optional<Condensation> at_rest_;
 };
 
 }  // namespace wavebalance::solvers::detail

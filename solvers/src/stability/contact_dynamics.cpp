@@ -11,6 +11,7 @@
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/contact_dynamics_reduced.hpp"
+#include "structure/held_structure.hpp"
 #include "structure/modal_form.hpp"
 
 namespace wavebalance::solvers {
@@ -188,11 +189,15 @@ Parts complex_parts(const LinearStructure& structure) {
 
 namespace {
 
-// The squared frequency that the springs give to a rigid body, a hundredth of that of the first elastic mode.
+// The squared frequency that the springs give to a rigid body: a hundredth of that of the first elastic mode,
+// or where nothing is elastic the squared rate of the dampers.
 double square_of_springs(const LinearStructure& structure, bool small) {
   const double largest =
       (structure.stiffness.diagonal().array() / structure.mass.diagonal().array()).abs().maxCoeff();
-  if (!(largest > 0.0)) return 1.0;  // nothing is elastic
+  if (!(largest > 0.0)) {
+    const double rate = (structure.damping.diagonal().array() / structure.mass.diagonal().array()).maxCoeff();
+    return rate > 0.0 ? rate * rate : 1.0;
+  }
   if (!small) return 1e-8 * largest;
   const auto modes =
       detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), Eigen::MatrixXd(structure.mass));
@@ -225,8 +230,8 @@ ContactDynamics::ContactDynamics(const LinearStructure& structure, const Contact
   reduced_ = structure.size() > options.max_size;
   structurally_damped_ = structure.loss_factor > 0.0;
   const int vectors = options.reduced_size > 0 ? options.reduced_size : std::max(80, 12 * contacts);
-  LinearStructure held = structure;
-  if (structure.is_free()) holding_ = hold_by_springs(held, !reduced_);
+  LinearStructure held = structure.is_free() && !reduced_ ? without_drift(structure) : structure;
+  if (held.is_free()) holding_ = hold_by_springs(held, !reduced_);
   const LinearStructure own = reduced_ ? krylov_reduction(held, vectors) : std::move(held);
   const auto modes = modal_form(own);
   Parts parts = modes ? decoupled_parts(own, *modes) : complex_parts(own);

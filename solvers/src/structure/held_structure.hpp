@@ -1,4 +1,7 @@
 #pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::solvers {
@@ -13,7 +16,9 @@ struct HeldStructure {
   /// springs carry nothing under a load that balances.
   Eigen::SparseMatrix<double> springs;
   Eigen::MatrixXd directions;  ///< Q, C x q: contact displacements of the motions that contacts resist
+  Eigen::MatrixXd resisted;    ///< n x q, M-orthonormal: those motions
   Eigen::MatrixXd drifting;    ///< n x (r - q), M-orthonormal: the motions that no contact resists
+  std::vector<Eigen::Index> drift_rows;  ///< r - q, the degrees of freedom at which these are held
 
   /// kappa, N/m, which affects rounding alone: the largest entry of K, or of M omega^2 where that is larger,
   /// so that a static load moves the structure no further than one of the frequency (Hz) does. The frequency
@@ -21,6 +26,11 @@ struct HeldStructure {
   double spring_stiffness(double frequency) const;
   LinearStructure with_springs(double stiffness) const;
 };
+
+/// The structure without the motions that no contact resists, in n - (r - q) coordinates of its own, without
+/// loads: the contacts move alike. The same structure where there is no such motion, or where dampers couple
+/// it to others. O(n^3).
+LinearStructure without_drift(const LinearStructure& structure);
 
 /// Holds a structure that has rigid_modes. O(n r^2 + C^2 q).
 HeldStructure hold(const LinearStructure& structure);

@@ -1,0 +1,19 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "compose/structure_files.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+
+namespace wavebalance::app {
+
+/// S, n x moving rows, of a structure whose contacts touch rows that a base displacement moves; 0 x 0 where
+/// none does. The unknowns y of x = y + S x_b are those with which a contact moves alone: its displacement is
+/// its direction times y, so that no law and no solver knows of the base. S is the least one. Throws
+/// StructureFault of a contact between rows of the base alone.
+Eigen::MatrixXd carried_rows(const Scene& scene, const StructureFiles& files);
+
+/// Refuses what would have to know of S: modal damping, loss factors, matrices that turn, and motions of the
+/// whole structure. Throws StructureFault.
+void check_carried(const Scene& scene, const StructureFiles& files);
+
+}  // namespace wavebalance::app
