@@ -100,6 +100,12 @@ void condense_massless_rows(StructureFiles& files) {
   if (files.unsymmetric || files.free) return;
   const Parts parts = parts_of(files.matrices.mass);
   if (parts.without.empty() || parts.with.empty()) return;
+  if (files.turns_along_curve && files.spin_stiffness.size() > 0)
+    throw StructureFault(
+        "structure.mass",
+        "there are rows without mass, which follow the others by a stiffness that "
+        "structure.spin_stiffness changes along the sweep; expected a consistent mass matrix, or "
+        "structure.spin_speed > 0");
   if (std::max(parts.with.size(), parts.without.size()) > most_condensed) return;
   const fem::Matrices& whole = files.matrices;
   if (!solvers::is_symmetric(whole.stiffness) ||
@@ -119,6 +125,7 @@ void condense_massless_rows(StructureFiles& files) {
     else if (matrix.size() > 0)
       matrix = condensed(matrix, parts, follow);
   }
+  if (files.spin_stiffness.size() > 0) files.spin_stiffness = condensed(files.spin_stiffness, parts, follow);
   files.massless = chosen(files.rows, parts.without);
   files.rows = chosen(files.rows, parts.with);
   files.followers = follow;

@@ -122,6 +122,17 @@ std::vector<std::string> term_paths(const Scene& scene) {
   return paths;
 }
 
+/// Takes the moving rows out of a part that turns. What couples it to them is in the coupling at one speed.
+void hold_moving_rows(const StructureFiles& files, Eigen::SparseMatrix<double>& part, const char* key) {
+  if (part.size() == 0 || files.moving.empty()) return;
+  if (files.turns_along_curve && matrix_part(part, files.rows, files.moving).norm() > 0.0)
+    throw StructureFault(
+        key,
+        "the matrix couples rows that a base displacement moves to others, and varies along the "
+        "sweep; expected none of these entries, or structure.spin_speed > 0");
+  part = matrix_part(part, files.rows, files.rows);
+}
+
 /// Takes the moving rows out of the unknowns.
 void hold_moving_rows(StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows();
@@ -134,6 +145,8 @@ void hold_moving_rows(StructureFiles& files) {
     throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected fewer");
   for (int row = 0; row < size; ++row)
     if (!std::binary_search(files.moving.begin(), files.moving.end(), row)) files.rows.push_back(row);
+  hold_moving_rows(files, files.gyroscopic, "structure.gyroscopic");
+  hold_moving_rows(files, files.spin_stiffness, "structure.spin_stiffness");
   if (files.moving.empty()) return;
   for (const auto member : {&fem::Matrices::mass, &fem::Matrices::damping, &fem::Matrices::stiffness}) {
     Eigen::SparseMatrix<double>& matrix = files.matrices.*member;
@@ -181,11 +194,12 @@ void add_turning_parts(StructureFiles& files) {
   };
   if (!files.paths[5].empty()) {
     if (matrices.damping.size() == 0) matrices.damping.resize(size, size);
-    matrices.damping += files.spin_speed * part(5, "structure.gyroscopic", -1.0, "skew-symmetric");
+    files.gyroscopic = part(5, "structure.gyroscopic", -1.0, "skew-symmetric");
+    matrices.damping += files.spin_speed * files.gyroscopic;
   }
-  if (!files.paths[6].empty())
-    matrices.stiffness +=
-        files.spin_speed * files.spin_speed * part(6, "structure.spin_stiffness", 1.0, "symmetric");
+  if (files.paths[6].empty()) return;
+  files.spin_stiffness = part(6, "structure.spin_stiffness", 1.0, "symmetric");
+  matrices.stiffness += files.spin_speed * files.spin_speed * files.spin_stiffness;
 }
 
 /// What a scene says of its files, none of which has been read.
@@ -195,6 +209,7 @@ StructureFiles named_files(const Scene& scene) {
   files.paths = {structure.mass,    structure.stiffness,  structure.damping,       scene.forcing.load,
                  structure.dof_map, structure.gyroscopic, structure.spin_stiffness};
   files.spin_speed = spin_speed(scene);
+  files.turns_along_curve = turns_along_curve(scene);
   files.term_paths = term_paths(scene);
   files.mesh_path = structure.mesh;
   files.moving = moving_rows(scene);
@@ -205,9 +220,9 @@ StructureFiles named_files(const Scene& scene) {
 }
 
 bool same_names(const StructureFiles& a, const StructureFiles& b) {
-  return a.paths == b.paths && a.spin_speed == b.spin_speed && a.term_paths == b.term_paths &&
-         a.mesh_path == b.mesh_path && a.moving == b.moving && a.unsymmetric == b.unsymmetric &&
-         a.free == b.free && a.reduced == b.reduced;
+  return a.paths == b.paths && a.spin_speed == b.spin_speed && a.turns_along_curve == b.turns_along_curve &&
+         a.term_paths == b.term_paths && a.mesh_path == b.mesh_path && a.moving == b.moving &&
+         a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
 }
 
 StructureFiles read_files(StructureFiles files) {

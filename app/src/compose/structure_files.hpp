@@ -21,7 +21,10 @@ struct MovedMesh;
 struct StructureFiles {
   /// Files of mass, stiffness, damping, load, dof map, G and K_s; empty: none.
   std::array<std::string, 7> paths;
-  double spin_speed = 0.0;    ///< rad/s
+  double spin_speed = 0.0;                     ///< rad/s
+  bool turns_along_curve = false;              ///< as of the scene
+  Eigen::SparseMatrix<double> gyroscopic;      ///< G, n x n, or 0 x 0; the damping has it at spin_speed
+  Eigen::SparseMatrix<double> spin_stiffness;  ///< K_s likewise, of the stiffness
   std::vector<int> moving;    ///< rows of the files, from 0, that a base displacement moves, ascending
   std::vector<int> massless;  ///< rows of the files, from 0, without mass, which are condensed
   Eigen::MatrixXd followers;  ///< massless x n: their displacements from those of the unknowns

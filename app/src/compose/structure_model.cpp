@@ -133,11 +133,18 @@ fem::CraigBampton craig_bampton_of(const fem::Matrices& matrices, const std::vec
   return reduced;
 }
 
+solvers::TurningParts projected(solvers::TurningParts turning, const Eigen::MatrixXd& transformation) {
+  for (Sparse* part : {&turning.gyroscopic, &turning.stiffness})
+    if (part->size() > 0)
+      *part = Eigen::MatrixXd(transformation.transpose() * (*part * transformation)).sparseView();
+  return turning;
+}
+
 /// The modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
 /// gyroscopic and circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
             const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
-            const solvers::Observer& observer) {
+            const solvers::Observer& observer, const solvers::TurningParts& turning = {}) {
   const std::optional<fem::Matrices> parts = symmetric_parts(matrices);
   fem::CraigBampton reduced =
       craig_bampton_of(parts ? *parts : matrices, boundary,
@@ -150,6 +157,7 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& l
   model.structure.stiffness = reduced.stiffness.sparseView();
   model.structure.damping += projected_skew_part(matrices.damping, reduced.transformation);
   model.structure.stiffness += projected_skew_part(matrices.stiffness, reduced.transformation);
+  model.structure.turning = projected(turning, reduced.transformation);
   model.structure.load = reduced.project_load(loads.load);
   model.structure.forces = loads.forces;
   for (solvers::PeriodicForce& force : model.structure.forces)
@@ -158,7 +166,8 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& l
   model.recovery = std::move(reduced.transformation);
 }
 
-/// C = M Phi diag(2 ratio omega) Phi^T M with all modes Phi. O(size^3).
+/// Adds M Phi diag(2 ratio omega) Phi^T M with all modes Phi to the damping, which may be gyroscopic.
+/// O(size^3).
 void add_modal_damping(solvers::LinearStructure& structure, double ratio, bool free) {
   if (ratio == 0.0) return;
   fem::EigenmodesOptions options;
@@ -167,7 +176,8 @@ void add_modal_damping(solvers::LinearStructure& structure, double ratio, bool f
       fem::eigenmodes(symmetric_part(structure.stiffness), structure.mass, structure.size(), options);
   const Eigen::MatrixXd momenta = structure.mass * modes.shapes;
   const Eigen::MatrixXd damping = momenta * (2.0 * ratio * modes.omega).asDiagonal() * momenta.transpose();
-  structure.damping = (0.5 * (damping + damping.transpose())).sparseView();
+  const Sparse symmetric = (0.5 * (damping + damping.transpose())).sparseView();
+  structure.damping += symmetric;
 }
 
 /// Nodes of the tip that share the force; at mid chord the one or two nearest pairs.
@@ -236,6 +246,17 @@ StructureModel blade_model(const Scene& scene, const solvers::Observer& observer
   return model;
 }
 
+/// beta K of the structure at rest, as the material damps.
+Sparse proportional_damping(const StructureFiles& files, double beta) {
+  if (files.spin_stiffness.size() == 0) return beta * files.matrices.stiffness;
+  return beta * (files.matrices.stiffness - files.spin_speed * files.spin_speed * files.spin_stiffness);
+}
+
+solvers::TurningParts turning_of(const StructureFiles& files) {
+  if (!files.turns_along_curve) return {};
+  return {files.gyroscopic, files.spin_stiffness, files.spin_speed};
+}
+
 StructureModel matrices_model(const Scene& scene, const solvers::Observer& observer) {
   const auto files = structure_files(scene);
   check_against_files(scene, *files);
@@ -246,7 +267,7 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
   model.mesh = files->mesh;
   fem::Matrices matrices = files->matrices;
   if (structure.stiffness_damping > 0.0) {
-    const Sparse proportional = structure.stiffness_damping * matrices.stiffness;
+    const Sparse proportional = proportional_damping(*files, structure.stiffness_damping);
     if (matrices.damping.size() == 0)
       matrices.damping = proportional;
     else  // gyroscopic forces
@@ -263,9 +284,11 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
   if (structure.kept_modes < 0) {
     set_structure(model, std::move(matrices), loads);
     model.structure.contact_directions = directions;
+    model.structure.turning = turning_of(*files);
     return model;
   }
-  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer);
+  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer,
+         turning_of(*files));
   return model;
 }
 

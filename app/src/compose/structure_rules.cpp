@@ -55,17 +55,24 @@ void check_free(const Document& document, const Scene& scene) {
               "not with analysis.branches; expected analysis.branches = false");
 }
 
-/// The speed belongs to matrices that vary with it, and stays along a curve over the frequency.
+/// The speed belongs to matrices that vary with it. What is taken from one stiffness cannot follow it.
 void check_turning(const Document& document, const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   const bool turns = !structure.gyroscopic.empty() || !structure.spin_stiffness.empty();
   if (!turns && structure.spin_speed > 0.0)
     fail_rule(document, {"structure.spin_speed"},
               "expected structure.gyroscopic or structure.spin_stiffness beside it");
-  if (turns && structure.spin_speed == 0.0 && scene.analysis.type == AnalysisType::frequency_sweep)
-    fail_missing(document, "structure", "spin_speed",
-                 "a number in rad/s, at which the structure turns along the whole curve; a study over "
-                 "forcing.frequency turns it with the load");
+  if (!turns_along_curve(scene) || structure.spin_stiffness.empty()) return;
+  const std::string instead =
+      ", as structure.spin_stiffness changes the stiffness along the sweep; expected structure.spin_speed > 0, or ";
+  if (scene.structure.modal_damping > 0.0)
+    fail_rule(document, {"structure.modal_damping"},
+              "not with modes that vary" + instead + "damping or stiffness_damping in its place");
+  if (structure.free)
+    fail_rule(document, {"structure.free"}, "not with springs that vary" + instead + "false");
+  if (redistributes_mass(scene))
+    fail_rule(document, {"contact.mass", "contact.law"},
+              "not with modes that vary" + instead + "contact.mass = \"keep\" and a law that is not rigid");
 }
 
 /// It is defined for periodic motions that are sought as such.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "compose/load_places.hpp"
@@ -29,6 +30,14 @@ std::string turning_text(double speed) {
   return speed > 0.0 ? fmt::format(", turning at {} rad/s", seven_digits(speed)) : "";
 }
 
+std::string turning_text(const Scene& scene) {
+  if (!turns_along_curve(scene)) return turning_text(spin_speed(scene));
+  constexpr double per_hertz = 2.0 * std::numbers::pi;
+  return fmt::format(", turning with the load at {} to {} rad/s",
+                     seven_digits(per_hertz * scene.analysis.frequency_from),
+                     seven_digits(per_hertz * scene.analysis.frequency_to));
+}
+
 std::string bar_line(const Structure& bar) {
   // First natural frequency of the clamped bar before it is cut into elements.
   const double first = std::sqrt(bar.youngs_modulus / bar.density) / (4.0 * bar.length);
@@ -52,8 +61,7 @@ std::string matrices_line(const Scene& scene) {
                            count_text(structure_dofs(scene), "degree");
   const std::string reduced =
       modes < 0 ? "" : fmt::format(", reduced to {} ({})", reduced_size(scene), count_text(modes, "mode"));
-  return fmt::format("structure  matrices, {} of freedom{}{}\n", size, reduced,
-                     turning_text(spin_speed(scene)));
+  return fmt::format("structure  matrices, {} of freedom{}{}\n", size, reduced, turning_text(scene));
 }
 
 std::string structure_line(const Scene& scene) {

@@ -42,6 +42,12 @@ double spin_speed(const Scene& scene) {
   return structure.spin_speed > 0.0 ? structure.spin_speed : 2.0 * std::numbers::pi * scene.forcing.frequency;
 }
 
+bool turns_along_curve(const Scene& scene) {
+  const MatricesStructure& structure = scene.structure.matrices;
+  return scene.analysis.type == AnalysisType::frequency_sweep && structure.spin_speed == 0.0 &&
+         !(structure.gyroscopic.empty() && structure.spin_stiffness.empty());
+}
+
 std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   if (forcing.amplitude != 0.0) return ReferenceLoad{forcing.amplitude, "N"};
   for (const ForcingTerm& term : forcing.terms) {

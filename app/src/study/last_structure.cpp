@@ -11,6 +11,10 @@ Scene structure_part(const Scene& scene) {
   part.forcing = scene.forcing;
   part.structure.matrices.spin_speed = spin_speed(scene);  // by default that of the load
   part.forcing.frequency = 0.0;
+  if (turns_along_curve(scene)) {
+    part.structure.matrices.spin_speed = 0.0;
+    part.forcing.frequency = scene.forcing.frequency;
+  }
   part.analysis.type = scene.analysis.type;
   part.contact.law = scene.contact.law;
   part.contact.mass = scene.contact.mass;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,23 +28,25 @@ struct CondensedProblem::Work {
 namespace {
 
 std::unique_ptr<HarmonicCompliance> compliance_of(const TimePair& pair, const LinearStructure& structure,
-                                                  CondensationMethod method) {
+                                                  CondensationMethod method, int periods) {
   structure.validate();
   const auto held = structure.is_free() ? std::optional<HeldStructure>(hold(structure)) : std::nullopt;
-  return std::make_unique<StructureCompliance>(pair, structure, method, held ? &*held : nullptr);
+  return std::make_unique<StructureCompliance>(pair, structure, method, held ? &*held : nullptr, periods);
 }
 
 }  // namespace
 
 CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
                                    Eigen::VectorXcd load_harmonics, CondensationMethod method)
-    : CondensedProblem(pair, structure, std::move(load_harmonics), compliance_of(pair, structure, method)) {}
+    : CondensedProblem(pair, structure, load_harmonics,
+                       compliance_of(pair, structure, method, repeats_within_period(load_harmonics))) {}
 
 CondensedProblem::CondensedProblem(TimePair pair, const LinearStructure& structure,
                                    Eigen::VectorXcd load_harmonics,
                                    std::unique_ptr<HarmonicCompliance> compliance)
     : pair_(std::move(pair)),
       structure_(std::make_shared<const LinearStructure>(structure)),
+      given_(structure_),
       load_harmonics_(std::move(load_harmonics)),
       hold_(structure.is_free() ? std::make_unique<Hold>(structure, pair_) : nullptr),
       harmonics_(std::move(compliance)),
@@ -138,6 +141,9 @@ void CondensedProblem::set_frequency(double frequency_hz) {
   condensed_at_ = 0.0;  // in case that no condensation exists there
   frequency_ = frequency_hz;
   if (!structure_->forces.empty()) update_load();  // some grow with the frequency
+  if (given_->turns())
+    structure_ = std::make_shared<const LinearStructure>(
+        given_->at_speed(2.0 * std::numbers::pi * frequency_ * repeats_within_period(load_harmonics_)));
   if (hold_) hold_->set_frequency(frequency_);
   harmonics_->condense(frequency_, load_, condensed_);
   ++condensations_;

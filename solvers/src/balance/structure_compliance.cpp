@@ -1,5 +1,6 @@
 #include "balance/structure_compliance.hpp"
 
+#include <numbers>
 #include <utility>
 
 namespace wavebalance::solvers {
@@ -40,8 +41,13 @@ void append_zeros(CondensedSpectrum& result) {
 }  // namespace
 
 StructureCompliance::StructureCompliance(TimePair pair, const LinearStructure& structure,
-                                         CondensationMethod method, const HeldStructure* held)
-    : pair_(std::move(pair)), loss_factor_(structure.loss_factor), condensation_(structure, method) {
+                                         CondensationMethod method, const HeldStructure* held, int periods)
+    : pair_(std::move(pair)),
+      loss_factor_(structure.loss_factor),
+      turns_(structure.turns()),
+      base_speed_(structure.turning.speed),
+      speed_by_frequency_(2.0 * std::numbers::pi * periods),
+      condensation_(structure, method) {
   if (held) rest_ = std::make_unique<Rest>(Rest{*held, 0.0, nullptr, {}});
 }
 
@@ -57,16 +63,32 @@ void StructureCompliance::set_factors(double frequency) {
   const int solved = pair_.solved_size();
   const auto symbol = [&](int derivative) { return pair_.symbol(derivative).head(solved); };
   factors_ = {symbol(2) * (frequency * frequency), symbol(1) * frequency, symbol(0)};
+  derivatives_ = {symbol(2) * (2.0 * frequency), symbol(1), Eigen::VectorXcd::Zero(solved)};
+  if (turns_) set_turning_factors(frequency);
   // Structural damping acts on the harmonics between 0 and M/2. The coefficient M/2 contains both signs.
   const int damped = (pair_.functions() - 1) / 2;
-  if (loss_factor_ > 0.0) factors_[2].segment(1, damped) *= std::complex<double>(1.0, loss_factor_);
-  derivatives_ = {symbol(2) * (2.0 * frequency), symbol(1), Eigen::VectorXcd::Zero(solved)};
+  if (loss_factor_ == 0.0) return;
+  for (Eigen::VectorXcd* of_stiffness : {&factors_[2], &factors_[4], &derivatives_[4]})
+    if (of_stiffness->size() > 0) of_stiffness->segment(1, damped) *= std::complex<double>(1.0, loss_factor_);
+}
+
+// Of G and K_s beyond what the matrices have of them.
+void StructureCompliance::set_turning_factors(double frequency) {
+  const int solved = pair_.solved_size();
+  const double speed = speed_by_frequency_ * frequency, beyond = speed - base_speed_;
+  factors_[3] = pair_.symbol(1).head(solved) * (frequency * beyond);
+  derivatives_[3] = pair_.symbol(1).head(solved) * (beyond + frequency * speed_by_frequency_);
+  factors_[4] = pair_.symbol(0).head(solved) * (beyond * (speed + base_speed_));
+  derivatives_[4] = pair_.symbol(0).head(solved) * (2.0 * speed * speed_by_frequency_);
 }
 
 void StructureCompliance::condense_moving(const Eigen::MatrixXcd& loads, CondensedSpectrum& result) {
   const Eigen::Index moving = factors_[0].size() - 1;
   const auto tail = [&](const StiffnessSpectrum& all) -> StiffnessSpectrum {
-    return {all[0].tail(moving), all[1].tail(moving), all[2].tail(moving)};
+    StiffnessSpectrum part;
+    for (std::size_t d = 0; d < all.size(); ++d)
+      if (all[d].size() > 0) part[d] = all[d].tail(moving);
+    return part;
   };
   condensation_.condense(tail(factors_), tail(derivatives_), result, loads.middleRows(1, moving));
 }
@@ -88,7 +110,7 @@ Eigen::VectorXcd StructureCompliance::recover(int k, const Eigen::VectorXcd& loa
                                               const Eigen::VectorXcd& forces) {
   if (k >= pair_.solved_size()) return Eigen::VectorXcd::Zero(condensation_.size());
   Condensation& at = rest_ && k == 0 ? *rest_->condensation : condensation_;
-  return at.recover({factors_[0][k], factors_[1][k], factors_[2][k]}, loads, forces);
+  return at.recover(coefficients_at(factors_, k), loads, forces);
 }
 
 }  // namespace wavebalance::solvers

@@ -9,13 +9,15 @@ namespace wavebalance::solvers {
 
 /// The compliance of a structure of matrices in a pair of bases: Z(k) = lambda_2(k) f^2 M + lambda_1(k) f C +
 /// lambda_0(k) K (1 + i eta) with the symbols lambda of the pair and the loss factor eta below the Nyquist
-/// coefficient. That at rest of a structure that is free to move is that of the held one, at any frequency. A
-/// Nyquist coefficient that the pair drops has no compliance.
+/// coefficient. Where the structure turns, C has the part Omega G and K the part Omega^2 K_s at each f, with
+/// Omega = 2 pi f times the periods of its load. That at rest of a structure that is free to move is that of
+/// the held one, at any frequency. A Nyquist coefficient that the pair drops has no compliance.
 class StructureCompliance final : public HarmonicCompliance {
  public:
-  /// `held` is the structure at rest where it is free to move; null for others.
+  /// `held` is the structure at rest where it is free to move; null for others. `periods`: of the load within
+  /// one of the problem.
   StructureCompliance(TimePair pair, const LinearStructure& structure, CondensationMethod method,
-                      const HeldStructure* held);
+                      const HeldStructure* held, int periods);
 
   void condense(double frequency, const Eigen::MatrixXcd& loads, CondensedSpectrum& result) override;
   Eigen::VectorXcd recover(int k, const Eigen::VectorXcd& loads, const Eigen::VectorXcd& forces) override;
@@ -34,10 +36,14 @@ class StructureCompliance final : public HarmonicCompliance {
   };
   void condense_rest(double frequency);
   void set_factors(double frequency);
+  void set_turning_factors(double frequency);
   void condense_moving(const Eigen::MatrixXcd& loads, CondensedSpectrum& result);
 
   TimePair pair_;
   double loss_factor_;
+  bool turns_;
+  double base_speed_;          // rad/s, of the matrices that are condensed
+  double speed_by_frequency_;  // rad/s per Hz
   Condensation condensation_;
   std::unique_ptr<Rest> rest_;               // null for a structure that is held
   StiffnessSpectrum factors_, derivatives_;  // of the coefficients that are solved for

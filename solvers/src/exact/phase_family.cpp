@@ -1,24 +1,29 @@
 #include "wavebalance/solvers/exact/phase_family.hpp"
 
+#include <numbers>
+
 #include "phases/phase_loads.hpp"
 
 namespace wavebalance::solvers {
 
 struct PhaseFamily::Parts {
   ContactLaws laws;
-  const ContactDynamics* dynamics;
+  std::shared_ptr<const ContactDynamics> dynamics;
+  DynamicsAlong along;
+  LinearStructure structure;
   SweepParameter parameter;
   detail::FreeContacts free;
   double frequency, factor, full_load;
-  int periods;
+  int periods, repeats;
 };
 
 PhaseFamily::PhaseFamily(const CondensedProblem& problem, ContactLaws laws, const ContactDynamics& dynamics,
                          SweepParameter parameter)
-    : parts_(std::make_unique<Parts>(
-          Parts{std::move(laws), &dynamics, parameter,
-                detail::FreeContacts(problem.structure(), problem.load_harmonics(), dynamics.holding()),
-                problem.frequency(), problem.load_factor(), problem.full_load(), problem.periods()})) {
+    : parts_(std::make_unique<Parts>(Parts{
+          std::move(laws), DynamicsAlong(dynamics).at(problem.structure()), dynamics, problem.structure(),
+          parameter, detail::FreeContacts(problem.structure(), problem.load_harmonics(), dynamics.holding()),
+          problem.frequency(), problem.load_factor(), problem.full_load(), problem.periods(),
+          repeats_within_period(problem.load_harmonics())})) {
   parts_->laws.require(problem.contacts());
 }
 
@@ -34,7 +39,11 @@ PhasesProblem PhaseFamily::at(double value) const {
   const bool varies = parts_->parameter == SweepParameter::frequency;
   const double frequency = varies ? value / parts_->periods : parts_->frequency,
                factor = varies ? parts_->factor : value / parts_->full_load;
-  return {*parts_->dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency};
+  if (!parts_->structure.turns())
+    return {*parts_->dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency};
+  const double speed = 2.0 * std::numbers::pi * frequency * parts_->repeats;
+  auto dynamics = parts_->along.at(parts_->structure.at_speed(speed));
+  return {*dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency, dynamics};
 }
 
 }  // namespace wavebalance::solvers

@@ -36,7 +36,7 @@ bool set_nearest(const PhasesProblem& problem, double begin, const ContactPhases
 }  // namespace
 
 PhasesProblem over_periods(const PhasesProblem& problem, int times) {
-  PhasesProblem longer{problem.dynamics, problem.laws, {}, problem.frequency / times};
+  PhasesProblem longer{problem.dynamics, problem.laws, {}, problem.frequency / times, problem.kept};
   longer.contact_free.setZero(problem.contact_free.rows(), (problem.contact_free.cols() - 1) * times + 1);
   for (Index n = 0; n < problem.contact_free.cols(); ++n)
     longer.contact_free.col(n * times) = problem.contact_free.col(n);

@@ -73,11 +73,14 @@ Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
   const int contacts = structure_.contacts();
   const Eigen::MatrixXcd loads = loads_of(structure_, harmonics_, repeats_, frequency, factor);
   Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats_ * (loads.cols() - 1) + 1);
+  const double base = structure_.turning.speed, speed = 2.0 * std::numbers::pi * repeats_ * frequency,
+               beyond = structure_.turns() ? speed - base : 0.0;
   for (Eigen::Index n = 0; n < loads.cols(); ++n) {
     if (loads.col(n).isZero(0.0)) continue;
     const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats_ * frequency * double(n));
     Condensation& used = n == 0 && at_rest_ ? *at_rest_ : condensation_;
-    const CondensedPoint point = used.dynamic_compliance({rate * rate, rate, 1.0}, {});
+    const CondensedPoint point = used.dynamic_compliance(
+        {rate * rate, rate, 1.0, rate * beyond, beyond * (speed + base)}, {});
     amplitudes.col(repeats_ * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
   }
   return amplitudes;

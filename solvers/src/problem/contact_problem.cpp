@@ -51,6 +51,7 @@ ContactProblem::ContactProblem(TimePair pair, const LinearStructure& structure, 
 ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
                                std::shared_ptr<StructureDynamics> dynamics)
     : condensed_(std::move(problem)), laws_(std::move(laws)), dynamics_(std::move(dynamics)) {
+  if (structure().turns()) dynamics_ = std::make_shared<StructureDynamics>();  // others turn at other speeds
   require_well_posed();
 }
 
@@ -141,8 +142,11 @@ PhasesProblem ContactProblem::phases_problem_here() {
   if (!free_contacts_)
     free_contacts_ = std::make_shared<detail::FreeContacts>(structure(), condensed_.load_harmonics(),
                                                             dynamics()->holding());
-  return {*dynamics(), laws_, free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
-          condensed_.frequency()};
+  PhasesProblem problem{*dynamics(), laws_,
+                        free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
+                        condensed_.frequency()};
+  if (structure().turns()) problem.kept = dynamics_->of(structure());
+  return problem;
 }
 
 std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& response,

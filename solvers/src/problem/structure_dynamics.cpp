@@ -4,15 +4,18 @@
 
 namespace wavebalance::solvers {
 
-const ContactDynamics* StructureDynamics::of(const LinearStructure& structure) {
-  std::call_once(once_, [&] {
-    try {
-      dynamics_.emplace(structure);
-    } catch (const std::invalid_argument&) {
-      dynamics_.reset();
-    }
-  });
-  return dynamics_ ? &*dynamics_ : nullptr;
+std::shared_ptr<const ContactDynamics> StructureDynamics::of(const LinearStructure& structure) {
+  const std::lock_guard lock(mutex_);
+  const double speed = structure.turns() ? structure.turning.speed : 0.0;
+  if (known_ && speed == speed_) return dynamics_;
+  known_ = true;
+  speed_ = speed;
+  try {
+    dynamics_ = std::make_shared<const ContactDynamics>(structure);
+  } catch (const std::invalid_argument&) {
+    dynamics_.reset();
+  }
+  return dynamics_;
 }
 
 }  // namespace wavebalance::solvers

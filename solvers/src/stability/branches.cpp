@@ -16,11 +16,11 @@ namespace {
 
 class Branches {
  public:
-  Branches(const BranchProblems& problems, const ContactLaws& laws, const ContactDynamics& dynamics,
+  Branches(const BranchProblems& problems, const ContactLaws& laws, DynamicsAlong dynamics,
            const BranchOptions& options)
       : problems_(problems),
         laws_(laws),
-        dynamics_(dynamics),
+        dynamics_(std::move(dynamics)),
         options_(options),
         load_periods_(options.load_periods) {}
 
@@ -109,8 +109,8 @@ class Branches {
     how.stability = options_.stability.stability;
     const double due = times == 2 ? -1.0 : 1.0;
     const FloquetExponent* nearest = nullptr;
-    const FloquetExponents found =
-        floquet_exponents(dynamics_, before, laws_, response_at(system, from.unknown), how);
+    const FloquetExponents found = floquet_exponents(*dynamics_.at(before.structure()), before, laws_,
+                                                     response_at(system, from.unknown), how);
     for (const FloquetExponent& one : found.values)
       if (!nearest || std::abs(one.multiplier - due) < std::abs(nearest->multiplier - due)) nearest = &one;
     if (!nearest || !(std::abs(nearest->multiplier - due) < 0.1)) return {};
@@ -208,7 +208,7 @@ class Branches {
 
   const BranchProblems& problems_;
   const ContactLaws& laws_;
-  const ContactDynamics& dynamics_;
+  DynamicsAlong dynamics_;
   const BranchOptions& options_;
   int load_periods_;  // in a period of the main curve
   std::vector<Branch> branches_;
@@ -255,10 +255,10 @@ void BranchOptions::validate() const {
 }
 
 std::vector<Branch> follow_branches(const BranchProblems& problems, const ContactLaws& laws,
-                                    const ContactDynamics& dynamics, const FrequencySweep& main,
+                                    DynamicsAlong dynamics, const FrequencySweep& main,
                                     const CurveStability& stability, const BranchOptions& options) {
   options.validate();
-  return Branches(problems, laws, dynamics, options).run(main, stability);
+  return Branches(problems, laws, std::move(dynamics), options).run(main, stability);
 }
 
 }  // namespace wavebalance::solvers

@@ -319,4 +319,15 @@ ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::Ve
   return values;
 }
 
+std::shared_ptr<const ContactDynamics> DynamicsAlong::at(const LinearStructure& structure) {
+  if (!structure.turns()) return given_;
+  constexpr std::size_t most = 4;  // an iterate, two beside it, and the first point
+  const double speed = structure.turning.speed;
+  for (const AtSpeed& one : last_)
+    if (one.speed == speed) return one.dynamics;
+  last_.insert(last_.begin(), {speed, std::make_shared<const ContactDynamics>(structure)});
+  if (last_.size() > most) last_.pop_back();
+  return last_.front().dynamics;
+}
+
 }  // namespace wavebalance::solvers

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
@@ -78,11 +79,11 @@ bool is_on_circle(Complex multiplier) {
 class Tracker {
  public:
   Tracker(CondensedProblem& problem, const ContactLaws& laws, const FrequencySweep& curve,
-          const ContactDynamics& dynamics, const CurveStabilityOptions& options)
+          DynamicsAlong dynamics, const CurveStabilityOptions& options)
       : problem_(problem),
         laws_(laws),
         curve_(curve),
-        dynamics_(dynamics),
+        dynamics_(std::move(dynamics)),
         options_(options),
         motions_("curve_stability", problem, laws, curve, lengths(laws), options.output_points) {}
 
@@ -131,6 +132,7 @@ class Tracker {
   void measure(CurveSample& sample, Measure what) {
     const PeriodicResponse at = motions_.response(sample.point);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
+    const auto dynamics = dynamics_.at(problem_.structure());
     const auto contacts =
         std::count_if(stiffness.intervals.begin(), stiffness.intervals.end(),
                       [&](const ContactInterval& interval) { return laws_.begins(interval.contact); });
@@ -139,10 +141,10 @@ class Tracker {
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;
     if (what == Measure::count_alone && stiffness.friction.empty())
-      return set_count(unstable_multipliers(dynamics_, stiffness, at.frequency, how), sample);
+      return set_count(unstable_multipliers(*dynamics, stiffness, at.frequency, how), sample);
     if (what == Measure::signs && stiffness.friction.empty())
-      return set_signs(stability_signs(dynamics_, stiffness, at.frequency, how), sample);
-    const SignsAndCount both = signs_and_count(dynamics_, stiffness, at.frequency, how);
+      return set_signs(stability_signs(*dynamics, stiffness, at.frequency, how), sample);
+    const SignsAndCount both = signs_and_count(*dynamics, stiffness, at.frequency, how);
     set_signs(both.signs, sample);
     if (is_known(sample)) set_count(both.count, sample);
   }
@@ -257,14 +259,15 @@ class Tracker {
     FloquetOptions how;
     how.stability = with_harmonics_of(problem_.pair(), options_.stability);
     const PeriodicStiffness stiffness = contact_stiffness(problem_, laws_, at);
+    const auto dynamics = dynamics_.at(problem_.structure());
     Complex nearest(missing, missing);
     const auto consider = [&](Complex multiplier) {
       if (!(distance_from(type, multiplier) >= distance_from(type, nearest))) nearest = multiplier;
     };
-    if (const auto all = multipliers_of_costly(dynamics_, stiffness, at.frequency, how.stability))
+    if (const auto all = multipliers_of_costly(*dynamics, stiffness, at.frequency, how.stability))
       for (const Complex multiplier : *all) consider({multiplier.real(), std::abs(multiplier.imag())});
     else
-      for (const FloquetExponent& one : floquet_exponents(dynamics_, stiffness, at.frequency, how).values)
+      for (const FloquetExponent& one : floquet_exponents(*dynamics, stiffness, at.frequency, how).values)
         consider(one.multiplier);
     return nearest;
   }
@@ -272,7 +275,7 @@ class Tracker {
   CondensedProblem& problem_;
   const ContactLaws& laws_;
   const FrequencySweep& curve_;
-  const ContactDynamics& dynamics_;
+  DynamicsAlong dynamics_;
   const CurveStabilityOptions& options_;
   CurveMotions motions_;
   CurveStability result_;
@@ -308,10 +311,10 @@ void CurveStabilityOptions::validate() const {
 }
 
 CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
-                               const FrequencySweep& curve, const ContactDynamics& dynamics,
+                               const FrequencySweep& curve, DynamicsAlong dynamics,
                                const CurveStabilityOptions& options) {
   options.validate();
-  return Tracker(problem, laws, curve, dynamics, options).run();
+  return Tracker(problem, laws, curve, std::move(dynamics), options).run();
 }
 
 }  // namespace wavebalance::solvers

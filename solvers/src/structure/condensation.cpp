@@ -33,7 +33,10 @@ void require_symmetric(const Eigen::SparseMatrix<double>& matrix, const char* na
 bool require_symmetry(const LinearStructure& structure, CondensationMethod method) {
   require_symmetric(structure.mass, "mass", "");
   if (method != CondensationMethod::tridiagonal && method != CondensationMethod::modal)
-    return is_symmetric(structure.damping) && is_symmetric(structure.stiffness);
+    return structure.symmetric();
+  if (structure.turns())
+    throw std::invalid_argument(
+        "Condensation: the tridiagonal and the modal method take no matrices that turn, an LU does");
   const char* reason = "; the tridiagonal and the modal method need symmetric matrices, an LU does not";
   require_symmetric(structure.damping, "damping", reason);
   require_symmetric(structure.stiffness, "stiffness", reason);
@@ -61,12 +64,13 @@ using MethodPointer = std::unique_ptr<Condensation::Method>;
 // Sets `chosen` to the method taken.
 MethodPointer choose_method(const LinearStructure& structure, bool symmetric, CondensationMethod& chosen) {
   constexpr int modal_limit = 1000;  // beyond it the modes cost more than a sweep by elimination
-  if (symmetric && is_tridiagonal(structure)) {
+  const bool fixed = symmetric && !structure.turns();
+  if (fixed && is_tridiagonal(structure)) {
     chosen = CondensationMethod::tridiagonal;
     return make_tridiagonal_method(structure);
   }
   chosen = CondensationMethod::modal;
-  if (symmetric && structure.size() <= modal_limit)
+  if (fixed && structure.size() <= modal_limit)
     if (MethodPointer method = make_modal_method(structure)) return method;
   chosen = elimination(structure);
   return chosen == CondensationMethod::dense ? make_dense_method(structure) : make_sparse_method(structure);
@@ -147,11 +151,20 @@ Eigen::VectorXd direction_lengths(const LinearStructure& structure) {
 
 StiffnessScale::StiffnessScale(const LinearStructure& structure)
     : largest_{largest_entry(structure.mass), largest_entry(structure.damping),
-               largest_entry(structure.stiffness)} {}
+               largest_entry(structure.stiffness), largest_entry(structure.turning.gyroscopic),
+               largest_entry(structure.turning.stiffness)} {}
 
 double StiffnessScale::size(const ImpedanceCoefficients& factors) const {
-  return std::abs(factors[0]) * largest_[0] + std::abs(factors[1]) * largest_[1] +
-         std::abs(factors[2]) * largest_[2];
+  double sum = 0.0;
+  for (std::size_t d = 0; d < factors.size(); ++d) sum += std::abs(factors[d]) * largest_[d];
+  return sum;
+}
+
+ImpedanceCoefficients coefficients_at(const StiffnessSpectrum& spectrum, Eigen::Index k) {
+  ImpedanceCoefficients at{};
+  for (std::size_t d = 0; d < at.size(); ++d)
+    if (spectrum[d].size() > 0) at[d] = spectrum[d][k];
+  return at;
 }
 
 double StiffnessScale::condition(const ImpedanceCoefficients& factors, double solution_norm,
@@ -236,8 +249,7 @@ void Condensation::Method::condense(const StiffnessSpectrum& factors, const Stif
   parallel_for(workers, points, [&](int worker, Index k) {
     Method& method = worker == 0 ? *this : *twins_[static_cast<std::size_t>(worker) - 1];
     const CondensedPoint point =
-        method.dynamic_compliance({factors[0][k], factors[1][k], factors[2][k]},
-                                  {derivatives[0][k], derivatives[1][k], derivatives[2][k]});
+        method.dynamic_compliance(coefficients_at(factors, k), coefficients_at(derivatives, k));
     result.compliance.row(k) = point.compliance.reshaped().transpose();
     result.load_response.row(k) = point.load_response.transpose();
     result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();

@@ -34,14 +34,16 @@ CondensedPoint DirectMethod::dynamic_compliance(const ImpedanceCoefficients& fac
 void DirectMethod::set_errors(const ImpedanceCoefficients& factors, const Eigen::MatrixXcd& response,
                               const Eigen::MatrixXcd& left, CondensedPoint& point) const {
   const int count = contacts();
-  const Eigen::Vector3d size(std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2]));
+  Eigen::VectorXd size(Index(magnitudes_.size()));
+  for (Index d = 0; d < size.size(); ++d) size[d] = std::abs(factors[std::size_t(d)]);
   const Eigen::MatrixXd squares = response.cwiseAbs2(), moduli = squares.cwiseSqrt();
   const Eigen::MatrixXd left_squares = left.cwiseAbs2(), left_moduli = left_squares.cwiseSqrt();
   point.load_response_error.resize(count * loads_.cols());
   for (Index l = 0; l < loads_.cols(); ++l) {
     const auto loaded = moduli.col(count + l);
     Eigen::VectorXd perturbed = magnitudes_[2] * (size[2] * loaded);
-    for (std::size_t d = 0; d < 2; ++d) perturbed += magnitudes_[d] * (size[Index(d)] * loaded);
+    for (std::size_t d = 0; d < magnitudes_.size(); ++d)
+      if (d != 2) perturbed += magnitudes_[d] * (size[Index(d)] * loaded);
     point.load_response_error.segment(count * l, count) =
         rounding_unit * (left_moduli.transpose() * perturbed);
   }
@@ -67,6 +69,10 @@ DirectMethod::SparseComplex DirectMethod::combine(const ImpedanceCoefficients& s
   using Complex = std::complex<double>;
   SparseComplex sum = structure_.mass.cast<Complex>() * s[0] + structure_.damping.cast<Complex>() * s[1] +
                       structure_.stiffness.cast<Complex>() * s[2];
+  if (structure_.turns())  // with zero factors too, for the same pattern
+    sum = (sum + structure_.turning.gyroscopic.cast<Complex>() * s[3] +
+           structure_.turning.stiffness.cast<Complex>() * s[4])
+              .eval();
   sum.makeCompressed();
   return sum;
 }

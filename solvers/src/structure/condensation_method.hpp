@@ -59,9 +59,9 @@ Eigen::VectorXd direction_lengths(const LinearStructure& structure);
 class StiffnessScale {
  public:
   explicit StiffnessScale(const LinearStructure& structure);
-  /// Largest entries of M, C and K.
-  const std::array<double, 3>& largest() const { return largest_; }
-  /// |s2| max|M| + |s1| max|C| + |s0| max|K|.
+  /// Largest entries of M, C and K, and of G and K_s.
+  const std::array<double, 5>& largest() const { return largest_; }
+  /// |s2| max|M| + |s1| max|C| + |s0| max|K|, and so on.
   double size(const ImpedanceCoefficients& factors) const;
   /// scale ||x|| / ||b|| for Z x = b, a lower bound of the condition number of Z up to a factor.
   double condition(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
@@ -72,7 +72,7 @@ class StiffnessScale {
   double require_regular(const ImpedanceCoefficients& factors, double solution_norm, double right_norm) const;
 
  private:
-  std::array<double, 3> largest_;
+  std::array<double, 5> largest_;
 };
 
 using MethodMaker = std::function<std::unique_ptr<Condensation::Method>(const LinearStructure&)>;

@@ -30,6 +30,8 @@ class ScaledMethod final : public Condensation::Method {
     scaled.mass /= units_[0];
     scaled.damping /= units_[1];
     scaled.stiffness /= units_[2];
+    scaled.turning.gyroscopic /= units_[1];
+    scaled.turning.stiffness /= units_[2];
     method_ = make(scaled);
   }
 
@@ -68,7 +70,8 @@ class ScaledMethod final : public Condensation::Method {
 
  private:
   ImpedanceCoefficients in_units(const ImpedanceCoefficients& s, double unit) const {
-    return {s[0] * (units_[0] / unit), s[1] * (units_[1] / unit), s[2] * (units_[2] / unit)};
+    return {s[0] * (units_[0] / unit), s[1] * (units_[1] / unit), s[2] * (units_[2] / unit),
+            s[3] * (units_[1] / unit), s[4] * (units_[2] / unit)};
   }
 
   bool is_ordinary_spectrum(const StiffnessSpectrum& factors) const {

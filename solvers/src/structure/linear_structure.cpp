@@ -63,7 +63,17 @@ double asymmetry(const Eigen::SparseMatrix<double>& matrix) {
 bool is_symmetric(const Eigen::SparseMatrix<double>& matrix) { return asymmetry(matrix) <= 1e-12; }
 
 bool LinearStructure::symmetric() const {
-  return is_symmetric(mass) && is_symmetric(damping) && is_symmetric(stiffness);
+  return is_symmetric(mass) && is_symmetric(damping) && is_symmetric(stiffness) &&
+         turning.gyroscopic.nonZeros() == 0;
+}
+
+LinearStructure LinearStructure::at_speed(double speed) const {
+  LinearStructure result = *this;
+  const double before = turning.speed;
+  if (turning.gyroscopic.size() > 0) result.damping += (speed - before) * turning.gyroscopic;
+  if (turning.stiffness.size() > 0) result.stiffness += (speed * speed - before * before) * turning.stiffness;
+  result.turning.speed = speed;
+  return result;
 }
 
 void LinearStructure::validate() const {
@@ -72,6 +82,8 @@ void LinearStructure::validate() const {
   require_square(mass, load.size(), "mass");
   require_square(damping, load.size(), "damping");
   require_square(stiffness, load.size(), "stiffness");
+  if (turning.gyroscopic.size() > 0) require_square(turning.gyroscopic, load.size(), "turning.gyroscopic");
+  if (turning.stiffness.size() > 0) require_square(turning.stiffness, load.size(), "turning.stiffness");
   require_directions(contact_directions, load.size());
   for (std::size_t l = 0; l < forces.size(); ++l) require_force(forces[l], l, load.size());
   if (is_free() && rigid_modes.rows() != load.size())

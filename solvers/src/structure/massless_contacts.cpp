@@ -99,6 +99,8 @@ MasslessContacts with_massless_contacts(LinearStructure structure, int modes, co
   Eigen::MatrixXd basis = transformation(omega, shapes, structure.contact_directions, modes);
   structure.stiffness = transformed(structure.stiffness, basis);
   structure.damping = transformed(structure.damping, basis);
+  for (auto* part : {&structure.turning.gyroscopic, &structure.turning.stiffness})
+    if (part->size() > 0) *part = transformed(*part, basis);
   structure.transform_loads(basis);
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(basis.cols());
   masses.head(modes).setOnes();

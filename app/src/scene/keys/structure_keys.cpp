@@ -63,10 +63,11 @@ void add_matrices(std::vector<SceneKey>& keys) {
   matrices(&MatricesStructure::spin_stiffness, "spin_stiffness", "N s^2/m",
            "symmetric matrix K_s of what turning stiffens or softens: the stiffness is K + spin_speed^2 K_s",
            path, optional, only_with(of_turning()));
-  matrices(&MatricesStructure::spin_speed, "spin_speed", "rad/s",
-           "speed at which a structure with gyroscopic or spin_stiffness turns; 0 turns it with the load, 2 pi "
-           "forcing.frequency, but not along a frequency sweep, whose matrices do not vary",
-           not_negative, optional, only_with(of_turning()));
+  matrices(
+      &MatricesStructure::spin_speed, "spin_speed", "rad/s",
+      "speed at which a structure with gyroscopic or spin_stiffness turns; 0 turns it with the load, 2 pi "
+      "forcing.frequency, and at each frequency along a frequency sweep",
+      not_negative, optional, only_with(of_turning()));
   matrices(
       &MatricesStructure::free, "free", "",
       "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "

@@ -90,6 +90,8 @@ bool solves_by_phases(const Scene& scene);
 
 /// At which matrices with gyroscopic or spin_stiffness turn, rad/s; 0 for other structures.
 double spin_speed(const Scene& scene);
+/// Whether these matrices follow the frequency along a curve.
+bool turns_along_curve(const Scene& scene);
 
 /// The scene whose motions have `times` times the period: with as many times the quadrature and output
 /// points, and the functions of as many times the harmonics, so that it has the scene's motions repeated.

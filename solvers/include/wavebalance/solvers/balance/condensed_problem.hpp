@@ -30,6 +30,9 @@ namespace wavebalance::solvers {
 /// ContactOperator maps contact forces to the unknown for which contact is solved, which may be another than
 /// u.
 ///
+/// A structure that turns (LinearStructure::turning) does so with its load: structure() has the matrices at
+/// the last set_frequency(), and slopes by the frequency contain their changes.
+///
 /// A structure that is free to move (LinearStructure::rigid_modes) has no static compliance along the rigid
 /// contact displacements Q, an orthonormal basis of S R: the mean contact forces must balance the static load
 /// there, and the mean displacement Q^T u is an unknown. Springs kappa Q Q^T hold the structure in the static
@@ -63,6 +66,7 @@ class CondensedProblem {
   int samples() const { return contacts() * points(); }    ///< C N
   /// HarmonicCompliance::condition() at the frequency.
   double condition() const { return harmonics_->condition(); }
+  /// One that turns changes with set_frequency().
   const LinearStructure& structure() const { return *structure_; }
   const Eigen::VectorXcd& load_harmonics() const { return load_harmonics_; }
 
@@ -183,7 +187,7 @@ class CondensedProblem {
   void update_free_response();
 
   TimePair pair_;
-  std::shared_ptr<const LinearStructure> structure_;
+  std::shared_ptr<const LinearStructure> structure_, given_;  // at the frequency, and as it was given
   Eigen::VectorXcd load_harmonics_;
   struct Hold;  // the springs that hold a structure that is free to move
   std::unique_ptr<Hold> hold_;

@@ -13,7 +13,8 @@ namespace wavebalance::solvers {
 class PhaseFamily {
  public:
   /// Takes the structure, the load and the other parameter from `problem`, which may change afterwards.
-  /// `dynamics` are those of its structure and must outlive the object. Throws std::invalid_argument for laws
+  /// `dynamics` are those of its structure and must outlive the object; a structure that turns has others at
+  /// each frequency. Throws std::invalid_argument for laws
   /// that are neither one nor one for each contact.
   PhaseFamily(const CondensedProblem& problem, ContactLaws laws, const ContactDynamics& dynamics,
               SweepParameter parameter);
@@ -23,8 +24,9 @@ class PhaseFamily {
 
   SweepParameter parameter() const;
   const ContactLaws& laws() const;
+  /// Those at the frequency of the problem.
   const ContactDynamics& dynamics() const;
-  /// O(n^3) for each harmonic of the load.
+  /// O(n^3) for each harmonic of the load, and for the dynamics of a structure that turns.
   PhasesProblem at(double value) const;
 
  private:

@@ -75,6 +75,8 @@ struct PhasesProblem {
   /// move it is the motion with the springs ContactDynamics::holding().
   Eigen::MatrixXcd contact_free;
   double frequency = 0.0;  ///< 1 / period, Hz
+  /// What keeps `dynamics` of a structure that turns, which are others at each frequency; null for others.
+  std::shared_ptr<const ContactDynamics> kept = {};
 };
 
 struct ContactPhasesOptions {

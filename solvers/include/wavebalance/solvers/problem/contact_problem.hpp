@@ -63,8 +63,9 @@ class ContactProblem {
   const ContactLaws& laws() const { return laws_; }
   /// Takes other laws, which are refused as in the constructor.
   void set_laws(ContactLaws laws);
-  /// Null where the structure has no modes to compute. O(n^3) the first time.
-  const ContactDynamics* dynamics() const { return dynamics_->of(structure()); }
+  /// Null where the structure has no modes to compute. Those of a structure that turns are those at the
+  /// frequency of the last question, until another one. O(n^3) the first time.
+  const ContactDynamics* dynamics() const { return dynamics_->of(structure()).get(); }
   /// The equations, at the frequency and load of the last question.
   CondensedProblem& condensed() { return condensed_; }
   const CondensedProblem& condensed() const { return condensed_; }

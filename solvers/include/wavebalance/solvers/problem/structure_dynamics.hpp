@@ -1,6 +1,6 @@
 #pragma once
+#include <memory>
 #include <mutex>
-#include <optional>
 
 #include "wavebalance/solvers/stability/contact_dynamics.hpp"
 
@@ -9,13 +9,15 @@ namespace wavebalance::solvers {
 /// The poles of a structure, computed by whichever thread needs them first.
 class StructureDynamics {
  public:
-  /// Those of `structure`, which must be the same in each call; null where it has no modes to compute. O(n^3)
-  /// the first time.
-  const ContactDynamics* of(const LinearStructure& structure);
+  /// Those of `structure`, which must be the same in each call but for the speed of one that turns; null
+  /// where it has no modes to compute. O(n^3) the first time, and of one that turns at each other speed.
+  std::shared_ptr<const ContactDynamics> of(const LinearStructure& structure);
 
  private:
-  std::once_flag once_;
-  std::optional<ContactDynamics> dynamics_;
+  std::mutex mutex_;
+  bool known_ = false;
+  double speed_ = 0.0;  // of dynamics_
+  std::shared_ptr<const ContactDynamics> dynamics_;
 };
 
 }  // namespace wavebalance::solvers

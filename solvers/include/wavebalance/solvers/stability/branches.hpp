@@ -69,7 +69,7 @@ using BranchProblems = std::function<CondensedProblem(int periods)>;
 /// periodic. Throws std::invalid_argument for options out of range, a problem of other sizes, and a curve as
 /// curve_stability() does. Each branch costs as much as a curve of its points.
 std::vector<Branch> follow_branches(const BranchProblems& problems, const ContactLaws& laws,
-                                    const ContactDynamics& dynamics, const FrequencySweep& main,
+                                    DynamicsAlong dynamics, const FrequencySweep& main,
                                     const CurveStability& stability, const BranchOptions& options);
 
 }  // namespace wavebalance::solvers

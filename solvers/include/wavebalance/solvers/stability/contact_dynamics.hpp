@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "wavebalance/solvers/structure/linear_structure.hpp"
@@ -95,6 +96,27 @@ class ContactDynamics {
   Eigen::MatrixX3d denominator_;        // one row per section
   Eigen::MatrixXd constant_numerator_;  // sections x C^2
   Eigen::MatrixXd linear_numerator_;    // sections x C^2; empty where all are zero
+};
+
+/// The dynamics of a structure along a curve: those given, or of a structure that turns those at each
+/// frequency. One object per thread.
+class DynamicsAlong {
+ public:
+  /// Of the structure where it does not turn; must outlive the object.
+  DynamicsAlong(const ContactDynamics& dynamics)
+      : given_(std::shared_ptr<const ContactDynamics>(), &dynamics) {}
+
+  /// Those of a structure at its speed (TurningParts::speed). The last ones are kept, others take O(n^3).
+  /// Throws as ContactDynamics does.
+  std::shared_ptr<const ContactDynamics> at(const LinearStructure& structure);
+
+ private:
+  struct AtSpeed {
+    double speed;
+    std::shared_ptr<const ContactDynamics> dynamics;
+  };
+  std::shared_ptr<const ContactDynamics> given_;
+  std::vector<AtSpeed> last_;  // latest first
 };
 
 }  // namespace wavebalance::solvers

@@ -79,7 +79,7 @@ struct CurveStability {
 /// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
 /// unstable_multipliers() per point, and about 20 responses and counts per special point.
 CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
-                               const FrequencySweep& curve, const ContactDynamics& dynamics,
+                               const FrequencySweep& curve, DynamicsAlong dynamics,
                                const CurveStabilityOptions& options = {});
 
 }  // namespace wavebalance::solvers

@@ -15,8 +15,8 @@ class SingularSystem : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The reduction of a structure to C contacts at one dynamic stiffness Z = s2 M + s1 C + s0 K; S are their
-/// directions, C x n.
+/// The reduction of a structure to C contacts at one dynamic stiffness Z = s2 M + s1 C + s0 K, of one that
+/// turns with parts of G and K_s too; S are their directions, C x n.
 struct CondensedPoint {
   Eigen::MatrixXcd compliance;  ///< S Z^-1 S^T, C x C, m/N
   /// S Z^-1 L, m for a unit time function of each load: C L values, that of contact c by load l at c + C l.
@@ -30,11 +30,15 @@ struct CondensedPoint {
   Eigen::VectorXd compliance_error = {}, load_response_error = {};
 };
 
-/// The three complex factors of M, C and K.
-using ImpedanceCoefficients = std::array<std::complex<double>, 3>;
+/// The complex factors of M, C and K and of what a structure that turns adds to them
+/// (LinearStructure::turning), G and K_s.
+using ImpedanceCoefficients = std::array<std::complex<double>, 5>;
 
-/// The same three factors for each k of a spectrum over translates.
-using StiffnessSpectrum = std::array<Eigen::VectorXcd, 3>;
+/// The same factors for each k of a spectrum over translates; empty: zero.
+using StiffnessSpectrum = std::array<Eigen::VectorXcd, 5>;
+
+/// The factors at one k.
+ImpedanceCoefficients coefficients_at(const StiffnessSpectrum& spectrum, Eigen::Index k);
 
 /// CondensedPoint for each of the K values k of a spectrum, one row each: entry (c, d) of the compliance is
 /// in column c + C d, the response of contact c to load l in column c + C l.
@@ -70,8 +74,8 @@ class Condensation {
  public:
   /// Throws std::invalid_argument as LinearStructure::validate does, for an unsymmetric mass, and for a
   /// method that the matrices do not admit: tridiagonal elimination or modes of an unsymmetric damping or
-  /// stiffness; matrices that are not tridiagonal; modes when neither K nor M is positive definite or the
-  /// damping couples them.
+  /// stiffness or of matrices that turn; matrices that are not tridiagonal; modes when neither K nor M is
+  /// positive definite or the damping couples them.
   explicit Condensation(const LinearStructure& structure,
                         CondensationMethod method = CondensationMethod::automatic);
   Condensation(Condensation&&) noexcept;
@@ -92,7 +96,8 @@ class Condensation {
   void set_threads(int threads);
   int threads() const { return threads_; }
 
-  /// Condenses for the factors {s2, s1, s0} of M, C, K and their derivatives {d2, d1, d0}. Throws
+  /// Condenses for the factors {s2, s1, s0} of M, C, K and their derivatives {d2, d1, d0}, with two more of
+  /// parts that turn. Throws
   /// SingularSystem.
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives);

@@ -22,6 +22,15 @@ double asymmetry(const Eigen::SparseMatrix<double>& matrix);
 /// Whether that is at most 1e-12, the rounding of a matrix that was assembled as a symmetric one.
 bool is_symmetric(const Eigen::SparseMatrix<double>& matrix);
 
+/// What turning adds to damping and stiffness at the speed Omega of the load, 2 pi f with f its frequency:
+/// Omega G and Omega^2 K_s. LinearStructure holds damping and stiffness at one speed, at_speed() those at
+/// another.
+struct TurningParts {
+  Eigen::SparseMatrix<double> gyroscopic = {};  ///< G, n x n, N s^2/m; empty without
+  Eigen::SparseMatrix<double> stiffness = {};   ///< K_s, n x n, symmetric, N s^2/m; empty without
+  double speed = 0.0;                           ///< rad/s, that of the structure's damping and stiffness
+};
+
 /// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) + forces - S^T f(S x),
 /// with f the contact forces. SI units or any other consistent set.
 struct LinearStructure {
@@ -36,11 +45,17 @@ struct LinearStructure {
   /// n x r with K R = 0 and R^T M R = 1: the motions along which the structure is free [find_rigid_modes];
   /// empty for one that is held.
   Eigen::MatrixXd rigid_modes = {};
+  /// Parts of damping and stiffness that follow the frequency of the load; empty for matrices that stay.
+  TurningParts turning = {};
 
   int size() const { return static_cast<int>(load.size()); }
   int contacts() const { return static_cast<int>(contact_directions.rows()); }
-  /// Whether mass, damping and stiffness are symmetric. O(entries).
+  /// Whether mass, damping and stiffness are symmetric, at any speed. O(entries).
   bool symmetric() const;
+  /// Whether damping or stiffness follows the frequency of the load.
+  bool turns() const { return turning.gyroscopic.size() > 0 || turning.stiffness.size() > 0; }
+  /// The structure with its damping and stiffness at a speed, rad/s; itself where it does not turn.
+  LinearStructure at_speed(double speed) const;
   /// The shapes of load and forces, n x (1 + number of forces), `load` first.
   Eigen::MatrixXd load_shapes() const;
   int load_count() const { return 1 + static_cast<int>(forces.size()); }
