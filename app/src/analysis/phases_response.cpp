@@ -118,6 +118,8 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
     note(found, *std::move(motion), "from_settling", 0);
 }
 
+}  // namespace
+
 void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result) {
   constexpr double least_left_out = 1e-9, of_impacts = 1e-4;  // whose harmonics do not decay
@@ -141,6 +143,8 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
   if (!moves_by_events(scene)) note_settled(problem, scene, options.observer, result);
 }
+
+namespace {
 
 /// `settling`: whether to start from that motion where no balance leads to one.
 void solve_by_phases(const Scene& scene, const StructureModel& model, const ResponseOptions& options,

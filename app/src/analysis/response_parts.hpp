@@ -23,6 +23,10 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
 void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                   Response& result);
 
+/// Sets the contacts' exact motion, and what options ask for of it.
+void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
+                 const StructureModel& model, const ResponseOptions& options, Response& result);
+
 /// Sets the motion of the whole structure, and what is left out of it.
 void note_structure(Response& result, solvers::StructurePhases whole);
 

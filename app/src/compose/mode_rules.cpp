@@ -133,4 +133,32 @@ void check_mode(const Document& document, const Scene& scene) {
   if (!damped && !is_elastic_mode(scene)) check_no_bases(document, scene);
 }
 
+void check_limit_cycle(const Document& document, const Scene& scene) {
+  const std::string none =
+      "not with analysis.type = \"limit_cycle\", a motion without periodic load; expected ";
+  if (scene.forcing.amplitude != 0.0)
+    fail_rule(document, {"forcing.amplitude", "analysis.type"}, none + "0 or none");
+  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
+    const ForcingTerm& term = scene.forcing.terms[i];
+    if (!term.samples.empty() || term.harmonic != 0)
+      fail_rule(document,
+                {term_section(i) + (term.samples.empty() ? ".harmonic" : ".samples"), "analysis.type"},
+                none + "harmonic = 0, a static load");
+  }
+  const MatricesStructure& matrices = scene.structure.matrices;
+  if ((!matrices.gyroscopic.empty() || !matrices.spin_stiffness.empty()) && matrices.spin_speed == 0.0)
+    fail_rule(
+        document, {"structure.spin_speed", "structure.gyroscopic", "structure.spin_stiffness"},
+        "turns with the load, which a limit cycle does not have; expected structure.spin_speed in rad/s");
+  if (scene.structure.loss_factor > 0.0)
+    fail_rule(
+        document, {"structure.loss_factor", "analysis.type"},
+        "not with analysis.type = \"limit_cycle\", since a loss factor has no equation in time; expected "
+        "0, or modal_damping = loss_factor / 2 in its place");
+  if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
+    fail_rule(document, {"contact.law", "analysis.type"},
+              "not with analysis.type = \"limit_cycle\": a rigid obstacle needs a law of impact; expected "
+              "contact.restitution, or a stiff \"linear\" law");
+}
+
 }  // namespace wavebalance::app

@@ -27,7 +27,8 @@ std::string heading_of(const RunArguments& arguments, const Scene& scene) {
       {AnalysisType::nonlinear_mode, "Nonlinear mode"},
       {AnalysisType::time_stepping, "Response by time stepping"},
       {AnalysisType::shooting, "Response by contact phases"},
-      {AnalysisType::motions, "Coexisting motions"}};
+      {AnalysisType::motions, "Coexisting motions"},
+      {AnalysisType::limit_cycle, "Limit cycle"}};
   const auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& one) { return one.first == scene.analysis.type; });
   const std::string structure = scene.structure.type == StructureType::matrices

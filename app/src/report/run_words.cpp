@@ -71,6 +71,17 @@ std::string phases_sentence(const std::string& status) {
       {"not_settled",
        "The motion from rest did not repeat within the periods integrated: it is aperiodic, has more than 16 periods of "
        "the load, or has not settled yet. Other motions were not sought."},
+      {"at_rest",
+       "Every start came to rest. That is no proof that there is no limit cycle: other states or analysis.random_starts "
+       "may lead to one."},
+      {"grows",
+       "Motions grow without end from some starts, as nothing in the scene limits them, and none led to a limit "
+       "cycle."},
+      {"no_return",
+       "The motion did not come back to a state within the periods integrated: it is aperiodic, or has not settled yet; "
+       "a larger analysis.max_periods may let it."},
+      {"not_solved",
+       "The motion repeats, and its equations were not solved to the tolerance: a larger time.tolerance may do."},
       {"grazing", "A contact touches its obstacle so slightly that it cannot be told whether it does."},
       {"too_many_impacts", "There are more than 2000 impacts in a period of the load."},
       {"no_modes",

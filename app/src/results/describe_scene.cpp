@@ -235,6 +235,10 @@ std::string method_lines(const Scene& scene) {
   if (integrates_in_time(scene.analysis.type)) return "";
   if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
   if (solves_by_impacts(scene)) return impacts_line(scene);
+  if (scene.analysis.type == AnalysisType::limit_cycle)
+    return fmt::format(
+        "time       from event to event, from rest, carried contacts and up to {} random states\n",
+        scene.analysis.random_starts);
   if (moves_by_events(scene))
     return "time       exact motions, from what the structure settles to from event to event\n";
   if (scene.analysis.exact) return exact_line(scene);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "results/damped_mode_record.hpp"
+#include "results/limit_cycle_record.hpp"
 #include "results/mode_record.hpp"
 #include "results/motions_record.hpp"
 #include "results/response_record.hpp"
@@ -85,6 +86,8 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
                                                          : time_stepping_response(scene, model, options));
     case AnalysisType::motions:
       return motions_record(scene, model, how.observer);
+    case AnalysisType::limit_cycle:
+      return limit_cycle_record(scene, model, std::move(options));
     case AnalysisType::forced_response:
     case AnalysisType::shooting:
       break;

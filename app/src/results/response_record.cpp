@@ -130,7 +130,8 @@ void append_settled(Record& record, const Scene& scene, const Response& response
 }
 
 void append_other_motions(Record& record, const Scene& scene, const Response& response) {
-  if (!response.moves || scene.contact.law == no_law) return;
+  if (!response.moves || scene.contact.law == no_law || scene.analysis.type == AnalysisType::limit_cycle)
+    return;
   const bool integrated = integrates_in_time(scene.analysis.type) && !is_by_phases(response);
   const bool from_rest = response.settled || (response.attractor_periods >= 0 && !integrated);
   record.add(quantities::other_motions, from_rest ? "settled_from_rest" : "not_sought");

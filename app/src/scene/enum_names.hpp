@@ -65,14 +65,15 @@ inline constexpr std::array<NamedValue<LoadKind>, 4> enum_names<LoadKind>{
      {LoadKind::base_acceleration, "base_acceleration"},
      {LoadKind::unbalance, "unbalance"}}};
 template <>
-inline constexpr std::array<NamedValue<AnalysisType>, 7> enum_names<AnalysisType>{
+inline constexpr std::array<NamedValue<AnalysisType>, 8> enum_names<AnalysisType>{
     {{AnalysisType::forced_response, "forced_response"},
      {AnalysisType::frequency_sweep, "frequency_sweep"},
      {AnalysisType::amplitude_sweep, "amplitude_sweep"},
      {AnalysisType::time_stepping, "time_stepping"},
      {AnalysisType::shooting, "shooting"},
      {AnalysisType::motions, "motions"},
-     {AnalysisType::nonlinear_mode, "nonlinear_mode"}}};
+     {AnalysisType::nonlinear_mode, "nonlinear_mode"},
+     {AnalysisType::limit_cycle, "limit_cycle"}}};
 template <>
 inline constexpr std::array<NamedValue<TimeMethod>, 2> enum_names<TimeMethod>{
     {{TimeMethod::balance, "balance"}, {TimeMethod::exact, "exact"}}};

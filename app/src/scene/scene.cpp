@@ -113,6 +113,7 @@ bool has_impacts(const Contact& contact) {
 bool moves_by_events(const Scene& scene) {
   const Contact& contact = scene.contact;
   const bool free = scene.structure.matrices.free;
+  if (scene.analysis.type == AnalysisType::limit_cycle) return true;
   if (has_impacts(contact))
     return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
                                [](const ContactPair& pair) { return !is_rigid(pair.law); });
@@ -156,12 +157,15 @@ bool names_exact_method(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   return !has_impacts(scene.contact) &&
          (type == AnalysisType::shooting || type == AnalysisType::motions ||
+          type == AnalysisType::limit_cycle ||
           (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact));
 }
 
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
-  if (moves_by_events(scene)) return type == AnalysisType::shooting || type == AnalysisType::forced_response;
+  if (moves_by_events(scene))
+    return type == AnalysisType::shooting || type == AnalysisType::forced_response ||
+           type == AnalysisType::limit_cycle;
   return names_exact_method(scene);
 }
 

@@ -14,6 +14,7 @@ struct ClosedPeriod {
   int iterations = 0;
   Eigen::VectorXd state;      ///< ContactFlow::state() at the beginning
   std::vector<int> contacts;  ///< and the states of the machines
+  double period = missing;    ///< s, of the flow, or that found where it is an unknown
   double distance = missing;  ///< of the state one period later, in displacements relative to the motion
   Eigen::MatrixXd map;        ///< what becomes of perturbations of the state in a period, there or near
 };
@@ -23,8 +24,11 @@ struct ClosedPeriod {
 /// began in, and where no part of a step helps, the motion goes on by a period. `map`: one that is known from
 /// near, which serves as long as a step leaves a tenth at most; else each step carries all perturbations over
 /// a period.
+///
+/// With `free_period`, of a flow without periodic load, the period is an unknown, too, and each step goes
+/// across the motion, so that its phase stays that of the start.
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer = {},
-                          Eigen::MatrixXd map = {});
+                          Eigen::MatrixXd map = {}, bool free_period = false);
 
 /// About so many floating-point operations a panel takes at least, and the last period of a flow with so many
 /// rows and its perturbations took, in those of small matrices.
@@ -39,7 +43,8 @@ std::vector<Eigen::Index> free_states(const Eigen::MatrixXd& map);
 Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map);
 
 /// The multipliers of a state that comes back by falling modulus. That of 1 of a slider which does not move
-/// is left out. Empty where perturbations are not resolved.
-Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed);
+/// is left out, and with `free_period` that of a perturbation along the motion. Empty where perturbations are
+/// not resolved.
+Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed, bool free_period = false);
 
 }  // namespace wavebalance::solvers::detail

@@ -36,8 +36,9 @@ double moving_length(const PhasesProblem& problem) {
 
 // Where almost nothing holds a structure it rests on its contacts, and its static deflection without them
 // says nothing but how large rounding is.
-double length_of(const PhasesProblem& problem) {
+double length_of(const PhasesProblem& problem, const FlowOptions& options) {
   constexpr double rounding = 1e-4;
+  if (options.length > 0.0) return options.length;
   const Eigen::MatrixXcd& free = problem.contact_free;
   const double whole = free.size() == 0 ? 0.0 : free.rowwise().norm().maxCoeff();
   return std::max(moving_length(problem), rounding * whole);
@@ -57,22 +58,26 @@ void FlowOptions::validate() const {
   detail::require_at_least(who, "max_panels", max_panels, panels);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_positive(who, "rest_velocity", rest_velocity);
+  if (!(length >= 0.0)) detail::reject(who, "length", length, "0 for none or positive");
 }
 
 ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& options)
     : options_(options),
       poles_(problem.dynamics, problem.contact_free, problem.frequency),
-      machines_(machines_of(problem.laws, problem.dynamics, length_of(problem), problem.frequency)),
+      machines_(machines_of(problem.laws, problem.dynamics, length_of(problem, options), problem.frequency)),
       contacts_(machines_),
       nodes_(detail::panel_nodes),
       rest_position_(Eigen::VectorXd::Zero(poles_.rows())),
-      length_(length_of(problem)),
-      moving_(moving_length(problem)),
+      span_(poles_.period()),
+      length_(length_of(problem, options)),
+      moving_(options.length > 0.0 ? options.length : moving_length(problem)),
       coarsest_(coarsest_level(poles_, options.panels)),
       cycles_(machines_.size()),
       fastest_(machines_.size(), 0.0) {
   for (const int row : problem.laws.rigid(int(poles_.rows())))
     if (!problem.laws[row].friction()) rest_position_[row] = std::min(0.0, problem.laws[row].gap());
+  end_force_.setZero(poles_.rows());
+  end_memory_rate_.setZero(contacts_.memories());
   start();
 }
 
@@ -154,7 +159,7 @@ void ContactFlow::Engine::keep(const Solved& panel, double end) {
 
 void ContactFlow::Engine::take_samples(const Solved& panel, double end, int points,
                                        const std::function<void(const FlowSample&)>& sample) {
-  const double step = poles_.period() / points, until = time_ + panel.shape->half() * (end + 1.0);
+  const double step = span_ / points, until = time_ + panel.shape->half() * (end + 1.0);
   std::vector<double> at;
   const auto next = [&] { return (sampled_ + first_sample_) * step; };
   for (; sampled_ < points && next() < until; ++sampled_)
@@ -262,6 +267,9 @@ FlowStatus ContactFlow::Engine::step(int points, const std::function<void(const 
   const detail::PanelMotion here = motion(*panel->shape);
   const Eigen::VectorXcd next = here.state_at(waves, 0, panel->values.force);
   if (!variation_.empty()) variation_.over(contacts_, now_, here, panel->values, waves, 0);
+  const Eigen::VectorXd at_end = waves.forces[0].row(0).transpose();
+  end_force_ = panel->values.force * at_end;
+  end_memory_rate_ = panel->values.memory_rate * at_end;
   const bool moves = !panel->values.memory_rate.isZero(0.0);
   const detail::Signals signals = ends_state || moves ? here.at(waves, panel->values) : detail::Signals{};
   states_ = next;
@@ -281,7 +289,7 @@ FlowStatus ContactFlow::Engine::advance_period(int points,
   for (std::size_t c = 0; c < machines_.size(); ++c) cycles_[c] = {.row = machines_[c].row};
   rests_ = sampled_ = steps_ = 0;
   unresolved_ = 0.0;
-  until_ = poles_.period();
+  until_ = span_;
   while (time_ < until_)
     if (const FlowStatus status = step(points, sample); status != FlowStatus::converged) return status;
   time_ = 0.0;
@@ -344,12 +352,26 @@ Eigen::VectorXd ContactFlow::state() const {
   return result;
 }
 
+Eigen::VectorXd ContactFlow::rate() const {
+  const detail::ContactPoles& poles = engine_->poles_;
+  Eigen::VectorXd result(poles.states() + engine_->end_memory_rate_.size());
+  const Eigen::VectorXcd of_poles = poles.exponents().cwiseProduct(engine_->states_) -
+                                    poles.inputs() * engine_->end_force_.cast<std::complex<double>>();
+  result << poles.real_of(of_poles), engine_->end_memory_rate_;
+  return result;
+}
+
+void ContactFlow::set_period(double seconds) {
+  detail::require_positive("ContactFlow", "period", seconds);
+  engine_->span_ = seconds;
+}
+
 const std::vector<int>& ContactFlow::contact_states() const { return engine_->now_.state; }
 const std::vector<ContactMachine>& ContactFlow::machines() const { return engine_->machines_; }
 const std::vector<FlowEvent>& ContactFlow::events() const { return engine_->events_; }
 const std::vector<FrictionCycle>& ContactFlow::cycles() const { return engine_->cycles_; }
 int ContactFlow::rests() const { return engine_->rests_; }
-double ContactFlow::period() const { return engine_->poles_.period(); }
+double ContactFlow::period() const { return engine_->span_; }
 double ContactFlow::tolerance() const { return engine_->options_.tolerance; }
 double ContactFlow::unresolved() const { return engine_->unresolved_; }
 double ContactFlow::length() const { return engine_->moving_; }

@@ -18,7 +18,7 @@ namespace {
 
 using namespace detail;
 
-PhasesStatus refusal_of(const PhasesProblem& problem) {
+PhasesStatus refusal_of(const PhasesProblem& problem, bool free_period = false) {
   const ContactDynamics& dynamics = problem.dynamics;
   for (int row = 0; row < dynamics.contacts(); row += problem.laws[row].rows()) {
     const AnyContactLaw& law = problem.laws[row];
@@ -30,6 +30,7 @@ PhasesStatus refusal_of(const PhasesProblem& problem) {
       return PhasesStatus::rigid_contact;
   }
   if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
+  if (free_period) return PhasesStatus::converged;
   constexpr double least = 1e-9;
   for (const ContactPole& pole : dynamics.poles())
     if (!(std::abs(1.0 - std::exp(pole.exponent / problem.frequency)) > least)) return PhasesStatus::resonant;
@@ -64,22 +65,39 @@ double rounding_of(const PhasesProblem& problem, const Eigen::MatrixXd& displace
   return std::numeric_limits<double>::epsilon() * problem.contact_free.rowwise().norm().maxCoeff() / size;
 }
 
+// Where a flow begins, in periods, in a motion without load whose time 0 is the first instant at which a
+// contact begins to stick, or else its first event.
+double begin_by_event(const ContactFlow& flow) {
+  const std::vector<FlowEvent>& events = flow.events();
+  const auto sticks = [&](const FlowEvent& event) {
+    return flow.machines()[std::size_t(event.contact)].law->kind(event.to) == ContactState::stick;
+  };
+  const auto stick = std::find_if(events.begin(), events.end(), sticks);
+  if (events.empty()) return 0.0;
+  const double time = (stick == events.end() ? events.front() : *stick).time / flow.period();
+  return std::fmod(1.0 - time, 1.0);
+}
+
 class MotionSearch {
  public:
   MotionSearch(const PhasesProblem& problem, PeriodStart start, Index points,
-               const ContactPhasesOptions& options)
+               const ContactPhasesOptions& options, bool free_period = false)
       : original_(problem),
+        free_period_(free_period),
         from_(std::move(start)),
         problem_(begun_at(problem, from_.begin)),
         options_(options),
-        times_(Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / double(points))) {}
+        times_(Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / double(points))) {
+    if (free_period)  // no load tells how long displacements are
+      length_ = ContactFlow(problem_).displacements_by_state().cwiseProduct(from_.state).norm();
+  }
 
   PhaseMotion run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
       if (!refine(tolerance) || error_ <= options_.tolerance) break;
     const bool found = std::isfinite(error_);  // by two solutions at least
     if (found)
-      set_multipliers(motion_, multipliers_of(*flow_, found_));
+      set_multipliers(motion_, multipliers_of(*flow_, found_, free_period_));
     else
       motion_ = {};
     motion_.unknowns = int(found_.state.size());
@@ -112,16 +130,20 @@ class MotionSearch {
     ContactFlow flow(problem_, {.tolerance = tolerance,
                                 .max_panels = int(std::clamp(operations_left_ / operations_of_panel,
                                                              double(flow_options.panels),
-                                                             double(flow_options.max_panels)))});
+                                                             double(flow_options.max_panels))),
+                                .length = length_});
+    if (found_.found && free_period_) flow.set_period(found_.period);
     if (found_.found)
       flow.start(found_.state, found_.contacts);
     else
       flow.start(from_.state, from_.contacts);
     const Observer observer = [&](const Progress& progress) { return goes_on_after(flow, progress); };
-    ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map);
+    ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map, free_period_);
     iterations_ += closed.iterations;
     if (!closed.found) return false;
-    motion_ = motion_of(original_, flow, {from_.begin, closed.state, closed.contacts});
+    const double begin = free_period_ ? begin_by_event(flow) : from_.begin;
+    motion_ = motion_of({original_.dynamics, original_.laws, original_.contact_free, 1.0 / closed.period},
+                        flow, {begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
     const double rounded = rounding_of(problem_, now);
     // The solution before is farther off. Both may have the same panels, so that their distance says nothing
@@ -136,6 +158,8 @@ class MotionSearch {
   }
 
   const PhasesProblem& original_;
+  bool free_period_;
+  double length_ = 0.0;  // m, or 0
   PeriodStart from_;
   PhasesProblem problem_;  // from the time at which the flow begins
   const ContactPhasesOptions& options_;
@@ -176,6 +200,15 @@ PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& st
   PhaseMotion refused;
   refused.status = refusal_of(problem);
   return refused.converged() ? MotionSearch(problem, start, points, options).run() : refused;
+}
+
+PhaseMotion autonomous_motion_from(const PhasesProblem& problem, const PeriodStart& start,
+                                   const ContactPhasesOptions& options) {
+  constexpr Index points = 1024;
+  options.validate();
+  PhaseMotion refused;
+  refused.status = refusal_of(problem, true);
+  return refused.converged() ? MotionSearch(problem, start, points, options, true).run() : refused;
 }
 
 PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,

@@ -116,6 +116,7 @@ class ContactFlow::Engine {
   Eigen::VectorXd rest_position_;
   std::map<int, std::unique_ptr<detail::PanelShape>> shapes_;
 
+  double span_ = 0.0;  // s, of the period
   double length_ = 0.0, moving_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0,
          unresolved_ = 0.0;
   /// The least value of a guard in the last period, and its slope by the memory.
@@ -127,6 +128,8 @@ class ContactFlow::Engine {
       margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
+  // At the end of the last panel: its forces less those of the holding springs, and rates of memories.
+  Eigen::VectorXd end_force_, end_memory_rate_;
   detail::ContactStates now_;
   detail::Variation variation_;
   std::vector<FlowEvent> events_;

@@ -79,7 +79,7 @@ SceneValue contact_outputs_by_default(const Scene& scene) {
 
 void add_outputs(std::vector<SceneKey>& keys) {
   const Condition moves =
-      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping"});
+      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "limit_cycle"});
   const Section outputs(keys, "analysis", analysis_part, moves);
   outputs(
       &Analysis::outputs, "outputs", "",
@@ -104,17 +104,22 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
   const Section stepping(keys, "analysis", analysis_part, analysis_is({"time_stepping"}));
   stepping(&Analysis::tolerance, "tolerance", "",
            "relative rms difference of two successive periods to be reached", above(0, 1), optional);
-  stepping(&Analysis::max_periods, "max_periods", "", "given up after so many periods",
-           within(1, 100'000'000), optional);
+  const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
+  settling(
+      &Analysis::max_periods, "max_periods", "",
+      "given up after so many periods of the load; of a limit cycle so many of the slowest mode from each "
+      "start",
+      within(1, 100'000'000), optional);
 }
 
 void add_motions(std::vector<SceneKey>& keys) {
+  const Section starts(keys, "analysis", analysis_part, analysis_is({"motions", "limit_cycle"}));
   const Section motions(keys, "analysis", analysis_part, analysis_is({"motions"}));
-  motions(&Analysis::random_starts, "random_starts", "",
-          "random states, beside that of rest, from which the structure settles to a motion",
-          within(0, 1'000'000), optional);
-  motions(&Analysis::seed, "seed", "", "of the random states: the same seed gives the same ones",
-          within(0, 2'147'483'647), optional);
+  starts(&Analysis::random_starts, "random_starts", "",
+         "random states, beside that of rest, from which the structure settles to a motion",
+         within(0, 1'000'000), optional);
+  starts(&Analysis::seed, "seed", "", "of the random states: the same seed gives the same ones",
+         within(0, 2'147'483'647), optional);
   motions(&Analysis::longest_period, "longest_period", "",
           "periods of the load after which a motion may repeat; one that takes more counts as none",
           within(1, 64), optional);
@@ -213,8 +218,8 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       derived("32 for a blade and with a mesh, 0 without and where there is no motion",
               default_motion_points),
       only_with(structure_is({"blade", "matrices"}) &&
-                analysis_is(
-                    {"forced_response", "frequency_sweep", "amplitude_sweep", "motions", "nonlinear_mode"})));
+                analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "motions",
+                             "nonlinear_mode", "limit_cycle"})));
   analysis(
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "

@@ -34,8 +34,8 @@ void add_bar(std::vector<SceneKey>& keys) {
 
 /// Analyses of structures whose matrices are not symmetric.
 Condition of_turning() {
-  return analysis_is(
-      {"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting", "motions"});
+  return analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting",
+                      "motions", "limit_cycle"});
 }
 
 void add_matrices(std::vector<SceneKey>& keys) {

@@ -13,7 +13,8 @@ enum class AnalysisType {
   time_stepping,
   shooting,
   motions,
-  nonlinear_mode
+  nonlinear_mode,
+  limit_cycle
 };
 /// Whether the equation of motion is integrated in time, so that there are no functions: time stepping.
 bool integrates_in_time(AnalysisType type);
@@ -73,10 +74,10 @@ struct Analysis {
   std::string peak_of = {};  ///< sweeps: the output whose vibration is largest at the peak; or empty
 
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
-  int max_periods = 5000;   ///< time_stepping: given up after so many periods
+  int max_periods = 5000;   ///< time_stepping, limit_cycle: given up after so many periods
 
-  int random_starts = 24;  ///< motions: random states from which the structure settles
-  int seed = 20140817;     ///< motions: of these states
+  int random_starts = 24;  ///< motions, limit_cycle: random states from which the structure settles
+  int seed = 20140817;     ///< of these states
   int longest_period = 4;  ///< motions: periods of the load after which a motion may repeat
 
   int mode = 1;                   ///< nonlinear_mode: the linear mode that is continued, from 1

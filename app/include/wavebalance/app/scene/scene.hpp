@@ -71,9 +71,10 @@ std::string name_of(LoadKind value);
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
 
-/// Whether no balance has its motions, which are solved for from event to event: of impacts beside other laws
-/// or of a structure that is free to move, of friction of such a structure or of states alone, and of rigid
-/// friction at a contact that keeps its mass, as it does where the scene names no bases.
+/// Whether no balance has its motions, which are solved for from event to event: limit cycles, those of
+/// impacts beside other laws or of a structure that is free to move, of friction of such a structure or of
+/// states alone, and of rigid friction at a contact that keeps its mass, as it does where the scene names no
+/// bases.
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);

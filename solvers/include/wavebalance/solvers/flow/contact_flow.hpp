@@ -31,6 +31,8 @@ struct FlowOptions {
   bool margins = false;  ///< whether off_center() is known
   /// Whether contacts stay in the states in which they begin, whatever ends these.
   bool keeps_states = false;
+  /// m, that the motion of the contacts has where neither loads nor gaps tell; 0: as length() says.
+  double length = 0.0;
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -90,6 +92,10 @@ class ContactFlow {
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
 
+  /// Of a problem without periodic load: the period lasts so many s from here on; panels and thresholds
+  /// remain those of the problem's. Throws std::invalid_argument for one that is not positive.
+  void set_period(double seconds);
+
   /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period, the
   /// first of them that share of their distance after its beginning.
   FlowStatus advance_period(int points = 0, const std::function<void(const FlowSample&)>& sample = {},
@@ -100,6 +106,8 @@ class ContactFlow {
 
   /// The states of all poles, then all memories; those without a meaning are zero.
   Eigen::VectorXd state() const;
+  /// Its rate, 1/s, at the end of the last panel, before an event there.
+  Eigen::VectorXd rate() const;
   const std::vector<int>& contact_states() const;
   const std::vector<ContactMachine>& machines() const;
   /// Events of the last period.

@@ -29,6 +29,12 @@ PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& sta
 PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& start,
                              const ContactPhasesOptions& options = {});
 
+/// The same of a structure without periodic load, whose period is an unknown: 1 / problem.frequency is its
+/// start. Time 0 of the motion is the first instant at which a contact begins to stick, or else its first
+/// event, or the start. The multiplier of 1 of a perturbation along the motion is left out.
+PhaseMotion autonomous_motion_from(const PhasesProblem& problem, const PeriodStart& start,
+                                   const ContactPhasesOptions& options = {});
+
 /// contact_phases(), which is faster, where all laws are those of one instant, and flow_motion() with
 /// friction, and where that finds no motion or has too many phases.
 PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,

@@ -1,0 +1,18 @@
+#pragma once
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/solvers/flow/limit_cycle.hpp"
+
+namespace wavebalance::app {
+
+/// The limit cycle of a scene as a response at its own frequency.
+struct LimitCycleResponse {
+  Response response;
+  double frequency = solvers::missing;  ///< Hz; missing without a motion
+  solvers::LimitCycle found;            ///< without its motion, which the response has
+};
+
+/// solvers::limit_cycle() of a scene with analysis.type = "limit_cycle".
+LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel& model,
+                                        const ResponseOptions& options);
+
+}  // namespace wavebalance::app

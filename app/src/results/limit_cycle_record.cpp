@@ -1,0 +1,39 @@
+#include "results/limit_cycle_record.hpp"
+
+#include <complex>
+
+#include "analysis/limit_cycle.hpp"
+#include "results/response_record.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+Table multipliers_table(const Response& response) {
+  Table table({"real", "imag", "modulus"});
+  const Eigen::VectorXcd multipliers =
+      response.moves ? response.phases->motion.multipliers() : Eigen::VectorXcd();
+  for (const std::complex<double> one : multipliers)
+    table.append_row({one.real(), one.imag(), std::abs(one)});
+  return table;
+}
+
+}  // namespace
+
+Record limit_cycle_record(const Scene& scene, const StructureModel& model, ResponseOptions options) {
+  options.stability = true;
+  const LimitCycleResponse solved = limit_cycle_response(scene, model, options);
+  Scene moving = scene;
+  moving.forcing.frequency = solved.frequency;
+  Record record = response_record(moving, model, solved.response);
+  record.interrupted = solved.found.status == solvers::LimitCycleStatus::cancelled;
+  if (record.interrupted) record.status = "interrupted";
+  record.add("period_s", 1.0 / solved.frequency);
+  record.add("starts", solved.found.starts);
+  record.add("starts_at_rest", solved.found.came_to_rest);
+  record.add("starts_that_grow", solved.found.grew);
+  record.add("starts_without_motion", solved.found.lost);
+  record.add("multipliers", multipliers_table(solved.response));
+  return record;
+}
+
+}  // namespace wavebalance::app
