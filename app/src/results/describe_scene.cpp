@@ -166,6 +166,7 @@ std::string forcing_line(const Scene& scene) {
     terms += fmt::format("           the amplitude varies from {} to {} {}\n",
                          number_text(analysis.amplitude_from), number_text(analysis.amplitude_to),
                          reference_load(scene.forcing).value().unit);
+  if (analysis.type == AnalysisType::limit_cycle) return "forcing    nothing periodic\n" + terms;
   const std::string periods =
       analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
   const bool terms_alone = scene.forcing.amplitude == 0.0 && !terms.empty();
