@@ -95,6 +95,7 @@ void add_scenes(py::module_& module) {
       .def_property_readonly("outputs", [](const Run& run) { return columns_of(run.record.outputs); })
       .def_property_readonly("sweep", [](const Run& run) { return columns_of(run.record.sweep); })
       .def_property_readonly("backbone", [](const Run& run) { return columns_of(run.record.backbone); })
+      .def_property_readonly("section", [](const Run& run) { return columns_of(run.record.section); })
       .def_property_readonly("scene", [](const Run& run) { return app::write_scene(run.scene); })
       .def("svg",
            [](const Run& run) {

@@ -41,6 +41,7 @@ class Run:
     contacts: dict[str, Any]
     outputs: dict[str, Any]
     sweep: dict[str, Any]
+    section: dict[str, Any]
     backbone: dict[str, Any]
     scene: str
     def svg(self) -> str: ...

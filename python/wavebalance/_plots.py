@@ -71,6 +71,21 @@ def record_sweep(columns: dict[str, Any], ax: Any = None) -> Any:
     return ax
 
 
+def record_diagram(columns: dict[str, Any], ax: Any = None) -> Any:
+    ax = axes(ax)
+    name = next(iter(columns))
+    displacement = next(column for column in columns if column.startswith("displacement_"))
+    way = np.asarray(columns["way"])
+    for one, colour in (("back", "#e69f00"), ("there", "#0072b2")):
+        of = way == one
+        if of.any():
+            ax.plot(columns[name][of], columns[displacement][of], ".", markersize=2, color=colour, label=f"on the way {one}")
+    ax.set_xlabel("Frequency (Hz)" if name == "frequency_Hz" else name.replace("_", " "))
+    ax.set_ylabel("Displacement at the beginning of periods (" + displacement.removeprefix("displacement_") + ")")
+    ax.legend()
+    return ax
+
+
 def record_backbone(columns: dict[str, Any], ax: Any = None) -> Any:
     ax = axes(ax)
     if "amplitude_ratio" in columns:

@@ -50,6 +50,10 @@ class Record:
     sweep: dict
         Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
         error_of_displacement, error_of_force, phases_status, stability_by. The summary has these errors of the peak.
+    section: dict
+        Poincare section: of a bifurcation diagram the frequency or amplitude, way, period, point, displacement_m and
+        velocity_m_per_s, a row for each point; of time stepping that does not repeat displacement and velocity of each place
+        at the beginning of each recorded period.
     backbone: dict
         Of a nonlinear mode: energy_ratio, frequency_Hz, frequency_ratio, ..., contact_fraction.
     bar_motion: numpy.ndarray
@@ -68,6 +72,7 @@ class Record:
         self.contacts: Columns = Columns(run.contacts)
         self.outputs: Columns = Columns(run.outputs)
         self.sweep: Columns = Columns(run.sweep)
+        self.section: Columns = Columns(run.section)
         self.backbone: Columns = Columns(run.backbone)
         self.bar_motion: npt.NDArray[np.float64] = run.bar_motion
         self.scene: str = run.scene
@@ -89,12 +94,14 @@ class Record:
 
     def to_frame(self) -> Any:
         """The curve, the mode or the motion as a pandas.DataFrame with the columns of its file; needs pandas."""
-        return _plots.frame(self.sweep or self.backbone or self.response)
+        return _plots.frame(self.sweep or self.backbone or self.response or self.section)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws the motion, the curve (unstable parts dashed) or the mode with Matplotlib, and returns the axes."""
+        """Draws the motion, the curve (unstable parts dashed) the mode or the dots of a diagram with Matplotlib, and returns the axes."""
         if self.sweep:
             return _plots.record_sweep(self.sweep, ax)
+        if self.section and not self.response:
+            return _plots.record_diagram(self.section, ax)
         if self.backbone:
             return _plots.record_backbone(self.backbone, ax)
         return _plots.record_response(self.response, ax)

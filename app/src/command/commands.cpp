@@ -104,11 +104,12 @@ int run_scene(const RunArguments& arguments) {
   if (!advice.empty() && !arguments.quiet) std::fprintf(stderr, "wavebalance: %s\n", advice.c_str());
   check_run_output(arguments, scene);
   OutputFiles files(arguments.output);
-  InterruptGuard guard(is_sweep(scene.analysis.type) || scene.analysis.type == AnalysisType::motions);
+  InterruptGuard guard(kind_of(scene.analysis.type).keeps_part);
   const Record record = until_signal(guard, arguments.quiet, [&](const Observer& observer) {
     return analyse(scene, {.start = start, .observer = observer, .threads = arguments.threads});
   });
-  if (record.interrupted && record.sweep.empty() && record.files.empty()) guard.end_program();
+  if (record.interrupted && record.sweep.empty() && record.section.empty() && record.files.empty())
+    guard.end_program();
   const RunFiles results = run_files(arguments, scene, record);
   say_no_picture(results.no_picture);
   guard.defer();

@@ -26,6 +26,7 @@ const Move more_curve_points = scaled("a larger", "analysis.max_points", 4);
 const Move more_mode_points = scaled("more", "analysis.points", 2);
 const Move higher_ratio = scaled("a higher", "analysis.last_frequency_ratio", 2.0);
 const Move more_periods = scaled("more", "analysis.max_periods", 2);
+const Move longer_record = scaled("more", "analysis.recorded_periods", 4);
 const Move longer_period = scaled("a larger", "analysis.longest_period", 2);
 
 const Remedies& of_responses() {
@@ -90,11 +91,17 @@ const Remedies& of_modes() {
 
 const Remedies& of_time_stepping() {
   static const Remedies all{
+      {"aperiodic", {longer_record, all_motions, more_damping}},
       {"iteration_limit", {more_periods, larger_step_tolerance, all_motions, more_damping, fewer_modes}},
       {"subharmonic", {response_of_periods, all_motions}},
       {"tolerance_missed", {larger_step_tolerance}},
       {"step_failure", {softer_contact}},
       {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}}};
+  return all;
+}
+
+const Remedies& of_diagrams() {
+  static const Remedies all{{"incomplete", {elastic_friction, no_rebound, stiff_law, softer_contact}}};
   return all;
 }
 
@@ -121,6 +128,7 @@ const Remedies& of_analysis(const Analysis& analysis) {
   if (is_sweep(analysis.type)) return analysis.exact ? of_exact_sweeps() : of_sweeps();
   if (analysis.type == AnalysisType::nonlinear_mode) return of_modes();
   if (analysis.type == AnalysisType::time_stepping) return of_time_stepping();
+  if (analysis.type == AnalysisType::bifurcation_diagram) return of_diagrams();
   if (analysis.type == AnalysisType::shooting) return of_shooting();
   return analysis.type == AnalysisType::motions ? of_motions() : of_responses();
 }

@@ -239,7 +239,7 @@ solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel&
   solvers::CondensedProblem problem(make_pair(scene.time), model.structure, std::move(cosine));
   problem.set_threads(model.threads);
   problem.set_periods(periods);
-  if (scene.analysis.type == AnalysisType::amplitude_sweep)
+  if (is_over_amplitude(scene.analysis))
     if (const auto load = reference_load(scene.forcing))
       problem.set_load_unit(std::abs(load->amplitude), std::string(load->unit));
   if (scene.forcing.frequency > 0.0) problem.set_load_frequency(scene.forcing.frequency);

@@ -95,7 +95,7 @@ SceneChange as_response(const Scene& scene) {
   return change;
 }
 
-bool accepts(const Scene& scene, const SceneChange& change) {
+std::optional<Scene> changed_scene(const Scene& scene, const SceneChange& change) {
   constexpr int most_left_over = 100;
   const std::string text = write_scene(scene) + "\n" + change.added + "\n";
   std::vector<std::string> set = change.set, removed;
@@ -105,14 +105,18 @@ bool accepts(const Scene& scene, const SceneChange& change) {
     if (contains(change.unset, entry.full_name())) removed.push_back(entry.full_name());
   for (int i = 0; i < most_left_over; ++i) {
     try {
-      parse_scene(text, "scene", set, removed, &scene);
-      return true;
+      return parse_scene(text, "scene", set, removed, &scene);
     } catch (const SceneError& error) {
-      if (!is_left_over(error.details(), change) || contains(removed, error.details().key)) return false;
+      if (!is_left_over(error.details(), change) || contains(removed, error.details().key))
+        return std::nullopt;
       removed.push_back(error.details().key);
     }
   }
-  return false;
+  return std::nullopt;
+}
+
+bool accepts(const Scene& scene, const SceneChange& change) {
+  return changed_scene(scene, change).has_value();
 }
 
 }  // namespace wavebalance::app

@@ -16,13 +16,6 @@
 namespace wavebalance::app {
 namespace {
 
-std::string column_of(const std::string& name) {
-  std::string column;
-  for (const char c : name)
-    column += c == '-' ? "minus_" : c == '#' ? "" : std::string(1, c == ' ' ? '_' : c);
-  return column;
-}
-
 bool is_rotation(const StructureFiles& files, int row) {
   return files.dof_map && files.dof_map->dof(row).direction > 3;
 }
@@ -62,6 +55,13 @@ Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
 }
 
 }  // namespace
+
+std::string column_of(const std::string& name) {
+  std::string column;
+  for (const char c : name)
+    column += c == '-' ? "minus_" : c == '#' ? "" : std::string(1, c == ' ' ? '_' : c);
+  return column;
+}
 
 std::string displacement_unit(const Scene& scene, const SceneContact& contact) {
   if (scene.structure.type != StructureType::matrices) return "m";

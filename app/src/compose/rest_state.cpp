@@ -60,9 +60,8 @@ solvers::LinearStructure structure_of_files(const Scene& scene) {
 /// Hz, of the size of that of the load, but beside it: the load may be at a natural frequency.
 double frequency_of(const Scene& scene) {
   constexpr double beside = 0.618;
-  const double frequency = scene.analysis.type == AnalysisType::frequency_sweep
-                               ? scene.analysis.frequency_from
-                               : scene.forcing.frequency;
+  const double frequency =
+      varies_frequency(scene.analysis) ? scene.analysis.frequency_from : scene.forcing.frequency;
   return frequency > 0.0 ? beside * frequency : 1.0;
 }
 

@@ -237,22 +237,6 @@ void check_series(const Document& document, const Scene& scene) {
   }
 }
 
-void check_sweep(const Document& document, const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  const bool over_amplitude = analysis.type == AnalysisType::amplitude_sweep;
-  if (over_amplitude && !reference_load(scene.forcing))
-    fail_rule(document, {"forcing.amplitude"},
-              "there is no load to vary; expected another number than 0, or [[forcing.terms]] that are not "
-              "static");
-  if (!over_amplitude && analysis.frequency_from == analysis.frequency_to)
-    fail_rule(document, {"analysis.frequency_to"}, "expected another frequency than frequency_from");
-  if (over_amplitude && analysis.amplitude_from == analysis.amplitude_to)
-    fail_rule(document, {"analysis.amplitude_to"}, "expected another amplitude than amplitude_from");
-  if (analysis.first_step > analysis.largest_step)
-    fail_rule(document, {"analysis.first_step", "analysis.largest_step"},
-              "expected first_step <= largest_step = " + toml_text(analysis.largest_step));
-}
-
 void check_dense_size(const Document& document, const Scene& scene) {
   const bool stepping = integrates_in_time(scene.analysis.type);
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
@@ -385,6 +369,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (sweep) check_sweep(document, scene);
   if (sweep) check_motions(document, scene);
+  check_records(document, scene);
   if (!mode) check_series(document, scene);
   if (balanced) check_subharmonic(document, scene);
   check_outputs(document, scene);

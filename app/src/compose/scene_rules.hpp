@@ -38,4 +38,9 @@ void check_scene_rules(const Document& document, Scene& scene);
 /// What analysis.outputs, contact_outputs and peak_of may be.
 void check_outputs(const Document& document, const Scene& scene);
 
+/// The interval of a sweep or a diagram, and the load that varies.
+void check_sweep(const Document& document, const Scene& scene);
+/// Records of time stepping and of diagrams.
+void check_records(const Document& document, const Scene& scene);
+
 }  // namespace wavebalance::app

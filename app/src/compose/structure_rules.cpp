@@ -73,6 +73,10 @@ void check_turning(const Document& document, const Scene& scene) {
   if (redistributes_mass(scene))
     fail_rule(document, {"contact.mass", "contact.law"},
               "not with modes that vary" + instead + "contact.mass = \"keep\" and a law that is not rigid");
+  if (turns && structure.spin_speed == 0.0 && scene.analysis.type == AnalysisType::bifurcation_diagram &&
+      varies_frequency(scene.analysis))
+    fail_missing(document, "structure", "spin_speed",
+                 "a number in rad/s, at which the structure turns along the whole diagram");
 }
 
 /// It is defined for periodic motions that are sought as such.

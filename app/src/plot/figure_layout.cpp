@@ -31,7 +31,7 @@ Colour colour_of(const Series& series, std::size_t index) {
 
 std::string symbol(const Series& series, std::size_t index) {
   const std::size_t number = series.marker > 0 ? static_cast<std::size_t>(series.marker - 1) : index;
-  std::string text = symbol_text(number);
+  std::string text = symbol_text(number, series.marker_size);
   if (series.marker_every) text += " pi " + std::to_string(*series.marker_every);
   return text;
 }

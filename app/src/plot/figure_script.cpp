@@ -95,6 +95,7 @@ Json series_data(const Series& series, std::size_t index, const Panel& panel) {
             {"x", x},
             {"y", y}};
   if (!told.empty()) data["told"] = told;
+  if (series.marker_size != 1.0) data["size"] = series.marker_size;
   if (series.area) data["area"] = true;
   return data;
 }

@@ -36,10 +36,10 @@ Colour automatic_colour(std::size_t index) {
   return order[index % order.size()];
 }
 
-std::string symbol_text(std::size_t number) {
+std::string symbol_text(std::size_t number, double size) {
   // gnuplot's filled shapes, then the open ones
   constexpr std::array<int, 8> order{7, 5, 9, 13, 11, 6, 4, 8};
-  return " pt " + std::to_string(order[number % order.size()]) + " ps 0.7";
+  return " pt " + std::to_string(order[number % order.size()]) + " ps " + number_text(0.7 * size);
 }
 
 std::string coordinate(double value) { return std::isfinite(value) ? number_text(value) : "NaN"; }

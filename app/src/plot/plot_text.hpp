@@ -21,7 +21,7 @@ Colour automatic_colour(std::size_t index);
 std::array<const char*, 5> map_colours(const HeatMap& map);
 
 /// " pt 7 ps 0.7": the number-th symbol, from 0.
-std::string symbol_text(std::size_t number);
+std::string symbol_text(std::size_t number, double size = 1.0);
 
 /// A number, or NaN for what is not finite.
 std::string coordinate(double value);

@@ -25,9 +25,10 @@ void append_table(std::vector<ResultFile>& files, const std::string& name, const
 
 void append_record_pictures(RunFiles& run, const Record& record, bool report) {
   if (record.figure.panels.empty()) return;
-  const std::string stem = !record.sweep.empty()      ? "sweep"
-                           : !record.backbone.empty() ? "backbone"
-                                                      : "response";
+  const std::string stem = !record.sweep.empty()                                ? "sweep"
+                           : !record.backbone.empty()                           ? "backbone"
+                           : !record.section.empty() && record.response.empty() ? "bifurcation"
+                                                                                : "response";
   std::vector<RecordPicture> pictures{{stem, record.figure, "the picture"}};
   for (const auto* more : {&record.output_pictures, &record.motion_pictures})
     for (const RecordFigure& one : *more) pictures.push_back({one.stem, one.figure, one.about});
@@ -50,6 +51,8 @@ RunFiles result_files(const RunArguments& arguments, const Scene& scene, const R
                "motion of the leading contact degree of freedom over one period");
   append_table(files, "contacts.csv", record.contacts,
                "every contact degree of freedom over one period; displacements towards the obstacles");
+  append_table(files, "section.csv", record.section,
+               "Poincare section: points at the beginning of periods of the load");
   append_table(files, "outputs.csv", record.outputs, "every output over one period");
   for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
   append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
@@ -73,6 +76,7 @@ bool may_write(const RunArguments& arguments, const Scene& scene, const std::str
   const std::string stem = sweep ? "sweep" : curve ? "backbone" : "response";
   for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
     if (name == stem + end) return true;
+  if (integrates_in_time(type) && (name == "section.csv" || name.starts_with("bifurcation."))) return true;
   if (name == "contacts.csv") return !curve;
   if (name.starts_with("outputs.")) return scene.analysis.has_outputs();
   const bool motions =

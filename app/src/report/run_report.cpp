@@ -20,22 +20,12 @@ namespace wavebalance::app {
 namespace {
 
 std::string heading_of(const RunArguments& arguments, const Scene& scene) {
-  static const std::vector<std::pair<AnalysisType, const char*>> kinds{
-      {AnalysisType::forced_response, "Forced response"},
-      {AnalysisType::frequency_sweep, "Frequency response"},
-      {AnalysisType::amplitude_sweep, "Response over the amplitude of the load"},
-      {AnalysisType::nonlinear_mode, "Nonlinear mode"},
-      {AnalysisType::time_stepping, "Response by time stepping"},
-      {AnalysisType::shooting, "Response by contact phases"},
-      {AnalysisType::motions, "Coexisting motions"},
-      {AnalysisType::limit_cycle, "Limit cycle"}};
-  const auto kind = std::find_if(kinds.begin(), kinds.end(),
-                                 [&](const auto& one) { return one.first == scene.analysis.type; });
   const std::string structure = scene.structure.type == StructureType::matrices
                                     ? "of a structure of matrices"
                                     : "of a " + name_of(scene.structure.type);
   const std::string name = arguments.scene.stem().string();
-  return (name.empty() ? "" : name + ": ") + kind->second + " " + structure;
+  return (name.empty() ? "" : name + ": ") + std::string(kind_of(scene.analysis.type).heading) + " " +
+         structure;
 }
 
 std::string command_of(const RunArguments& arguments) {
@@ -171,6 +161,9 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
                                         (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
                                         motion(files) + in_space + paragraph(rest_sentences(scene, summary)) +
                                         folded_table(summary, "at_rest", "At rest under the static loads") +
+                                        folded_table(summary, "statistics", "Statistics") +
+                                        folded_table(summary, "period_intervals", "Intervals of one period") +
+                                        folded_table(summary, "hysteresis", "Hysteresis") +
                                         motions_of_record(scene, summary)) +
       section_html("Stability",
                    sentences_html(stability_sentences(summary, record.axis)) +

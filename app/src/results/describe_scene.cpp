@@ -158,11 +158,11 @@ std::string isolas_line(const Analysis& analysis) {
 std::string forcing_line(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   std::string frequency = seven_digits(scene.forcing.frequency);
-  if (analysis.type == AnalysisType::frequency_sweep)
+  if (varies_frequency(analysis))
     frequency = seven_digits(analysis.frequency_from) + " to " + seven_digits(analysis.frequency_to);
   std::string terms = weight_line(scene);
   for (const ForcingTerm& term : scene.forcing.terms) terms += term_line(scene, term);
-  if (analysis.type == AnalysisType::amplitude_sweep)
+  if (is_over_amplitude(analysis))
     terms += fmt::format("           the amplitude varies from {} to {} {}\n",
                          number_text(analysis.amplitude_from), number_text(analysis.amplitude_to),
                          reference_load(scene.forcing).value().unit);
@@ -250,7 +250,18 @@ std::string advice_line(const std::string& advice) {
   return advice.empty() ? "" : "advice     " + advice + "\n";
 }
 
+std::string diagram_line(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  return fmt::format(
+      "diagram    {} values{}, {} periods of the load at each, of which the last {} are recorded{}\n",
+      analysis.values, analysis.both_ways ? " there and back" : "",
+      analysis.transient_periods + analysis.section_points, analysis.section_points,
+      analysis.exact_curve ? ", and the exact curve" : "");
+}
+
 std::string size_line(const Scene& scene) {
+  if (scene.analysis.type == AnalysisType::bifurcation_diagram)
+    return diagram_line(scene) + fmt::format("size       {} states\n", 2 * reduced_size(scene));
   if (scene.analysis.type == AnalysisType::time_stepping)
     return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
                        number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));

@@ -68,6 +68,25 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     leading_multiplier_imag{"leading_multiplier_imag", result},
     leading_multiplier_error{"leading_multiplier_error", result};
 
+// Those of motions that do not repeat, with half the width of their 95 % confidence intervals, and of
+// diagrams.
+inline constexpr std::string_view aperiodic = "aperiodic";  ///< the status of such a record
+inline constexpr Quantity motion_kind{"motion_kind"}, recorded_periods{"recorded_periods"},
+    transient_periods{"transient_periods"}, statistics{"statistics"}, batch_correlation{"batch_correlation"},
+    section_period{"section_period"}, lyapunov_exponent{"lyapunov_exponent", result},
+    lyapunov_exponent_error{"lyapunov_exponent_error", result},
+    rms_displacement_error{"rms_displacement_error_m", result, "m", "error of rms displacement"},
+    rms_vibration_error{"rms_vibration_error_m", result, "m", "error of rms vibration"},
+    mean_contact_force{"mean_contact_force_N", result, "N", "mean contact force"},
+    mean_contact_force_error{"mean_contact_force_error_N", result, "N", "error of mean contact force"},
+    friction_work_error{"friction_work_error_J", result, "J", "error of friction work"},
+    wear_error{"wear_error_m3", result, "m3", "error of wear"}, impacts_error{"impacts_error", result},
+    impact_energy_error{"impact_energy_error_J", result, "J", "error of impact energy"};
+inline constexpr Quantity diagram_values{"values", setting}, section_of{"section_of"},
+    period_intervals{"period_intervals"}, hysteresis{"hysteresis"},
+    aperiodic_values{"aperiodic_values", result}, hysteresis_values{"hysteresis_values", result},
+    longest_found{"longest_period_found", result}, exact_curve{"exact_curve"};
+
 // Those of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},
     rayleigh_frequency_ratio{"rayleigh_frequency_ratio", result}, virial_residual{"virial_residual", result},

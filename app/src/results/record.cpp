@@ -4,9 +4,11 @@
 #include <chrono>
 
 #include "results/damped_mode_record.hpp"
+#include "results/diagram_record.hpp"
 #include "results/limit_cycle_record.hpp"
 #include "results/mode_record.hpp"
 #include "results/motions_record.hpp"
+#include "results/recorded_record.hpp"
 #include "results/response_record.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_record.hpp"
@@ -69,6 +71,16 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
   return record;
 }
 
+Record stepping_record(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
+  Response response = integrates_by_events(scene) ? flow_response(scene, model, options)
+                                                  : time_stepping_response(scene, model, options);
+  const auto recorded = recorded_motion(scene, model, response, options.observer);
+  response.recorded = recorded.has_value();
+  Record record = response_record(scene, model, response);
+  if (recorded) append_recorded(record, *recorded, response.contact);
+  return record;
+}
+
 Record record_of(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   ResponseOptions options;
   options.observer = how.observer;
@@ -81,9 +93,9 @@ Record record_of(const Scene& scene, const StructureModel& model, const Analysis
       if (is_damped_mode(scene)) return damped_mode_record(scene, model, how.observer);
       return mode_record(scene, model, how.observer);
     case AnalysisType::time_stepping:
-      return response_record(scene, model,
-                             integrates_by_events(scene) ? flow_response(scene, model, options)
-                                                         : time_stepping_response(scene, model, options));
+      return stepping_record(scene, model, options);
+    case AnalysisType::bifurcation_diagram:
+      return diagram_record(scene, model, how.observer);
     case AnalysisType::motions:
       return motions_record(scene, model, how.observer);
     case AnalysisType::limit_cycle:

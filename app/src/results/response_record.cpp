@@ -87,6 +87,7 @@ void append_attractor(Record& record, const Scene& scene, const Response& respon
   if (response.attractor_periods < 0) return;
   record.add("attractor_periods", response.attractor_periods);
   const int attractor = response.attractor_periods;
+  if (response.recorded) return;
   const char* start = response.flow ? "From contacts at rest" : "From rest";
   if (attractor > 0 && response.periods % attractor == 0) {
     if (!response.moves)

@@ -65,15 +65,11 @@ inline constexpr std::array<NamedValue<LoadKind>, 4> enum_names<LoadKind>{
      {LoadKind::base_acceleration, "base_acceleration"},
      {LoadKind::unbalance, "unbalance"}}};
 template <>
-inline constexpr std::array<NamedValue<AnalysisType>, 8> enum_names<AnalysisType>{
-    {{AnalysisType::forced_response, "forced_response"},
-     {AnalysisType::frequency_sweep, "frequency_sweep"},
-     {AnalysisType::amplitude_sweep, "amplitude_sweep"},
-     {AnalysisType::time_stepping, "time_stepping"},
-     {AnalysisType::shooting, "shooting"},
-     {AnalysisType::motions, "motions"},
-     {AnalysisType::nonlinear_mode, "nonlinear_mode"},
-     {AnalysisType::limit_cycle, "limit_cycle"}}};
+inline constexpr auto enum_names<AnalysisType> = [] {
+  std::array<NamedValue<AnalysisType>, analysis_kinds.size()> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = {analysis_kinds[i].type, analysis_kinds[i].name};
+  return names;
+}();
 template <>
 inline constexpr std::array<NamedValue<TimeMethod>, 2> enum_names<TimeMethod>{
     {{TimeMethod::balance, "balance"}, {TimeMethod::exact, "exact"}}};

@@ -142,14 +142,31 @@ Scene with_longer_period(Scene scene, int times) {
   return scene;
 }
 
-bool integrates_in_time(AnalysisType type) { return type == AnalysisType::time_stepping; }
+const AnalysisKind& kind_of(AnalysisType type) {
+  return *std::find_if(analysis_kinds.begin(), analysis_kinds.end(),
+                       [type](const AnalysisKind& kind) { return kind.type == type; });
+}
+
+bool integrates_in_time(AnalysisType type) {
+  return type == AnalysisType::time_stepping || type == AnalysisType::bifurcation_diagram;
+}
 
 bool is_sweep(AnalysisType type) {
   return type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
 }
 
+bool is_over_amplitude(const Analysis& analysis) {
+  return analysis.type == AnalysisType::amplitude_sweep ||
+         (analysis.type == AnalysisType::bifurcation_diagram && analysis.amplitude_to > 0.0);
+}
+
+bool varies_frequency(const Analysis& analysis) {
+  return analysis.type == AnalysisType::frequency_sweep ||
+         (analysis.type == AnalysisType::bifurcation_diagram && !is_over_amplitude(analysis));
+}
+
 std::pair<double, double> sweep_interval(const Analysis& analysis) {
-  if (analysis.type == AnalysisType::amplitude_sweep) return {analysis.amplitude_from, analysis.amplitude_to};
+  if (is_over_amplitude(analysis)) return {analysis.amplitude_from, analysis.amplitude_to};
   return {analysis.frequency_from, analysis.frequency_to};
 }
 

@@ -10,6 +10,7 @@
 
 #include "files/json_line.hpp"
 #include "files/missing.hpp"
+#include "results/quantities.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
@@ -17,7 +18,8 @@
 namespace wavebalance::app {
 namespace {
 
-/// Results of a run that did not converge are missing. A row has members for what the heading says.
+/// Results of a run that did not converge are missing, but not statistics of a motion that does not repeat. A
+/// row has members for what the heading says.
 Summary scalars_of(const Summary& summary, bool converged) {
   Summary scalars;
   for (const Entry& one : summary) {
@@ -33,7 +35,7 @@ void solve_into(StudyRow& row, const Scene& scene, LastStructure& last, const so
   const Record record = analyse(scene, {.observer = observer, .model = &last.model_of(scene, observer)});
   row.status = record.status;
   row.converged = record.converged;
-  row.values = scalars_of(record.summary, record.converged);
+  row.values = scalars_of(record.summary, record.converged || record.status == quantities::aperiodic);
   if (!record.warnings.empty()) row.message = record.warnings.front();
 }
 

@@ -90,16 +90,21 @@ const detail::PanelShape& ContactFlow::Engine::shape(int level) {
   return *kept;
 }
 
-// The smallest states of the poles that hold the contacts.
-void ContactFlow::Engine::start() {
-  const Index rows = poles_.rows(), n = poles_.states();
-  const auto free = poles_.contact_free(Eigen::VectorXd::Zero(1));
+// The smallest real states of the poles that give the contacts this motion beside that without contact.
+Eigen::VectorXd ContactFlow::Engine::least_states(const Eigen::VectorXd& displacement,
+                                                  const Eigen::VectorXd& velocity) const {
+  const Index rows = poles_.rows();
   const double rate = 2.0 * std::numbers::pi / poles_.period();
-  Eigen::MatrixXd held(2 * rows, n);
+  Eigen::MatrixXd held(2 * rows, poles_.states());
   held << poles_.real_outputs(0), poles_.real_outputs(1) / rate;
   Eigen::VectorXd wanted(2 * rows);
-  wanted << rest_position_ - free[0].col(0), -free[1].col(0) / rate;
-  states_ = poles_.complex_of(detail::least_squares(held, wanted)).col(0);
+  wanted << displacement, velocity / rate;
+  return detail::least_squares(held, wanted);
+}
+
+void ContactFlow::Engine::start() {
+  const auto free = poles_.contact_free(Eigen::VectorXd::Zero(1));
+  states_ = poles_.complex_of(least_states(rest_position_ - free[0].col(0), -free[1].col(0))).col(0);
   now_.state.clear();
   now_.memory.assign(std::size_t(contacts_.memories()), 0.0);
   for (Index c = 0; c < contacts_.count(); ++c) {
@@ -117,6 +122,18 @@ void ContactFlow::Engine::start(const Eigen::VectorXd& state, const std::vector<
   states_ = poles_.complex_of(state.head(poles_.states())).col(0);
   for (Index m = 0; m < contacts_.memories(); ++m) now_.memory[std::size_t(m)] = state[poles_.states() + m];
   now_.state = contacts;
+  time_ = 0.0;
+  idle_ = 0;
+}
+
+void ContactFlow::Engine::start(const Engine& before) {
+  const Eigen::VectorXd now = Eigen::VectorXd::Zero(1);
+  const auto there = before.poles_.contact_free(now), here = poles_.contact_free(now);
+  states_ =
+      before.states_ +
+      poles_.complex_of(least_states(there[0].col(0) - here[0].col(0), there[1].col(0) - here[1].col(0)))
+          .col(0);
+  now_ = before.now_;
   time_ = 0.0;
   idle_ = 0;
 }
@@ -323,6 +340,7 @@ void ContactFlow::start(const Eigen::VectorXcd& poles) {
 void ContactFlow::start(const Eigen::VectorXd& state, const std::vector<int>& contacts) {
   engine_->start(state, contacts);
 }
+void ContactFlow::start(const ContactFlow& before) { engine_->start(*before.engine_); }
 void ContactFlow::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                              const Eigen::VectorXd& force) {
   engine_->start_near(harmonics, displacement, force);

@@ -17,6 +17,7 @@ class ContactFlow::Engine {
 
   void start();
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
+  void start(const Engine& before);
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
   FlowStatus advance_period(int points, const std::function<void(const FlowSample&)>& sample, double first);
@@ -106,6 +107,8 @@ class ContactFlow::Engine {
   void follow_impulse(Index struck, const detail::Signals& before, const detail::Signals& after,
                       double speed);
   void change(const Hit& hit, const detail::Signals& signals, const Eigen::VectorXcd& before);
+
+  Eigen::VectorXd least_states(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const;
 
   FlowOptions options_;
   detail::ContactPoles poles_;

@@ -103,7 +103,7 @@
   }
 
   const mark = (parent, series, x, y) => parent.append("path").attr("transform", `translate(${x},${y})`)
-    .attr("d", d3.symbol().size(36).type(symbols()[series.marker % 8])())
+    .attr("d", d3.symbol().size(36 * (series.size ?? 1) ** 2).type(symbols()[series.marker % 8])())
     .attr("fill", series.marker % 8 > 4 ? "white" : series.colour).attr("stroke", series.colour);
 
   const finite = (scale, value) => value !== null && Number.isFinite(scale(value));

@@ -20,21 +20,32 @@ SceneValue first_step_by_default(const Scene& scene) {
   return std::min(std::get<double>(SceneValue(interval_over(1000)(scene))), scene.analysis.largest_step);
 }
 
-void add_sweep(std::vector<SceneKey>& keys) {
-  const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
-  const Section over_amplitude(keys, "analysis", analysis_part, analysis_is({"amplitude_sweep"}));
-  const Section sweep(keys, "analysis", analysis_part, of_sweeps());
-  over_frequency(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch starts", positive);
-  over_frequency(&Analysis::frequency_to, "frequency_to", "Hz",
-                 "where the branch ends, above or below its start", positive);
+/// A sweep needs its interval; a diagram has one of both.
+void add_intervals(std::vector<SceneKey>& keys) {
+  const Section over_frequency(keys, "analysis", analysis_part,
+                               analysis_is({"frequency_sweep", "bifurcation_diagram"}));
+  const Section over_amplitude(keys, "analysis", analysis_part,
+                               analysis_is({"amplitude_sweep", "bifurcation_diagram"}));
+  const Property one_of_both = derived("none beside an interval of the other kind", 0.0);
+  const Property of_frequency = required_with(analysis_is({"frequency_sweep"}));
+  const Property of_amplitude = required_with(analysis_is({"amplitude_sweep"}));
+  over_frequency(&Analysis::frequency_from, "frequency_from", "Hz", "where the branch or the diagram starts",
+                 positive, one_of_both, of_frequency);
+  over_frequency(&Analysis::frequency_to, "frequency_to", "Hz", "where it ends, above or below its start",
+                 positive, one_of_both, of_frequency);
   over_amplitude(
       &Analysis::amplitude_from, "amplitude_from", "N",
-      "where the branch starts: a value of forcing.amplitude, with which all loads but static ones "
-      "vary in proportion; where that is 0, of the first of forcing.terms that is not static, in its "
+      "where the branch or the diagram starts: a value of forcing.amplitude, with which all loads but static "
+      "ones vary in proportion; where that is 0, of the first of forcing.terms that is not static, in its "
       "unit",
-      positive);
-  over_amplitude(&Analysis::amplitude_to, "amplitude_to", "N",
-                 "where the branch ends, above or below its start", positive);
+      positive, one_of_both, of_amplitude);
+  over_amplitude(&Analysis::amplitude_to, "amplitude_to", "N", "where it ends, above or below its start",
+                 positive, one_of_both, of_amplitude);
+}
+
+void add_sweep(std::vector<SceneKey>& keys) {
+  const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
+  const Section sweep(keys, "analysis", analysis_part, of_sweeps());
   sweep(
       &Analysis::largest_step, "largest_step", "Hz or N",
       "longest step of arc length; in it a change of the displacement by one amplitude, or by the gap where that is less, counts as a 20th of the interval",
@@ -78,8 +89,8 @@ SceneValue contact_outputs_by_default(const Scene& scene) {
 }
 
 void add_outputs(std::vector<SceneKey>& keys) {
-  const Condition moves =
-      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "limit_cycle"});
+  const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
+                                       "limit_cycle", "bifurcation_diagram"});
   const Section outputs(keys, "analysis", analysis_part, moves);
   outputs(
       &Analysis::outputs, "outputs", "",
@@ -104,12 +115,41 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
   const Section stepping(keys, "analysis", analysis_part, analysis_is({"time_stepping"}));
   stepping(&Analysis::tolerance, "tolerance", "",
            "relative rms difference of two successive periods to be reached", above(0, 1), optional);
+  stepping(&Analysis::recorded_periods, "recorded_periods", "",
+           "periods of the load that are recorded behind max_periods where the motion has not repeated, for "
+           "statistics, a Poincare section and a spectrum; 0 for none",
+           within(0, 10'000'000), optional);
   const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
   settling(
       &Analysis::max_periods, "max_periods", "",
       "given up after so many periods of the load; of a limit cycle so many of the slowest mode from each "
       "start",
       within(1, 100'000'000), optional);
+}
+
+void add_diagram(std::vector<SceneKey>& keys) {
+  const Section diagram(keys, "analysis", analysis_part, analysis_is({"bifurcation_diagram"}));
+  diagram(&Analysis::values, "values", "", "of the frequency or the amplitude, uniform over the interval",
+          within(2, 1'000'000), optional);
+  diagram(&Analysis::transient_periods, "transient_periods", "",
+          "periods of the load at each value before those that are recorded; each value begins where the one "
+          "before has ended",
+          within(0, 10'000'000), optional);
+  diagram(
+      &Analysis::section_points, "section_points", "",
+      "periods of the load that are recorded at each value, a point of the Poincare section each; motions "
+      "of up to a quarter of them are told by their period",
+      within(8, 1'000'000), optional);
+  diagram(&Analysis::section_tolerance, "section_tolerance", "",
+          "distance of two points of the section that count as one, relative to the size of the motion",
+          above(0, 1), optional);
+  diagram(&Analysis::both_ways, "both_ways", "",
+          "true passes the values once more the other way, where hysteresis shows", optional);
+  diagram(
+      &Analysis::exact_curve, "exact_curve", "",
+      "true also follows the exact curve of periodic motions over the interval, which the picture has with "
+      "its unstable parts",
+      optional);
 }
 
 void add_motions(std::vector<SceneKey>& keys) {
@@ -245,9 +285,11 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            "output_points are then those of n periods",
            within(1, 1024), optional,
            only_with(analysis_is({"forced_response", "frequency_sweep"}) && by_balance()));
+  add_intervals(keys);
   add_sweep(keys);
   add_outputs(keys);
   add_time_stepping(keys);
+  add_diagram(keys);
   add_motions(keys);
   add_mode(keys);
 }

@@ -7,12 +7,10 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
   forcing(&Forcing::amplitude, "amplitude", "N",
           "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
           "load or load_dofs of matrices; 0 where it is not given beside [[forcing.terms]]",
-          required_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
-                                     "shooting", "motions"})));
+          required_with(analysis_where(&AnalysisKind::under_load)));
   keys.back().in_terms = true;
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
-          required_with(
-              analysis_is({"forced_response", "amplitude_sweep", "time_stepping", "shooting", "motions"})));
+          required_with(analysis_where(&AnalysisKind::at_one_frequency)));
   forcing(
       &Forcing::load, "load", "",
       "forces of all degrees of freedom for amplitude 1: Matrix Market file of one column, or Harwell-Boeing file with a right-hand side",

@@ -19,6 +19,13 @@ inline Condition law_is(std::vector<std::string_view> laws) { return {"contact.l
 inline Condition analysis_is(std::vector<std::string_view> types) {
   return {"analysis.type", std::move(types)};
 }
+/// One of the analyses with this flag.
+inline Condition analysis_where(bool AnalysisKind::*flag) {
+  std::vector<std::string_view> names;
+  for (const AnalysisKind& kind : analysis_kinds)
+    if (kind.*flag) names.push_back(kind.name);
+  return analysis_is(std::move(names));
+}
 inline Condition of_sweeps() { return analysis_is({"frequency_sweep", "amplitude_sweep"}); }
 inline Condition of_responses() {
   return analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});

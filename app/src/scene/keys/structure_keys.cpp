@@ -33,10 +33,7 @@ void add_bar(std::vector<SceneKey>& keys) {
 }
 
 /// Analyses of structures whose matrices are not symmetric.
-Condition of_turning() {
-  return analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting",
-                      "motions", "limit_cycle"});
-}
+Condition of_turning() { return analysis_where(&AnalysisKind::any_matrices); }
 
 void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
@@ -72,7 +69,9 @@ void add_matrices(std::vector<SceneKey>& keys) {
       &MatricesStructure::free, "free", "",
       "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "
       "what no contact resists keeps a zero mean",
-      optional, only_with(analysis_is({"forced_response", "frequency_sweep", "time_stepping", "motions"})));
+      optional,
+      only_with(analysis_is(
+          {"forced_response", "frequency_sweep", "time_stepping", "motions", "bifurcation_diagram"})));
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
       "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "

@@ -51,6 +51,8 @@ struct Response {
   /// Whether `contacts` hold a motion of the structure: a response, one that misses time.tolerance, or the
   /// last period of time stepping. Otherwise they hold the last iterate, which means nothing.
   bool moves = false;
+  /// Whether it is time stepping that has not repeated and a RecordedMotion says what it does.
+  bool recorded = false;
   std::string status;  ///< "converged" or why not
   double residual =
       0.0;  ///< relative; of the equations, or the difference of the last two periods (time stepping)

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,11 @@ struct SceneChange {
 /// The scene as a forced response, with usual bases and sizes where it has none; impacts take none.
 SceneChange as_response(const Scene& scene);
 
-/// Whether the scene with this change passes the rules of a file. Keys that the change does not name and that
+/// The scene with this change, if it passes the rules of a file. Keys that the change does not name and that
 /// do not belong to the changed scene are left out, but not keys of the structure that are set. Matrices are
 /// not read again, unless kept_modes is what changes.
+std::optional<Scene> changed_scene(const Scene& scene, const SceneChange& change);
+/// Whether there is one.
 bool accepts(const Scene& scene, const SceneChange& change);
 
 }  // namespace wavebalance::app

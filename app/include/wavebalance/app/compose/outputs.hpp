@@ -25,6 +25,9 @@ struct Output {
   bool is_contact() const { return contact >= 0; }
 };
 
+/// The name of a place as that of a column begins: "minus_node_18_x", "contact_2".
+std::string column_of(const std::string& name);
+
 /// The unit of the displacement of a contact: "rad" between rotations alone, otherwise "m".
 std::string displacement_unit(const Scene& scene, const SceneContact& contact);
 /// "rad" where all contacts are between rotations, otherwise "m".

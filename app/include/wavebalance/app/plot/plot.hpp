@@ -63,6 +63,7 @@ struct Series {
   double width = 1.6;               ///< points
   int marker = 0;                   ///< 0 takes the next symbol of the panel, n > 0 the n-th
   std::optional<int> marker_every;  ///< a symbol on every n-th point only
+  double marker_size = 1.0;         ///< of its symbols, below 0.5 for dots
   bool area = false;                ///< without points: names the rectangles of its colour in the legend
 };
 

@@ -40,8 +40,11 @@ struct Record {
   Table sweep;      ///< see sweep_table(); empty otherwise
   SweepAxis axis;   ///< of sweep and of the special points
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
-  Table outputs;    ///< motion of each output over one period; empty after a curve and without any
-  Table contacts;   ///< motion and force of every contact, see contacts_table(); empty unless there are many
+  /// Poincare section: of a motion that does not repeat displacement and velocity of each place at the
+  /// beginning of each recorded period; of a diagram a row for each point. Empty otherwise.
+  Table section;
+  Table outputs;   ///< motion of each output over one period; empty after a curve and without any
+  Table contacts;  ///< motion and force of every contact, see contacts_table(); empty unless there are many
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
   /// of its points, see curve_motions.hpp.
   std::vector<RecordFile> files;

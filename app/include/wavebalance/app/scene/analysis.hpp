@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,9 +16,37 @@ enum class AnalysisType {
   shooting,
   motions,
   nonlinear_mode,
-  limit_cycle
+  limit_cycle,
+  bifurcation_diagram
 };
-/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping.
+
+/// What is said of an analysis wherever analyses differ by a word or a flag alone.
+struct AnalysisKind {
+  AnalysisType type;
+  std::string_view name;     ///< analysis.type
+  std::string_view heading;  ///< of its page
+  bool under_load;           ///< a load drives it
+  bool at_one_frequency;     ///< it needs forcing.frequency
+  bool keeps_part;           ///< an interruption leaves what was found so far
+  bool any_matrices;         ///< damping and stiffness need no symmetry
+};
+inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
+    {AnalysisType::forced_response, "forced_response", "Forced response", true, true, false, true},
+    {AnalysisType::frequency_sweep, "frequency_sweep", "Frequency response", true, false, true, true},
+    {AnalysisType::amplitude_sweep, "amplitude_sweep", "Response over the amplitude of the load", true, true,
+     true, true},
+    {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", true, true, false, true},
+    {AnalysisType::shooting, "shooting", "Response by contact phases", true, true, false, true},
+    {AnalysisType::motions, "motions", "Coexisting motions", true, true, true, true},
+    {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", false, false, false, false},
+    {AnalysisType::limit_cycle, "limit_cycle", "Limit cycle", false, false, false, true},
+    {AnalysisType::bifurcation_diagram, "bifurcation_diagram", "Bifurcation diagram", true, false, true,
+     true},
+}};
+const AnalysisKind& kind_of(AnalysisType type);
+
+/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping, and
+/// the diagrams that are made of it.
 bool integrates_in_time(AnalysisType type);
 /// Whether motions are followed over the frequency or the amplitude of the load.
 bool is_sweep(AnalysisType type);
@@ -32,6 +62,9 @@ struct MotionAt {
   bool empty() const { return !peak && !special && places.empty(); }
   bool operator==(const MotionAt&) const = default;
 };
+
+/// Of time stepping: with fewer its statistics have no batches.
+inline constexpr int least_recorded_periods = 40;
 
 /// What is computed, and how finely it is written down.
 struct Analysis {
@@ -80,6 +113,14 @@ struct Analysis {
   int seed = 20140817;     ///< of these states
   int longest_period = 4;  ///< motions: periods of the load after which a motion may repeat
 
+  int recorded_periods = 512;   ///< time_stepping: periods recorded where the motion does not repeat; 0: none
+  int values = 101;             ///< bifurcation_diagram: of the frequency or the amplitude
+  int transient_periods = 200;  ///< bifurcation_diagram: periods of each value before those of the section
+  int section_points = 64;      ///< bifurcation_diagram: of each value, one a period
+  double section_tolerance = 1e-4;  ///< bifurcation_diagram: relative distance of points that count as one
+  bool both_ways = true;            ///< bifurcation_diagram: whether the values are also passed the other way
+  bool exact_curve = true;          ///< bifurcation_diagram: whether the exact curve is drawn, too
+
   int mode = 1;                   ///< nonlinear_mode: the linear mode that is continued, from 1
   int harmonics = 10;             ///< nonlinear_mode: N of the Fourier series
   int samples = 0;                ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
@@ -96,6 +137,10 @@ struct Analysis {
   bool operator==(const Analysis&) const = default;
 };
 
+/// Whether a sweep or a diagram varies the amplitude of the load, and not the frequency.
+bool is_over_amplitude(const Analysis& analysis);
+/// Whether one varies the frequency.
+bool varies_frequency(const Analysis& analysis);
 /// Where the curve of a sweep starts and ends, Hz, or amplitudes of the load.
 std::pair<double, double> sweep_interval(const Analysis& analysis);
 

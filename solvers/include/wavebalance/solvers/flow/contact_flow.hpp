@@ -85,6 +85,10 @@ class ContactFlow {
   void start(const Eigen::VectorXcd& poles);
   /// Begins at time 0 in a state, as of state(), with contacts in discrete states.
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
+  /// Begins at time 0 where another flow of the same structure and laws is at the same time, under another
+  /// load or frequency: its contacts keep displacement, velocity, state and memory, and the structure
+  /// elsewhere changes least.
+  void start(const ContactFlow& before);
   /// Begins at time 0 as a periodic motion near this one: under forces of the contacts with harmonics, R x (H
   /// + 1), N, column n of which belongs to Re(a exp(2 pi i n t)), t in periods, and with displacements and
   /// forces of the laws at time 0. Of a structure that is free to move the harmonics are less the forces of

@@ -1,0 +1,76 @@
+#include "analysis/flow_rows.hpp"
+
+#include <utility>
+
+#include "analysis/phases_response.hpp"
+#include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
+#include "wavebalance/solvers/phases/response_phases.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+/// analysis.outputs alone, without contacts.
+std::vector<Output> output_rows(Scene scene) {
+  scene.analysis.contact_outputs = false;
+  return outputs_of(scene);
+}
+
+StructureModel with_outputs(const Scene& scene, const StructureModel& model) {
+  const std::vector<Output> outputs = output_rows(scene);
+  if (outputs.empty()) return model;
+  StructureModel wider = model;
+  const Eigen::MatrixXd rows = rows_of_outputs(outputs, scene, model);
+  Eigen::MatrixXd directions(model.contacts() + rows.rows(), model.size());
+  directions << Eigen::MatrixXd(model.structure.contact_directions), rows;
+  wider.structure.contact_directions = directions.sparseView();
+  wider.gaps.conservativeResize(directions.rows());
+  wider.gaps.tail(rows.rows()).setZero();
+  wider.dynamics = std::make_shared<solvers::StructureDynamics>();
+  return wider;
+}
+
+solvers::ContactLaws laws_with_outputs(const Scene& scene, int contacts) {
+  const solvers::ContactLaws laws = make_laws(scene);
+  std::vector<solvers::AnyContactLaw> each;
+  for (int row = 0; row < contacts; row += laws[row].rows()) each.push_back(laws[row]);
+  each.resize(each.size() + output_rows(scene).size());  // of no law
+  return each;
+}
+
+std::vector<MotionPlace> places_of(const Scene& scene) {
+  std::vector<MotionPlace> places;
+  for (const SceneContact& one : contacts_of(scene))
+    places.push_back({name_of(one), displacement_unit(scene, one), one.number, false});
+  for (const Output& one : output_rows(scene)) places.push_back({one.name, one.unit, 0, true});
+  return places;
+}
+
+/// Loads need a pair, which takes no part.
+Scene paired_scene(const Scene& scene) {
+  Scene paired = scene;
+  paired.time = balance_of(scene, least_start_functions(scene)).time;
+  return paired;
+}
+
+}  // namespace
+
+FlowRows::FlowRows(const Scene& scene, const StructureModel& model)
+    : over_amplitude_(is_over_amplitude(scene.analysis)),
+      contacts_(model.contacts()),
+      model_(with_outputs(scene, model)),
+      laws_(laws_with_outputs(scene, model.contacts())),
+      places_(places_of(scene)),
+      problem_(make_problem(paired_scene(scene), model_)) {}
+
+solvers::PhasesProblem FlowRows::at(double value) {
+  if (over_amplitude_)
+    problem_.set_load_scale(value);
+  else
+    problem_.set_load_frequency(value);
+  return here();
+}
+
+solvers::PhasesProblem FlowRows::here() { return solvers::phases_problem(problem_, laws_, *dynamics()); }
+
+}  // namespace wavebalance::app

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/analysis/recorded_motion.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
+
+namespace wavebalance::app {
+
+/// A scene's structure as it is integrated from event to event: behind the directions of its contacts those
+/// of analysis.outputs, along which no law acts, so that their motion is as exact as that of the contacts.
+class FlowRows {
+ public:
+  /// Throws as make_problem() and ContactDynamics do.
+  FlowRows(const Scene& scene, const StructureModel& model);
+
+  /// Null where the structure has no modes to compute.
+  const solvers::ContactDynamics* dynamics() const { return model_.contact_dynamics(); }
+  /// What each row is, and its unit.
+  const std::vector<MotionPlace>& places() const { return places_; }
+  int contacts() const { return contacts_; }  ///< rows of contacts, which are the first
+
+  /// The problem at a frequency (Hz) or, in a scene over the amplitude, at an amplitude of the load.
+  solvers::PhasesProblem at(double value);
+  /// At the scene's own load and frequency.
+  solvers::PhasesProblem here();
+
+ private:
+  bool over_amplitude_;
+  int contacts_;
+  StructureModel model_;
+  solvers::ContactLaws laws_;
+  std::vector<MotionPlace> places_;
+  solvers::CondensedProblem problem_;
+};
+
+}  // namespace wavebalance::app

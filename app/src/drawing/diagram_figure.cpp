@@ -1,0 +1,121 @@
+#include "drawing/diagram_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "plot/unit_prefix.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+constexpr double dot_size = 0.25;
+
+Series dots(const std::string& label, Colour colour) {
+  Series series(label, SeriesStyle::points);
+  series.colour = colour;
+  series.marker = 1;
+  series.marker_size = dot_size;
+  return series;
+}
+
+double reach_of(const Diagram& diagram) {
+  double reach = 0.0;
+  for (const DiagramValue& one : diagram.values)
+    if (one.displacement.cols() > 0)
+      reach = std::max(reach, one.displacement.row(diagram.place).cwiseAbs().maxCoeff());
+  return reach;
+}
+
+/// A line of the exact curve, its unstable or its other parts.
+Series exact_series(const ExactLine& line, bool unstable, double factor) {
+  Series series(unstable ? "exact, unstable" : "exact, stable", SeriesStyle::line);
+  series.colour = Colour::black;
+  series.width = 1.2;
+  if (unstable) series.dash = Dash::dashed;
+  const auto is_unstable = [&](std::size_t i) { return line.unstable[i] > 0; };
+  for (std::size_t i = 0; i < line.value.size(); ++i) {
+    const bool before = i > 0 && is_unstable(i - 1), after = i + 1 < line.value.size() && is_unstable(i + 1);
+    const bool belongs = unstable ? is_unstable(i) || before || after : !is_unstable(i);
+    series.append(line.value[i], belongs ? factor * line.displacement[i] : std::nan(""));
+  }
+  return series;
+}
+
+Panel section_panel(const Diagram& diagram) {
+  const Scale scale = axis_scale(reach_of(diagram));
+  const MotionPlace& place = diagram.places[std::size_t(diagram.place)];
+  Panel panel;
+  panel.title = "Poincaré section of " + plain(place.name);
+  panel.x.label = diagram.axis.label();
+  panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
+  Series there = dots("on the way there", Colour::blue), back = dots("on the way back", Colour::orange);
+  for (const DiagramValue& one : diagram.values)
+    for (int k = 0; k < points_shown(one); ++k)
+      (one.forwards ? there : back).append(one.value, scale.factor * one.displacement(diagram.place, k));
+  panel.add(std::move(back));
+  panel.add(std::move(there));
+  for (const ExactLine& line : diagram.exact)
+    for (const bool unstable : {false, true}) panel.add(exact_series(line, unstable, scale.factor));
+  return panel;
+}
+
+Panel period_panel(const Diagram& diagram) {
+  Panel panel;
+  panel.title = "Periods of the load after which the motion repeats (0: none)";
+  panel.x.label = diagram.axis.label();
+  panel.y.label = "Periods";
+  panel.y.lower = -0.5;
+  Series there = dots("on the way there", Colour::blue), back = dots("on the way back", Colour::orange);
+  int most = 1;
+  for (const DiagramValue& one : diagram.values) {
+    if (!one.failure.empty()) continue;
+    (one.forwards ? there : back).append(one.value, one.period);
+    most = std::max(most, one.period);
+  }
+  panel.y.upper = most + 0.5;
+  panel.add(std::move(back));
+  panel.add(std::move(there));
+  return panel;
+}
+
+}  // namespace
+
+Figure diagram_figure(const Diagram& diagram) {
+  Figure figure;
+  if (diagram.values.empty()) return figure;
+  figure.title = "bifurcation diagram";
+  if (diagram.status == "interrupted" || diagram.status == "incomplete")
+    figure.title += " (INCOMPLETE: " + diagram.status + ")";
+  figure.panel_width = 660;
+  figure.panel_height = 380;
+  figure.panels = {section_panel(diagram), period_panel(diagram)};
+  return figure;
+}
+
+std::vector<Panel> recorded_panels(const RecordedMotion& motion) {
+  const MotionPlace& place = motion.places[std::size_t(motion.leading)];
+  const Eigen::RowVectorXd u = motion.displacement.row(motion.leading),
+                           v = motion.velocity.row(motion.leading);
+  const Scale length = axis_scale(u.cwiseAbs().maxCoeff()), speed = axis_scale(v.cwiseAbs().maxCoeff());
+  Panel section;
+  section.title = "Poincaré section of " + plain(place.name);
+  section.x.label = "Displacement (" + length.prefix + place.unit + ")";
+  section.y.label = "Velocity (" + speed.prefix + place.unit + "/s)";
+  Series points = dots("", Colour::blue);
+  for (Eigen::Index k = 0; k < u.size(); ++k) points.append(length.factor * u[k], speed.factor * v[k]);
+  section.add(std::move(points));
+  Panel spectrum;
+  spectrum.title = "Power spectral density of " + plain(place.name);
+  spectrum.x.label = "Frequency (Hz)";
+  spectrum.y.label = "Density (" + place.unit + "^2/Hz)";
+  spectrum.y.logarithmic = true;
+  if (motion.leading < motion.spectrum.density.rows())
+    spectrum.add({"", motion.spectrum.frequency,
+                  Eigen::VectorXd(motion.spectrum.density.row(motion.leading).transpose())});
+  return {std::move(section), std::move(spectrum)};
+}
+
+}  // namespace wavebalance::app

@@ -1,0 +1,184 @@
+#include "results/diagram_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "drawing/diagram_figure.hpp"
+#include "files/missing.hpp"
+#include "results/quantities.hpp"
+#include "results/summary_parts.hpp"
+#include "wavebalance/app/analysis/bifurcation.hpp"
+
+namespace wavebalance::app {
+namespace {
+
+const char* way_of(const DiagramValue& one) { return one.forwards ? "there" : "back"; }
+
+Table section_table(const Diagram& diagram) {
+  const std::string& unit = diagram.places[std::size_t(diagram.place)].unit;
+  Table table({diagram.axis.column(), "way", "period", "point", "displacement_" + unit,
+               "velocity_" + unit + "_per_s"});
+  for (const DiagramValue& one : diagram.values)
+    for (int k = 0; k < points_shown(one); ++k)
+      table.append_row(row_of(one.value, way_of(one), one.period, k + 1, one.displacement(diagram.place, k),
+                              one.velocity(diagram.place, k)));
+  return table;
+}
+
+Table exact_table(const Diagram& diagram) {
+  const std::string& unit = diagram.places[std::size_t(diagram.place)].unit;
+  Table table({diagram.axis.column(), "branch", "period", "point", "displacement_" + unit,
+               "velocity_" + unit + "_per_s", "unstable"});
+  int point = 0, branch = -1;
+  for (const ExactLine& line : diagram.exact) {
+    point = line.branch == branch ? point + 1 : 1;
+    branch = line.branch;
+    for (std::size_t i = 0; i < line.value.size(); ++i)
+      table.append_row(row_of(line.value[i], line.branch, line.periods, point, line.displacement[i],
+                              line.velocity[i], line.unstable[i] < 0 ? missing : double(line.unstable[i])));
+  }
+  return table;
+}
+
+/// Neighbouring values of one way and one period, in their order.
+Table intervals_table(const Diagram& diagram) {
+  Table table({"way", "from", "to", "values", "period"});
+  const std::vector<DiagramValue>& values = diagram.values;
+  for (std::size_t i = 0, next = 0; i < values.size(); i = next) {
+    const auto alike = [&](const DiagramValue& one) {
+      return one.forwards == values[i].forwards && one.period == values[i].period &&
+             one.failure == values[i].failure;
+    };
+    for (next = i; next < values.size() && alike(values[next]);) ++next;
+    table.append_row(row_of(way_of(values[i]), values[i].value, values[next - 1].value, next - i,
+                            values[i].failure.empty() ? double(values[i].period) : missing));
+  }
+  return table;
+}
+
+/// The least over all shifts of the largest distance of the points of two motions of one period.
+double distance_of(const DiagramValue& a, const DiagramValue& b, int place) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int shift = 0; shift < a.period; ++shift) {
+    double largest = 0.0;
+    for (int k = 0; k < a.period; ++k)
+      largest = std::max(largest, std::abs(a.displacement(place, k) - b.displacement(place, k + shift)));
+    least = std::min(least, largest);
+  }
+  return least;
+}
+
+/// Whether both ways lead to different motions at a value; two aperiodic ones are not told apart.
+bool differ(const DiagramValue& there, const DiagramValue& back, int place, double alike) {
+  if (!there.failure.empty() || !back.failure.empty()) return false;
+  if (there.period != back.period) return true;
+  return there.period > 0 && distance_of(there, back, place) > alike;
+}
+
+/// The value on the way back; null without one.
+const DiagramValue* back_at(const Diagram& diagram, double value) {
+  for (const DiagramValue& one : diagram.values)
+    if (!one.forwards && one.value == value) return &one;
+  return nullptr;
+}
+
+/// Neighbouring values at which both ways lead to different motions.
+Table hysteresis_table(const Diagram& diagram, double tolerance) {
+  constexpr double clear = 30.0;  // of the tolerance, which points of one motion may miss near a bifurcation
+  Table table({"from", "to", "values", "period_there", "period_back"});
+  double size = 0.0;
+  for (const DiagramValue& one : diagram.values)
+    if (one.displacement.size() > 0)
+      size = std::max(size, one.displacement.row(diagram.place).cwiseAbs().maxCoeff());
+  std::vector<std::vector<Cell>> runs;
+  bool before = false;
+  for (const DiagramValue& there : diagram.values) {
+    if (!there.forwards) break;
+    const DiagramValue* back = back_at(diagram, there.value);
+    const bool apart = back != nullptr && differ(there, *back, diagram.place, clear * tolerance * size);
+    const bool goes_on = apart && before && std::get<std::int64_t>(runs.back()[3]) == there.period &&
+                         std::get<std::int64_t>(runs.back()[4]) == back->period;
+    if (goes_on) {
+      runs.back()[1] = there.value;
+      ++std::get<std::int64_t>(runs.back()[2]);
+    } else if (apart) {
+      runs.push_back(row_of(there.value, there.value, 1, there.period, back->period));
+    }
+    before = apart;
+  }
+  for (std::vector<Cell>& run : runs) table.append_row(std::move(run));
+  return table;
+}
+
+std::int64_t sum_of(const Table& table, const char* column) {
+  std::int64_t sum = 0;
+  for (const double value : table.numbers(column)) sum += std::int64_t(value);
+  return sum;
+}
+
+void append_findings(Record& record, const Scene& scene, const Diagram& diagram) {
+  const auto count = [&](auto&& which) {
+    return std::count_if(diagram.values.begin(), diagram.values.end(), which);
+  };
+  double most = missing, least = missing;
+  int longest = 0;
+  for (const DiagramValue& one : diagram.values) {
+    longest = std::max(longest, one.period);
+    if (one.displacement.size() == 0) continue;
+    most = std::fmax(most, one.displacement.row(diagram.place).maxCoeff());
+    least = std::fmin(least, one.displacement.row(diagram.place).minCoeff());
+  }
+  record.add(quantities::section_of, diagram.places[std::size_t(diagram.place)].name);
+  record.add("max_section_displacement", most);
+  record.add("min_section_displacement", least);
+  record.add(quantities::aperiodic_values,
+             count([](const DiagramValue& one) { return one.failure.empty() && one.period == 0; }));
+  record.add(quantities::longest_found, longest);
+  const Table hysteresis = hysteresis_table(diagram, scene.analysis.section_tolerance);
+  record.add(quantities::hysteresis_values, sum_of(hysteresis, "values"));
+  record.add(quantities::period_intervals, intervals_table(diagram));
+  record.add(quantities::hysteresis, hysteresis);
+  record.add(quantities::exact_curve, diagram.exact_status);
+  const auto failed = count([](const DiagramValue& one) { return !one.failure.empty(); });
+  if (failed > 0)
+    warn(record,
+         "At {} values the integration ended before the section was complete (step_failure or "
+         "endless_events); they have no points, and the next value begins from rest.",
+         failed);
+  if (diagram.exact_status != "not_sought" && diagram.exact.empty())
+    warn(record, "There is no exact curve over the interval ({}).", diagram.exact_status);
+}
+
+}  // namespace
+
+Record diagram_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+  const Diagram diagram = bifurcation_diagram(scene, model, observer);
+  Record record;
+  record.warnings = model.warnings;
+  record.converged = diagram.status == "converged";
+  record.interrupted = diagram.status == "interrupted";
+  record.status = diagram.status;
+  const int periods =
+      int(diagram.values.size()) * (scene.analysis.transient_periods + scene.analysis.section_points);
+  record.summary = solution_entries(record.converged, record.status, missing, periods, 2 * model.size(),
+                                    diagram.wall_seconds);
+  record.add(quantities::analysis, name_of(scene.analysis.type));
+  record.add(quantities::diagram_values, scene.analysis.values);
+  warn_of_scene(record, scene);
+  record.axis = diagram.axis;
+  if (!diagram.values.empty()) append_findings(record, scene, diagram);
+  append_structure(record.summary, scene, model);
+  record.add(quantities::warnings, record.warnings);
+  if (diagram.values.empty()) return record;
+  record.section = section_table(diagram);
+  if (!diagram.exact.empty())
+    record.files.push_back({"exact_curve.csv", csv_text(exact_table(diagram)),
+                            "the exact curve in the section, with the multipliers outside the unit circle"});
+  record.figure = diagram_figure(diagram);
+  return record;
+}
+
+}  // namespace wavebalance::app
