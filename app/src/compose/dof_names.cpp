@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "compose/structure_inputs.hpp"
 #include "scene/pair_reader.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/term_reader.hpp"
@@ -84,7 +85,7 @@ class RowsOfNames {
           document_, entry,
           fmt::format(
               "\"{}\" is no degree of freedom; expected an integer, \"node 1042 z\" or \"-node 1042 "
-              "z\", with a direction of x, y, z, rx, ry, rz and, where several rows have one name, #1, #2 ...",
+              "z\", with a direction of x, y, z, rx, ry, rz or scalar and, where several rows have one name, #1, #2 ...",
               text));
     if (named->sign < 0 && is_pair_section(entry.section))
       fail_at(document_, entry,
@@ -97,22 +98,30 @@ class RowsOfNames {
     return named->sign * (found + std::int64_t{1});
   }
 
+  /// The entry of a key whose value is the name of a file, or null.
+  const DocumentEntry* file_entry(const char* key) const {
+    const DocumentEntry* entry = document_.find("structure", key);
+    const auto* name = entry == nullptr ? nullptr : std::get_if<std::string>(&entry->value);
+    return name == nullptr || name->empty() ? nullptr : entry;
+  }
+
   const fem::DofMap& read_once(const DocumentEntry& entry) {
     if (map_) return *map_;
-    const DocumentEntry* place = document_.find("structure", "dof_map");
-    const std::string* name = place == nullptr ? nullptr : std::get_if<std::string>(&place->value);
-    if (name == nullptr || name->empty())
-      fail_at(
-          document_, entry,
-          "names a node, but the scene has no structure.dof_map; expected this file, which says which row "
-          "is which motion of which node, or integers");
-    path_ = path_in(document_, *name);
+    const DocumentEntry *given = file_entry("dof_map"), *stiffness = file_entry("stiffness");
+    const DocumentEntry* place = given != nullptr ? given : stiffness;
     try {
-      map_ = fem::read_dof_map(path_);
+      if (place != nullptr) {
+        path_ = path_in(document_, std::get<std::string>(place->value));
+        map_ = map_of_rows(given != nullptr ? path_ : "", path_);
+      }
     } catch (const fem::MatrixFileError& error) {
       fail_at(document_, *place, error.what());
     }
-    return *map_;
+    if (map_) return *map_;
+    fail_at(
+        document_, entry,
+        "names a node, but the scene has no structure.dof_map and the file of structure.stiffness names no "
+        "nodes; expected a map, which says which row is which motion of which node, or integers");
   }
 
   /// Which rows a name could mean.

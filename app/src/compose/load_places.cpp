@@ -14,9 +14,13 @@ namespace {
 
 /// Whether rows of the map move along the direction of a term or of the weight.
 void check_direction(const StructureFiles& files, int axis, const std::string& key) {
+  if (!files.dof_map)
+    throw StructureFault(key,
+                         "expected structure.dof_map beside it, which says which rows move along x, y and z, "
+                         "or dofs or a load in its place");
   if (!files.rows_along(axis).isZero(0.0)) return;
   throw StructureFault(key, fmt::format("no row of {} moves along {}; expected another direction, or rows",
-                                        files.paths[4], "xyz"[axis]));
+                                        files.map_path(), "xyz"[axis]));
 }
 
 void check_weight(const Scene& scene, const StructureFiles& files) {
@@ -27,11 +31,6 @@ void check_weight(const Scene& scene, const StructureFiles& files) {
         "forcing.weight",
         "does not belong to a nonlinear mode, a motion without any load, unless friction makes it "
         "begin at rest under static ones");
-  if (!files.dof_map)
-    throw StructureFault(
-        "forcing.weight",
-        "expected structure.dof_map beside it, which says which rows move along x, y and z, or "
-        "a static term of [[forcing.terms]] with a load in its place");
   for (int axis = 0; axis < 3; ++axis)
     if (weight[std::size_t(axis)] != 0.0) check_direction(files, axis, "forcing.weight");
 }
@@ -64,7 +63,7 @@ void check_place(const Scene& scene) {
   if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
   if (!file && !list && needs_place(scene))
     throw StructureFault("forcing.load",
-                         "missing; expected load (a Matrix Market file) or load_dofs (a list), which "
+                         "missing; expected load (a file of one column) or load_dofs (a list), which "
                          "say where the force acts");
 }
 
@@ -109,11 +108,20 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
 }
 
 void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
-  for (const int dof : dofs)
-    if (std::binary_search(files.moving.begin(), files.moving.end(), std::abs(dof) - 1))
+  for (const int dof : dofs) {
+    const auto is_in = [row = std::abs(dof) - 1](const std::vector<int>& rows) {
+      return std::binary_search(rows.begin(), rows.end(), row);
+    };
+    if (is_in(files.base_rows))
       throw StructureFault(
           key, fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
                            dof));
+    if (is_in(files.moving))
+      throw StructureFault(key,
+                           fmt::format("degree of freedom {} is held: structure.stiffness has 1e36 on its "
+                                       "diagonal there; expected one that is free",
+                                       dof));
+  }
 }
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {

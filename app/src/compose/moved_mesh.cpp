@@ -26,7 +26,7 @@ class RowMotion {
       return;
     }
     const auto massless = std::lower_bound(files_.massless.begin(), files_.massless.end(), file_row);
-    if (massless == files_.massless.end() || *massless != file_row) return;  // of a base, refused before
+    if (massless == files_.massless.end() || *massless != file_row) return;  // held
     const auto follower = files_.followers.row(massless - files_.massless.begin());
     for (Eigen::Index i = 0; i < follower.size(); ++i)
       if (follower[i] != 0.0) entries.emplace_back(row, i, share * follower[i]);
@@ -44,7 +44,7 @@ std::shared_ptr<const MovedMesh> moved_mesh(const std::string& path, const Struc
     throw StructureFault(mesh_key,
                          "there is no structure.dof_map; expected this file, which says which rows move "
                          "the nodes of the mesh");
-  if (!files.moving.empty())
+  if (!files.base_rows.empty())
     throw StructureFault(mesh_key,
                          "a base_displacement moves rows of the matrices, whose nodes are not drawn; "
                          "expected no mesh, or a base_acceleration");

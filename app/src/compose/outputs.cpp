@@ -17,7 +17,8 @@ namespace wavebalance::app {
 namespace {
 
 bool is_rotation(const StructureFiles& files, int row) {
-  return files.dof_map && files.dof_map->dof(row).direction > 3;
+  const int direction = files.dof_map ? files.dof_map->dof(row).direction : 1;
+  return direction > 3 && direction <= 6;
 }
 
 Output output_of(const Scene& scene, int dof) {

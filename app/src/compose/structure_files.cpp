@@ -10,6 +10,7 @@
 #include "compose/load_places.hpp"
 #include "compose/massless_rows.hpp"
 #include "compose/moved_mesh.hpp"
+#include "compose/structure_inputs.hpp"
 #include "compose/symmetric_part.hpp"
 #include "files/contains.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -17,7 +18,6 @@
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 #include "wavebalance/fem/internal_nodes.hpp"
-#include "wavebalance/fem/matrix_file.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -25,41 +25,7 @@ namespace {
 constexpr std::string_view mass_key = "structure.mass";
 constexpr std::string_view stiffness_key = "structure.stiffness";
 constexpr std::string_view damping_key = "structure.damping";
-constexpr std::string_view dof_map_key = "structure.dof_map";
 constexpr std::string_view load_key = "forcing.load";
-
-template <class Read>
-auto read(const std::string& path, std::string_view key, Read reader) {
-  try {
-    return reader(std::filesystem::path(path));
-  } catch (const fem::MatrixFileError& error) {
-    throw StructureFault(key, error.what());
-  }
-}
-
-Eigen::SparseMatrix<double> read_matrix(const std::string& path, std::string_view key) {
-  return read(path, key, [](const auto& file) { return fem::read_matrix(file); });
-}
-
-/// Names both files, as one of them may belong to another mesh.
-void require_size(const Eigen::SparseMatrix<double>& matrix, std::string_view key, const std::string& path,
-                  Eigen::Index size, const std::string& stiffness_path) {
-  if (matrix.rows() == size && matrix.cols() == size && size > 0) return;
-  const std::string expected =
-      key == stiffness_key
-          ? "a square one that is not empty"
-          : fmt::format("{0} x {0}, the size of structure.stiffness in {1}", size, stiffness_path);
-  throw StructureFault(key, fmt::format("the matrix in {} is {} x {}; expected {}", path, matrix.rows(),
-                                        matrix.cols(), expected));
-}
-
-fem::DofMap read_map(const std::string& path, Eigen::Index size, const std::string& stiffness_path) {
-  fem::DofMap map = read(path, dof_map_key, [](const auto& file) { return fem::read_dof_map(file); });
-  if (map.rows() == size) return map;
-  throw StructureFault(
-      dof_map_key, fmt::format("{} names {} rows; expected {}, the rows of structure.stiffness in {}", path,
-                               map.rows(), size, stiffness_path));
-}
 
 std::string_view key_of(fem::StructureMatrix matrix) {
   if (matrix == fem::StructureMatrix::mass) return mass_key;
@@ -125,7 +91,7 @@ std::vector<std::string> term_paths(const Scene& scene) {
 /// Takes the moving rows out of a part that turns. What couples it to them is in the coupling at one speed.
 void hold_moving_rows(const StructureFiles& files, Eigen::SparseMatrix<double>& part, const char* key) {
   if (part.size() == 0 || files.moving.empty()) return;
-  if (files.turns_along_curve && matrix_part(part, files.rows, files.moving).norm() > 0.0)
+  if (files.turns_along_curve && matrix_part(part, files.rows, files.base_rows).norm() > 0.0)
     throw StructureFault(
         key,
         "the matrix couples rows that a base displacement moves to others, and varies along the "
@@ -133,14 +99,17 @@ void hold_moving_rows(const StructureFiles& files, Eigen::SparseMatrix<double>& 
   part = matrix_part(part, files.rows, files.rows);
 }
 
-/// Takes the moving rows out of the unknowns.
-void hold_moving_rows(StructureFiles& files) {
+/// Takes the rows that a base moves, or that the stiffness marks as held, out of the unknowns.
+void hold_rows(StructureFiles& files) {
   const Eigen::Index size = files.matrices.stiffness.rows();
-  for (const int row : files.moving)
+  for (const int row : files.base_rows)
     if (row < 0 || row >= size)
       throw StructureFault(
           "forcing.terms",
           fmt::format("a base displacement moves degree of freedom {}; expected 1..{}", row + 1, size));
+  const std::vector<int> held = fem::held_rows(files.matrices.stiffness);
+  std::set_union(files.base_rows.begin(), files.base_rows.end(), held.begin(), held.end(),
+                 std::back_inserter(files.moving));
   if (std::ssize(files.moving) == size)
     throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected fewer");
   for (int row = 0; row < size; ++row)
@@ -156,37 +125,22 @@ void hold_moving_rows(StructureFiles& files) {
   }
 }
 
-/// A vector with an entry per row of the stiffness.
-Eigen::VectorXd read_load(const std::string& path, std::string_view key, Eigen::Index size,
-                          const std::string& stiffness_path) {
-  Eigen::VectorXd load = read(path, key, [](const auto& file) { return fem::read_vector(file); });
-  if (load.size() == size) return load;
-  throw StructureFault(
-      std::string(key),
-      fmt::format(
-          "the vector in {} has {} entries; expected {}, one for each row of structure.stiffness in {}", path,
-          load.size(), size, stiffness_path));
-}
-
 /// The files of the load, of the forcing and of each of its terms.
-void read_loads(StructureFiles& files, Eigen::Index size) {
-  if (!files.paths[3].empty())
-    files.load = files.forces_at_unknowns(read_load(files.paths[3], load_key, size, files.paths[1]));
+void read_loads(StructureFiles& files, const StructureInputs& inputs) {
+  if (!files.paths[3].empty()) files.load = files.forces_at_unknowns(inputs.load(files.paths[3], load_key));
   for (std::size_t i = 0; i < files.term_paths.size(); ++i)
     files.term_loads.push_back(
         files.term_paths[i].empty()
             ? Eigen::VectorXd()
-            : files.forces_at_unknowns(
-                  read_load(files.term_paths[i], term_section(i) + ".load", size, files.paths[1])));
+            : files.forces_at_unknowns(inputs.load(files.term_paths[i], term_section(i) + ".load")));
 }
 
 /// C + speed G and K + speed^2 K_s, as C and K.
-void add_turning_parts(StructureFiles& files) {
+void add_turning_parts(StructureFiles& files, const StructureInputs& inputs) {
   fem::Matrices& matrices = files.matrices;
   const Eigen::Index size = matrices.stiffness.rows();
   const auto part = [&](std::size_t path, const std::string& key, double sign, const char* kind) {
-    Eigen::SparseMatrix<double> matrix = read_matrix(files.paths[path], key);
-    require_size(matrix, key, files.paths[path], size, files.paths[1]);
+    Eigen::SparseMatrix<double> matrix = inputs.matrix(files.paths[path], key);
     const Eigen::SparseMatrix<double> other = matrix.transpose();
     if ((matrix - sign * other).norm() <= 1e-10 * matrix.norm()) return matrix;
     throw StructureFault(key, fmt::format("the matrix in {} is not {}; expected all of it, both triangles",
@@ -212,7 +166,7 @@ StructureFiles named_files(const Scene& scene) {
   files.turns_along_curve = turns_along_curve(scene);
   files.term_paths = term_paths(scene);
   files.mesh_path = structure.mesh;
-  files.moving = moving_rows(scene);
+  files.base_rows = moving_rows(scene);
   files.unsymmetric = structure.unsymmetric || !structure.gyroscopic.empty();
   files.free = structure.free;
   files.reduced = scene.structure.kept_modes >= 0;
@@ -221,32 +175,25 @@ StructureFiles named_files(const Scene& scene) {
 
 bool same_names(const StructureFiles& a, const StructureFiles& b) {
   return a.paths == b.paths && a.spin_speed == b.spin_speed && a.turns_along_curve == b.turns_along_curve &&
-         a.term_paths == b.term_paths && a.mesh_path == b.mesh_path && a.moving == b.moving &&
+         a.term_paths == b.term_paths && a.mesh_path == b.mesh_path && a.base_rows == b.base_rows &&
          a.unsymmetric == b.unsymmetric && a.free == b.free && a.reduced == b.reduced;
 }
 
 StructureFiles read_files(StructureFiles files) {
   const auto& paths = files.paths;
+  const StructureInputs inputs(paths[1], paths[4]);
   fem::Matrices& matrices = files.matrices;
-  matrices.stiffness = read_matrix(paths[1], stiffness_key);
-  const Eigen::Index size = matrices.stiffness.rows();
-  require_size(matrices.stiffness, stiffness_key, paths[1], size, paths[1]);
-  matrices.mass = read_matrix(paths[0], mass_key);
-  require_size(matrices.mass, mass_key, paths[0], size, paths[1]);
-  if (!paths[2].empty()) {
-    matrices.damping = read_matrix(paths[2], damping_key);
-    require_size(matrices.damping, damping_key, paths[2], size, paths[1]);
-  }
-  add_turning_parts(files);
-  if (!paths[4].empty()) {
-    files.dof_map = read_map(paths[4], size, paths[1]);
-    files.internal_from = fem::first_internal_node(matrices.stiffness, *files.dof_map);
-  }
-  hold_moving_rows(files);
+  matrices.stiffness = inputs.stiffness();
+  matrices.mass = inputs.matrix(paths[0], mass_key);
+  if (!paths[2].empty()) matrices.damping = inputs.matrix(paths[2], damping_key);
+  add_turning_parts(files, inputs);
+  files.dof_map = inputs.map();
+  if (files.dof_map) files.internal_from = fem::first_internal_node(matrices.stiffness, *files.dof_map);
+  hold_rows(files);
   condense_massless_rows(files);
   check_matrices(files);
   files.damping_adds_energy = !fem::positive_semidefinite(symmetric_part(matrices.damping));
-  read_loads(files, size);
+  read_loads(files, inputs);
   if (!files.mesh_path.empty()) files.mesh = moved_mesh(files.mesh_path, files);
   return files;
 }

@@ -25,13 +25,14 @@ struct StructureFiles {
   bool turns_along_curve = false;              ///< as of the scene
   Eigen::SparseMatrix<double> gyroscopic;      ///< G, n x n, or 0 x 0; the damping has it at spin_speed
   Eigen::SparseMatrix<double> spin_stiffness;  ///< K_s likewise, of the stiffness
-  std::vector<int> moving;    ///< rows of the files, from 0, that a base displacement moves, ascending
-  std::vector<int> massless;  ///< rows of the files, from 0, without mass, which are condensed
-  Eigen::MatrixXd followers;  ///< massless x n: their displacements from those of the unknowns
-  std::vector<int> rows;      ///< n, the other rows of the files: those of the unknowns
-  fem::Matrices matrices;     ///< n x n; damping 0 x 0 if there is no file of it
-  fem::Matrices coupling;     ///< n x moving, the parts of M, C and K between unknowns and moving rows
-  Eigen::VectorXd load;       ///< n, or 0 if there is no file of it
+  std::vector<int> base_rows;  ///< rows of the files, from 0, that a base displacement moves, ascending
+  std::vector<int> moving;     ///< these and the rows that the stiffness marks as held, ascending
+  std::vector<int> massless;   ///< rows of the files, from 0, without mass, which are condensed
+  Eigen::MatrixXd followers;   ///< massless x n: their displacements from those of the unknowns
+  std::vector<int> rows;       ///< n, the other rows of the files: those of the unknowns
+  fem::Matrices matrices;      ///< n x n; damping 0 x 0 if there is no file of it
+  fem::Matrices coupling;      ///< n x moving, the parts of M, C and K between unknowns and moving rows
+  Eigen::VectorXd load;        ///< n, or 0 if there is no file of it
   std::vector<std::string> term_paths;      ///< of each term of the forcing, its file of a load; empty: none
   std::vector<Eigen::VectorXd> term_loads;  ///< likewise, n each, or 0
   std::optional<fem::DofMap> dof_map;
@@ -43,6 +44,8 @@ struct StructureFiles {
   bool free = false;                      ///< the stiffness was allowed to be singular
   bool reduced = false;                   ///< the mass was allowed to be semidefinite, for kept modes
 
+  /// The file that names the rows.
+  const std::string& map_path() const { return paths[4].empty() ? paths[1] : paths[4]; }
   /// "node 7 z" for a row from 0, or "row 20" without a dof map.
   std::string row_name(int row) const;
   Eigen::Index file_rows() const { return std::ssize(rows) + std::ssize(moving) + std::ssize(massless); }

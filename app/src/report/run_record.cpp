@@ -103,9 +103,10 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
   if (!arguments.copy_inputs)
     return relative_to(scene, arguments.output, std::filesystem::absolute(arguments.scene).parent_path());
   std::map<std::string, std::string> names;
-  return with_files(scene, [&](const std::string& file) {
+  return with_files(scene, [&](const std::string& place) {
+    const std::string file = file_of_input(place), of_several = place.substr(file.size());
     std::string& name = names[file];
-    if (!name.empty()) return name;
+    if (!name.empty()) return name + of_several;
     const std::string base = std::filesystem::path(file).filename().string();
     const auto taken = [&](const std::string& one) {
       return std::any_of(files.begin(), files.end(),
@@ -114,7 +115,7 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
     name = std::string(copied) + base;
     for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
     files.push_back({name, read_file(file), "copy of " + base + ", which the scene names"});
-    return name;
+    return name + of_several;
   });
 }
 

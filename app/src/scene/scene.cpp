@@ -7,6 +7,7 @@
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/contact/catalogue.hpp"
+#include "wavebalance/fem/named_matrix.hpp"
 
 namespace wavebalance::app {
 
@@ -204,8 +205,11 @@ std::vector<std::string> input_files(const Scene& scene) {
   for (const ForcingTerm& term : scene.forcing.terms) files.insert(files.end(), {term.samples, term.load});
   for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);
   std::erase(files, "");
+  for (std::string& file : files) file = file_of_input(file);
   return files;
 }
+
+std::string file_of_input(const std::string& path) { return fem::matrix_place(path).file.string(); }
 
 bool redistributes_mass(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;

@@ -52,10 +52,6 @@ class TermReader {
     }
     refuse_beside("load", LoadKind::force);
     refuse_beside("direction", LoadKind::base_acceleration);
-    if (entry("direction") != nullptr && scene_.structure.matrices.dof_map.empty())
-      fail_at(
-          document_, *entry("direction"),
-          "expected structure.dof_map beside it, which says which rows move that way, or dofs in its place");
     if (term_.kind == LoadKind::unbalance) check_unbalance();
     if (term_.kind == LoadKind::base_displacement && term_.dofs.empty())
       fail_without("dofs", "a list of integers, the rows that move");

@@ -12,12 +12,7 @@ namespace {
 
 using detail::Lines;
 
-constexpr std::array<const char*, 6> direction_names = {"x", "y", "z", "rx", "ry", "rz"};
-
-std::string name_of_dof(const NodeDof& dof) {
-  return "node " + std::to_string(dof.node) + " " +
-         direction_names.at(static_cast<std::size_t>(dof.direction - 1));
-}
+constexpr std::array<std::string_view, 7> direction_names = {"x", "y", "z", "rx", "ry", "rz", "scalar"};
 
 using Words = std::vector<std::string_view>;
 
@@ -27,14 +22,16 @@ struct Columns {
   std::size_t count = 2;
 };
 
-Columns named_columns(const Lines& lines, const Words& names) {
+/// "Matrix Eqn" of Ansys is one column.
+Columns named_columns(const Lines& lines, Words names) {
+  if (names.size() > 1 && detail::lower(names[0]) == "matrix") names.erase(names.begin());
   Columns columns{-1, -1, -1, names.size()};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = detail::lower(names[i]);
-    int* const place = name == "node"                         ? &columns.node
-                       : name == "direction" || name == "dof" ? &columns.direction
-                       : name == "row" || name == "equation"  ? &columns.row
-                                                              : nullptr;
+    int* const place = name == "node"                                         ? &columns.node
+                       : name == "direction" || name == "dof"                 ? &columns.direction
+                       : name == "row" || name == "equation" || name == "eqn" ? &columns.row
+                                                                              : nullptr;
     if (place == nullptr || *place >= 0)
       lines.fail("found the column \"" + std::string(names[i]) +
                  "\"; columns must be node, direction and, if there is one, row, each once");
@@ -49,15 +46,11 @@ int direction_in(const Lines& lines, std::string_view name) {
   const int direction = direction_of(name);
   if (direction == 0)
     lines.fail("the direction is \"" + std::string(name) +
-               "\"; it must be x, y, z, rx, ry, rz or a number in 1..6");
+               "\"; it must be x, y, z, rx, ry, rz, scalar or a number in 1..6");
   return direction;
 }
 
-int node_in(const Lines& lines, std::string_view text) {
-  const int node = lines.number<int>(text, "the node");
-  if (node < 0) lines.fail("the node is " + std::to_string(node) + "; it must not be negative");
-  return node;
-}
+int node_in(const Lines& lines, std::string_view text) { return lines.number<int>(text, "the node"); }
 
 /// "node.direction" of CalculiX.
 NodeDof dotted(const Lines& lines, std::string_view word) {
@@ -137,12 +130,13 @@ class DofMapReader {
 }  // namespace
 
 int direction_of(std::string_view name) {
-  constexpr std::array<std::array<std::string_view, 4>, 6> names = {{{"1", "x", "ux", ""},
+  constexpr std::array<std::array<std::string_view, 4>, 7> names = {{{"1", "x", "ux", ""},
                                                                      {"2", "y", "uy", ""},
                                                                      {"3", "z", "uz", ""},
                                                                      {"4", "rx", "rotx", ""},
                                                                      {"5", "ry", "roty", ""},
-                                                                     {"6", "rz", "rotz", ""}}};
+                                                                     {"6", "rz", "rotz", ""},
+                                                                     {"scalar", "", "", ""}}};
   const std::string wanted = detail::lower(name);
   if (wanted.empty()) return 0;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -150,12 +144,20 @@ int direction_of(std::string_view name) {
   return 0;
 }
 
+std::string_view direction_name(int direction) {
+  return direction_names.at(static_cast<std::size_t>(direction - 1));
+}
+
+std::string to_string(const NodeDof& dof) {
+  return "node " + std::to_string(dof.node) + " " + std::string(direction_name(dof.direction));
+}
+
 DofMap::DofMap(std::vector<NodeDof> dofs) : dofs_(std::move(dofs)) {
   sorted_.reserve(dofs_.size());
   for (NodeDof& dof : dofs_) {
-    if (dof.direction < 1 || dof.direction > 6)
+    if (dof.direction < 1 || dof.direction > std::ssize(direction_names))
       throw std::invalid_argument("DofMap: a direction is " + std::to_string(dof.direction) +
-                                  "; it must be in 1..6");
+                                  "; it must be in 1..7");
     dof.copy = 1;
     sorted_.emplace_back(dof, static_cast<int>(sorted_.size()));
   }
@@ -191,13 +193,21 @@ std::vector<int> DofMap::directions(int node) const {
 
 std::string DofMap::name(int row) const {
   const NodeDof& one = dof(row);
-  return name_of_dof(one) + (copies(one) > 1 ? " #" + std::to_string(one.copy) : "");
+  return to_string(one) + (copies(one) > 1 ? " #" + std::to_string(one.copy) : "");
 }
 
 DofMap read_dof_map(std::istream& input, const std::string& name) { return DofMapReader(input, name).read(); }
 
 DofMap read_dof_map(const std::filesystem::path& file) {
   return detail::from_file(file, [](auto&&... from) { return read_dof_map(from...); });
+}
+
+std::string dof_map_text(const DofMap& map) {
+  std::string text = "node,direction\n";
+  for (int row = 0; row < map.rows(); ++row)
+    text +=
+        std::to_string(map.dof(row).node) + "," + std::string(direction_name(map.dof(row).direction)) + "\n";
+  return text;
 }
 
 }  // namespace wavebalance::fem

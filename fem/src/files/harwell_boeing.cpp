@@ -1,3 +1,5 @@
+#include "harwell_boeing.hpp"
+
 #include <optional>
 #include <vector>
 
@@ -13,6 +15,7 @@ using detail::FortranFormat;
 using detail::Lines;
 
 struct HarwellBoeingHeader {
+  std::string title;
   bool symmetric = false;
   int rows = 0;
   int entries = 0;
@@ -62,7 +65,9 @@ FortranFormat read_format(const Lines& lines, std::string_view& rest, const char
 
 HarwellBoeingHeader read_header_of_harwell_boeing(Lines& lines) {
   HarwellBoeingHeader header;
+  constexpr std::size_t title_width = 72;  // a key follows
   next_line(lines, "its title");
+  header.title = detail::trimmed(std::string_view(lines.text()).substr(0, title_width));
   next_line(lines, "the line of counts");
   constexpr std::size_t right_hand_sides = 4;
   const bool loaded = lines.words().size() > right_hand_sides &&
@@ -164,28 +169,44 @@ void require_one_load(const Lines& lines, const HarwellBoeingHeader& header) {
         "(4D20.12) as the fourth in the line of formats");
 }
 
+Eigen::VectorXd load_of(Lines& lines, const HarwellBoeingHeader& header) {
+  Eigen::VectorXd load(header.rows);
+  Eigen::Index row = 0;
+  for_each_field(lines, *header.load_values, header.rows, "values of the right-hand side",
+                 [&](std::string_view field) { load[row++] = real_in(lines, field, *header.load_values); });
+  return load;
+}
+
 }  // namespace
 
 Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::string& name) {
-  Lines lines(input, name);
-  const HarwellBoeingHeader header = read_header_of_harwell_boeing(lines);
-  return detail::matrix_of(read_entries(lines, header), header.rows, header.rows, header.symmetric, name);
+  return detail::read_harwell_boeing_parts(input, name, detail::MatrixPart::matrix).front().matrix;
 }
 
 Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file) {
   return detail::from_file(file, [](auto&&... from) { return read_harwell_boeing(from...); });
 }
 
-Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name) {
+std::vector<NamedMatrix> detail::read_harwell_boeing_parts(std::istream& input, const std::string& name,
+                                                           MatrixPart part) {
   Lines lines(input, name);
   const HarwellBoeingHeader header = read_header_of_harwell_boeing(lines);
-  require_one_load(lines, header);
-  read_entries(lines, header);
-  Eigen::VectorXd load(header.rows);
-  Eigen::Index row = 0;
-  for_each_field(lines, *header.load_values, header.rows, "values of the right-hand side",
-                 [&](std::string_view field) { load[row++] = real_in(lines, field, *header.load_values); });
-  return load;
+  const bool loaded = part == MatrixPart::load || (part == MatrixPart::all && header.loads > 0);
+  if (loaded) require_one_load(lines, header);
+  MatrixEntries entries = read_entries(lines, header);
+  std::vector<NamedMatrix> found;
+  if (part != MatrixPart::load)
+    found.push_back({header.title,
+                     matrix_of(std::move(entries), header.rows, header.rows, header.symmetric, name),
+                     {},
+                     false});
+  if (loaded) found.push_back({"right-hand side", load_of(lines, header).sparseView(), {}, true});
+  return found;
+}
+
+Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name) {
+  return Eigen::VectorXd(
+      detail::read_harwell_boeing_parts(input, name, detail::MatrixPart::load).front().matrix.col(0));
 }
 
 Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file) {

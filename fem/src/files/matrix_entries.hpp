@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -7,10 +8,15 @@ namespace wavebalance::fem::detail {
 
 using MatrixEntries = std::vector<Eigen::Triplet<double, int>>;
 
+/// What errors call the entry of a row and a column from 0.
+using EntryName = std::function<std::string(int row, int column)>;
+/// "(3, 1)"
+std::string place_text(int row, int column);
+
 /// The compressed matrix of entries, each given once. A symmetric matrix has one of (i, j) and (j, i) in
 /// `entries`, or everywhere both, and both in the result. Throws MatrixFileError "<name>: the entry (i, j) is
 /// given twice, as a and b", or of two triangles that differ "<name>: the entry (i, j) is a and (j, i) is b".
 Eigen::SparseMatrix<double> matrix_of(MatrixEntries entries, int rows, int columns, bool symmetric,
-                                      const std::string& name);
+                                      const std::string& name, const EntryName& entry_name = place_text);
 
 }  // namespace wavebalance::fem::detail

@@ -13,7 +13,8 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
           required_with(analysis_where(&AnalysisKind::at_one_frequency)));
   forcing(
       &Forcing::load, "load", "",
-      "forces of all degrees of freedom for amplitude 1: Matrix Market file of one column, or Harwell-Boeing file with a right-hand side",
+      "forces of all degrees of freedom for amplitude 1: a file of one column, DMIG or OUTPUT4 of Nastran, *CLOAD of "
+      "Abaqus, or Harwell-Boeing with a right-hand side; \"job.pch#PAX:2\" is a column of one of several",
       path, optional, only_with(structure_is({"matrices"})));
   forcing(&Forcing::load_dofs, "load_dofs", "",
           "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "

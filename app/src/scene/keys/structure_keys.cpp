@@ -39,9 +39,9 @@ void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
   matrices(
       &MatricesStructure::mass, "mass", "kg",
-      "mass matrix M, symmetric and positive definite: a file in the format of Matrix Market (.mtx), "
-      "CalculiX (.sti, .mas), coordinates of Abaqus or Harwell-Boeing (.rsa, .rua; Ansys, LS-DYNA), known by its first "
-      "lines",
+      "mass matrix M, symmetric and positive definite: a file of Matrix Market, CalculiX, Abaqus (*MATRIX OUTPUT), "
+      "Harwell-Boeing (Ansys, LS-DYNA) or Nastran (DMIG, OUTPUT4), known by its first lines; \"job.pch#MAAX\" is one of "
+      "several in a file",
       path);
   matrices(
       &MatricesStructure::stiffness, "stiffness", "N/m",
@@ -75,7 +75,8 @@ void add_matrices(std::vector<SceneKey>& keys) {
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
       "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "
-      "columns node, direction (x, y, z, rx, ry, rz or 1..6) and, unless in the order of the rows, row",
+      "columns node, direction (x, y, z, rx, ry, rz, scalar or 1..6) and, unless in the order of the rows, row, as "
+      "Ansys maps HBMAT; not needed where the stiffness names its nodes (DMIG, matrix input of Abaqus)",
       path, optional);
   matrices(
       &MatricesStructure::mesh, "mesh", "",

@@ -10,7 +10,8 @@
 
 namespace wavebalance::fem {
 
-/// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6).
+/// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6), or the
+/// one of a scalar point of Nastran (7). Internal nodes of Abaqus have negative numbers.
 /// Where several rows have the same node and direction, as those of shells and beams that a code has expanded
 /// to solids, each is a copy, counted from 1 in the order of the rows.
 struct NodeDof {
@@ -22,14 +23,18 @@ struct NodeDof {
 };
 
 /// The direction by its name, in letters of either case: x, y, z, ux, uy, uz, rx, ry, rz, rotx, roty, rotz,
-/// or a number in 1..6. 0 if it is none of these.
+/// scalar, or a number in 1..6. 0 if it is none of these.
 int direction_of(std::string_view name);
+/// "node 1042 z", without its copy.
+std::string to_string(const NodeDof& dof);
+/// "x", "y", "z", "rx", "ry", "rz" or "scalar" for a direction in 1..7.
+std::string_view direction_name(int direction);
 
 /// Which row of the matrices is which motion of which node. Immutable.
 class DofMap {
  public:
   /// Row i is dofs[i]; the copies of those that are there several times are counted here. Throws
-  /// std::invalid_argument for a direction out of 1..6. O(rows log rows).
+  /// std::invalid_argument for a direction out of 1..7. O(rows log rows).
   explicit DofMap(std::vector<NodeDof> dofs);
 
   int rows() const { return static_cast<int>(dofs_.size()); }
@@ -51,10 +56,13 @@ class DofMap {
 
 /// Reads a dof map: the .dof file of CalculiX, a line "node.direction" per row of the matrices, or a table of
 /// columns node and direction, separated by commas, semicolons or blanks. Its first line may name the
-/// columns, with a third one, "row" (from 1), where the lines are not in the order of the rows. Lines that
-/// open with # are comments. Throws MatrixFileError with file and line.
+/// columns, with a third one, "row" (from 1), where the lines are not in the order of the rows; Ansys (HBMAT)
+/// calls it "Matrix Eqn". Lines that open with # are comments. Throws MatrixFileError with file and line.
 DofMap read_dof_map(const std::filesystem::path& file);
 /// The same from a stream; errors call it `name`.
 DofMap read_dof_map(std::istream& input, const std::string& name);
+
+/// The columns node and direction of a map, a line per row, which read_dof_map() reads.
+std::string dof_map_text(const DofMap& map);
 
 }  // namespace wavebalance::fem

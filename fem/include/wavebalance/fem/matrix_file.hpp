@@ -20,23 +20,25 @@ class MatrixFileError : public std::runtime_error {
 constexpr std::uintmax_t largest_matrix_file = 8'000'000'000;
 
 /// Formats of matrix files that read_matrix() knows.
-enum class MatrixFormat { matrix_market, calculix, harwell_boeing };
+enum class MatrixFormat { matrix_market, calculix, harwell_boeing, abaqus, dmig, output4 };
 std::string_view to_string(MatrixFormat format);
 
-/// The format of a file by its first lines: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file
-/// has the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth, and
-/// CalculiX and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) open with row, column and value. The extension
-/// .mtx says Matrix Market, .sti and .mas say CalculiX, and .rsa and .rua say Harwell-Boeing, where the
-/// content fits none. Throws MatrixFileError if neither says anything, if the file is matrix input of Abaqus
-/// or DMIG or OUTPUT4 of Nastran, which are not read, or if it cannot be read.
+/// The format of a file by its content: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file has
+/// the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth, CalculiX
+/// and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) have lines of row, column and value, Abaqus otherwise of
+/// node, dof, node, dof and value, and Nastran DMIG entries or OUTPUT4, text or binary. Comments of Abaqus
+/// and Nastran may come first. Where the content fits none, the end of the name says the format: .mtx Matrix
+/// Market, .sti and .mas CalculiX, .rsa and .rua Harwell-Boeing, .pch, .bdf and .dmig DMIG, .op4 OUTPUT4.
+/// Throws MatrixFileError if neither says anything or the file cannot be read.
 MatrixFormat matrix_format(const std::filesystem::path& file);
 
-/// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles. Throws
-/// MatrixFileError, which says as which format the file was read. O(nnz log nnz).
+/// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles. Of several
+/// in a file "job.pch#KAAX" names one [named_matrix.hpp]. Throws MatrixFileError, which says as which format
+/// the file was read. O(nnz log nnz).
 Eigen::SparseMatrix<double> read_matrix(const std::filesystem::path& file);
 
-/// Reads a vector: Matrix Market with one column, or the right-hand side of a Harwell-Boeing file. Throws
-/// MatrixFileError as read_matrix does.
+/// Reads a vector: one column of a matrix that is not square, or the right-hand side of a Harwell-Boeing
+/// file. Of several columns "job.pch#PAX:2" names one. Throws MatrixFileError as read_matrix does.
 Eigen::VectorXd read_vector(const std::filesystem::path& file);
 
 /// Reads what CalculiX writes as .sti and .mas with *FREQUENCY, SOLVER=MATRIXSTORAGE: lines of row, column

@@ -71,6 +71,9 @@ std::string name_of(LoadKind value);
 /// The files that a scene names: of its matrices, loads and laws. Absolute where the scene was loaded.
 std::vector<std::string> input_files(const Scene& scene);
 
+/// The file of a path that may name a matrix in it, "job.pch" of "job.pch#KAAX".
+std::string file_of_input(const std::string& path);
+
 /// Whether no balance has its motions, which are solved for from event to event: limit cycles, those of
 /// impacts beside other laws or of a structure that is free to move, of friction of such a structure or of
 /// states alone, and of rigid friction at a contact that keeps its mass, as it does where the scene names no
