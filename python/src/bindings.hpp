@@ -15,6 +15,8 @@ void add_studies(pybind11::module_& module);
 void add_comparison(pybind11::module_& module);
 /// Contact laws, and those of functions of Python.
 void add_laws(pybind11::module_& module);
+/// Matrices in the formats of other codes.
+void add_matrices(pybind11::module_& module);
 /// Structures, pairs of bases and condensed problems.
 void add_problem(pybind11::module_& module);
 /// Periodic responses at one frequency.

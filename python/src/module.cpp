@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_comparison(module);
   python::add_studies(module);
   python::add_laws(module);
+  python::add_matrices(module);
   python::add_problem(module);
   python::add_response(module);
   python::add_stability(module);

@@ -10,6 +10,7 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 A structure of one's own is made of SciPy's sparse matrices:
 
 - :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
+- :func:`read_matrices` reads those of other codes;
 - :func:`forced_response`, :func:`frequency_sweep`, :func:`amplitude_sweep`, :func:`stability`, :func:`backbone`,
   :func:`damped_mode`;
 - :mod:`wavebalance.wavelets`: values of bases and connection coefficients.
@@ -45,6 +46,7 @@ from .laws import (
     Rigid,
     Table,
 )
+from .matrix_files import MatrixFiles, read_matrices
 from .modes import Backbone, DampedMode, backbone, damped_mode
 from .record import Record
 from .responses import Motion, Problem, Response, Stability, forced_response, harmonics_of, stability
@@ -68,6 +70,7 @@ __all__ = [
     "KelvinVoigt",
     "Law",
     "Linear",
+    "MatrixFiles",
     "Motion",
     "NoContact",
     "Pair",
@@ -96,6 +99,7 @@ __all__ = [
     "harmonics_of",
     "overlay",
     "progress",
+    "read_matrices",
     "run",
     "stability",
     "study",

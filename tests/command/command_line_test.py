@@ -78,7 +78,7 @@ def test_wrong_words_are_answered_with_what_is_probably_meant(command, bar, word
 
 
 @pytest.mark.parametrize("words, answer", [
-    (["nonsense"], "unknown command nonsense; there are run, check, compare, overlay, study, keys, init"),
+    (["nonsense"], "unknown command nonsense; there are run, check, compare, overlay, study, keys, init, convert"),
     (["run", "case.toml"], "--output is required; `wavebalance run --help` says what it takes"),
     (["run", "case.toml", "--outpt", "x"],
      "there is no option --outpt (did you mean --output?); `wavebalance run --help` says what it takes"),

@@ -5,12 +5,13 @@
 #include <sstream>
 
 #include "fuzz.hpp"
-#include "wavebalance/fem/dof_map.hpp"
+#include "wavebalance/fem/named_matrix.hpp"
 
 namespace {
 
 using namespace wavebalance::fem;
 using Reader = Eigen::SparseMatrix<double> (*)(std::istream&, const std::string&);
+using SeveralReader = std::vector<NamedMatrix> (*)(std::istream&, const std::string&);
 
 template <typename Read>
 void attempt(Read read) {
@@ -31,6 +32,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const auto matrix = reader(input, "fuzz");
       require(matrix.nonZeros() == 0 || matrix.coeffs().allFinite(), "a matrix has finite entries");
       require(matrix.isCompressed(), "a matrix is compressed");
+    });
+  const auto read_dmigs = [](std::istream& input, const std::string& name) { return read_dmig(input, name); };
+  const auto read_output4s = [](std::istream& input, const std::string& name) {
+    return read_output4(input, name);
+  };
+  for (const SeveralReader reader :
+       {SeveralReader(read_abaqus_matrix), SeveralReader(read_dmigs), SeveralReader(read_output4s)})
+    attempt([&] {
+      std::istringstream input(text);
+      for (const NamedMatrix& one : reader(input, "fuzz"))
+        require(one.matrix.nonZeros() == 0 || one.matrix.coeffs().allFinite(), "a matrix has finite entries");
     });
   attempt([&] {
     std::istringstream input(text);

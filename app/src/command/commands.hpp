@@ -74,4 +74,14 @@ std::vector<std::string> starter_kinds();
 /// one of the files exists, and IoError.
 int init_scene(const InitArguments& arguments);
 
+struct ConvertArguments {
+  std::vector<std::filesystem::path> files;  ///< of matrices, loads and at most one dof map
+  std::filesystem::path output;              ///< folder
+};
+
+/// Writes what files of other codes hold as Matrix Market files and a dof map, which scenes name, and says
+/// what was written. Returns solved. Throws fem::MatrixFileError, std::invalid_argument if a file exists,
+/// IoError.
+int convert_files(const ConvertArguments& arguments);
+
 }  // namespace wavebalance::app

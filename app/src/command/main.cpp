@@ -164,6 +164,16 @@ void add_init(CLI::App& command, InitArguments& arguments) {
       ->type_name("FILE");
 }
 
+void add_convert(CLI::App& command, ConvertArguments& arguments) {
+  command
+      .add_option(
+          "FILES", arguments.files,
+          "matrices, loads and a dof map of CalculiX, Abaqus, Ansys, LS-DYNA or Nastran; job.pch#KAAX is one "
+          "matrix of a file")
+      ->required();
+  add_output(command, arguments.output, "folder of the files, made if missing; no file is overwritten");
+}
+
 void add_keys(CLI::App& command, std::vector<std::string>& filters, bool& names) {
   command.add_option(
       "FILTER", filters,
@@ -252,6 +262,9 @@ int dispatch(int argc, char** argv) {
   InitArguments start;
   CLI::App& init = *app.add_subcommand("init", "write a commented scene to start from");
   add_init(init, start);
+  ConvertArguments conversion;
+  CLI::App& convert = *app.add_subcommand("convert", "write matrices of other codes as Matrix Market files");
+  add_convert(convert, conversion);
   check_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -263,6 +276,7 @@ int dispatch(int argc, char** argv) {
   take_analysis(comparison.run);
   if (keys.parsed()) return print(names ? key_names_text() : selected_keys_text(filters));
   if (init.parsed()) return init_scene(start);
+  if (convert.parsed()) return convert_files(conversion);
   if (compare.parsed()) return compare_scene(comparison);
   if (overlay.parsed()) return overlay_results(drawing);
   if (study.parsed()) return solve_study(over);

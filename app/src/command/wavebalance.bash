@@ -41,6 +41,7 @@ _wavebalance() {
     keys:*) _wavebalance_words "$(_wavebalance_filters "$program")" "$word" ;;
     init:*) _wavebalance_words "bar matrices blade study" "$word" ;;
     overlay:*) _wavebalance_files folders "$word" ;;
+    convert:*) compopt -o default 2>/dev/null ;;
     *) _wavebalance_files scenes "$word" ;;
   esac
   case $word in *=*) COMPREPLY=("${COMPREPLY[@]#"${word%%=*}="}") ;; esac  # bash replaces what follows the last "="

@@ -35,12 +35,27 @@ void check_weight(const Scene& scene, const StructureFiles& files) {
     if (weight[std::size_t(axis)] != 0.0) check_direction(files, axis, "forcing.weight");
 }
 
+bool is_in(const std::vector<int>& rows, int dof) {
+  return std::binary_search(rows.begin(), rows.end(), std::abs(dof) - 1);
+}
+
+void check_not_driven(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
+  for (const int dof : dofs)
+    if (is_in(files.base_rows, dof))
+      throw StructureFault(
+          key, fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
+                           dof));
+}
+
 void check_terms(const Scene& scene, const StructureFiles& files) {
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
     const std::string key = term_section(i) + ".dofs";
     check_dofs(term.dofs, files.file_rows(), key);
-    if (term.kind != LoadKind::base_displacement) check_unknown(term.dofs, files, key);
+    if (term.kind == LoadKind::base_acceleration)
+      check_not_driven(term.dofs, files, key);  // rows that are held move with the base
+    else if (term.kind != LoadKind::base_displacement)
+      check_unknown(term.dofs, files, key);
     if (!term.direction.empty())
       check_direction(files, term.direction.back() - 'x', term_section(i) + ".direction");
     const bool placed = files.load.size() > 0 || !scene.forcing.load_dofs.empty();
@@ -108,20 +123,13 @@ void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_vie
 }
 
 void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key) {
-  for (const int dof : dofs) {
-    const auto is_in = [row = std::abs(dof) - 1](const std::vector<int>& rows) {
-      return std::binary_search(rows.begin(), rows.end(), row);
-    };
-    if (is_in(files.base_rows))
-      throw StructureFault(
-          key, fmt::format("degree of freedom {} moves with a base displacement; expected one that does not",
-                           dof));
-    if (is_in(files.moving))
+  check_not_driven(dofs, files, key);
+  for (const int dof : dofs)
+    if (is_in(files.moving, dof))
       throw StructureFault(key,
                            fmt::format("degree of freedom {} is held: structure.stiffness has 1e36 on its "
                                        "diagonal there; expected one that is free",
                                        dof));
-  }
 }
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {

@@ -20,7 +20,7 @@ class AbaqusReader {
       if (lines_.words().empty() || text.starts_with("**")) continue;
       if (text.starts_with('*'))
         begin_section(detail::lower(text));
-      else if (cases_ > 0)
+      else if (in_loads_)
         add_load(detail::split(text, separators));
       else
         add_entry(detail::split(text, separators));
@@ -32,11 +32,12 @@ class AbaqusReader {
   static constexpr std::string_view separators = " ,\t\r";
 
   void begin_section(const std::string& line) {
+    in_loads_ = line.starts_with("*cload");
     if (line.starts_with("*matrix")) {
       if (line.find("unsymmetric") != std::string::npos) symmetric_ = false;
       return;
     }
-    if (!line.starts_with("*cload"))
+    if (!in_loads_)
       lines_.fail("found \"" + lines_.text().substr(0, 60) +
                   "\"; the keyword must be *MATRIX INPUT or *CLOAD");
     imaginary_ = line.find("imaginary") != std::string::npos;
@@ -82,7 +83,7 @@ class AbaqusReader {
 
   Lines lines_;
   detail::LabelledEntries matrix_, loads_;
-  bool symmetric_ = true, imaginary_ = false;
+  bool symmetric_ = true, in_loads_ = false, imaginary_ = false;
   int cases_ = 0;  ///< of loads so far
 };
 

@@ -50,16 +50,18 @@ std::string role_of_file(const Path& file) {
 
 /// Titles have several words, names of Nastran one.
 std::string role_of(const NamedMatrix& one, const Path& file) {
-  if (one.load) return std::string(load_role);
-  if (one.name.empty()) return role_of_file(file);
   const std::string name = detail::lower(one.name);
+  const bool has_words = name.find(' ') != std::string::npos;
+  if (one.load && (name.empty() || has_words || name[0] == 'p')) return std::string(load_role);
+  if (one.load) return one.name;  // such as mode shapes
+  if (name.empty()) return role_of_file(file);
   std::string role;
-  if (name.find(' ') == std::string::npos)
+  if (!has_words)
     role = role_among(first_words, [&](std::string_view text) { return name.starts_with(text); });
   else
     role = role_among(inside_words, [&](std::string_view text) { return name.find(text) != name.npos; });
   if (!role.empty()) return role;
-  return name.find(' ') == std::string::npos ? one.name : role_of_file(file);
+  return has_words ? role_of_file(file) : one.name;
 }
 
 struct Read {

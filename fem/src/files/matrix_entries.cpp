@@ -61,7 +61,8 @@ struct Names {
 
 double largest(const std::vector<Placed>& entries) {
   double most = 0.0;
-  for (const Placed& one : entries) most = std::max(most, std::abs(one.value));
+  for (const Placed& one : entries)
+    if (std::abs(one.value) < held_diagonal) most = std::max(most, std::abs(one.value));
   return most;
 }
 

@@ -114,6 +114,15 @@ std::optional<MatrixFormat> format_of_extension(const std::filesystem::path& fil
   return std::nullopt;
 }
 
+/// Whether an entry DMIG comes after others of bulk data.
+bool has_dmig(const std::filesystem::path& file) {
+  std::ifstream input = detail::open_matrix_file(file);
+  detail::Lines lines(input, file.string());
+  while (lines.next())
+    if (lower(lines.text().substr(0, 4)) == "dmig") return true;
+  return false;
+}
+
 bool is_binary(const std::filesystem::path& file) {
   std::ifstream input = detail::open_matrix_file(file);
   return detail::is_output4_binary(input);
@@ -124,6 +133,7 @@ bool is_binary(const std::filesystem::path& file) {
 std::optional<FoundFormat> detail::format_if_known(const std::filesystem::path& file) {
   if (is_binary(file)) return FoundFormat{MatrixFormat::output4, true};
   if (const auto seen = format_of(first_lines(file))) return FoundFormat{*seen, true};
+  if (has_dmig(file)) return FoundFormat{MatrixFormat::dmig, true};
   if (const auto named = format_of_extension(file)) return FoundFormat{*named, false};
   return std::nullopt;
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "harwell_boeing.hpp"
+#include "matrix_entries.hpp"
 #include "matrix_formats.hpp"
 #include "text_lines.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
@@ -15,7 +16,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 /// Of a file that names neither it nor its rows.
 NamedMatrix plain(Sparse matrix) {
-  const bool load = matrix.cols() == 1 && matrix.rows() > 1;
+  const bool load = matrix.rows() != matrix.cols();
   return {"", std::move(matrix), {}, load};
 }
 
@@ -163,11 +164,10 @@ Sparse placed(const NamedMatrix& given, const DofMap& map) {
 }
 
 std::vector<int> held_rows(const Sparse& stiffness) {
-  constexpr double held = 1e36;
   std::vector<int> rows;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   for (Eigen::Index row = 0; row < diagonal.size(); ++row)
-    if (diagonal[row] >= held) rows.push_back(static_cast<int>(row));
+    if (diagonal[row] >= detail::held_diagonal) rows.push_back(static_cast<int>(row));
   return rows;
 }
 

@@ -256,22 +256,6 @@ TEST_F(MatrixFiles, OfNoKnownFormatAreRefusedWithAllThatAreAllowed) {
   expect_error([&] { read_matrix(folder_ / "none.sti"); }, "cannot be opened for reading");
 }
 
-TEST_F(MatrixFiles, InAFormatThatIsKnownButNotReadAreNamed) {
-  const std::tuple<std::string, std::string, std::string> files[] = {
-      {"job_STIF1.mtx", "** stiffness\n2,1, 2,1, 2.0e+03\n3,1, -2,1, -1.0e+03\n",
-       "matrix input of Abaqus (node, dof, node, dof, value), which is not read; *MATRIX OUTPUT, FORMAT=COORDINATE"},
-      {"job.pch", "$TITLE   = CHAIN\n$SUBTITLE=\n$LABEL   =\n$KAAX\nDMIG    KAAX           0       6\n",
-       "DMIG entries of Nastran, which are not read"},
-      {"kaa.mtx", "DMIG*   KAAX                           2               1\n", "DMIG entries of Nastran"},
-      {"kaa.op4", "       3      -3       6       2KAA     1P,3E23.16\n       1       1       2\n",
-       "OUTPUT4 of Nastran, which is not read"}};
-  for (const auto& [name, text, expected] : files) {
-    const auto file = written(name, text);
-    expect_error([&] { read_matrix(file); }, file.string() + ":1: the file holds " + expected);
-    expect_error([&] { read_vector(file); }, "; expected Matrix Market (opens with %%MatrixMarket)");
-  }
-}
-
 TEST_F(MatrixFiles, OfVectorsMayHoldThemAsRightHandSides) {
   const std::string market = "%%MatrixMarket matrix array real general\n2 1\n1\n-2\n";
   EXPECT_EQ(read_vector(written("f.txt", market)), Eigen::Vector2d(1, -2));
