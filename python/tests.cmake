@@ -29,7 +29,7 @@ else()
   set(rooms_of_laws app/scene)
   set(rooms_of_structures app/compose)
   # What a user sees, through the command and the package, without a compiler. Full campaigns of random structures take minutes.
-  foreach(topic scenes analyses command compare laws structures impacts friction mixtures extremes tolerance)
+  foreach(topic scenes analyses command compare laws recipes structures impacts friction mixtures extremes tolerance)
     file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
     foreach(test IN LISTS tests)
       get_filename_component(name ${test} NAME_WE)
