@@ -158,6 +158,7 @@ def test_a_place_that_is_none_is_refused_with_those_that_there_are(run, tmp_path
     ("$TITLE = CHAIN\nDMIG    KAAX           0       6       4       0\n", "the file was read as DMIG of Nastran"),
     ("       2       2       6       2KAA     1P,3E23.16\n", "the file was read as OUTPUT4 of Nastran"),
     ("1 1 2e3\n1 2 -1e3\n2 1 -2e3\n", "the entry (2, 1) is -2000 and (1, 2) is -1000"),
+    (HARWELL_BOEING.replace("-1.0", "-1.5", 1), "the entry (2, 1) is -1500 and (1, 2) is -1000; a symmetric file holds one"),
     ("%%MatrixMarket matrix coordinate real symmetric\n2 2\n", "the file was read as Matrix Market"),
     ("no matrix\n", "the file was read as Matrix Market because of its name"),
 ])

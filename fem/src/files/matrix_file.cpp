@@ -14,7 +14,7 @@ namespace {
 
 using detail::FoundFormat;
 using detail::lower;
-using Words = std::vector<std::string>;
+using LowerWords = std::vector<std::string>;
 
 /// A format, what errors call it and which ends of names say it.
 struct KnownFormat {
@@ -42,7 +42,7 @@ bool has_digits_alone(std::string_view word) {
 }
 
 /// `indices` whole numbers and a value.
-bool is_entry(const Words& words, std::size_t indices) {
+bool is_entry(const LowerWords& words, std::size_t indices) {
   return words.size() == indices + 1 &&
          std::all_of(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(indices), has_digits_alone) &&
          words[indices].find_first_not_of("+-.0123456789eE") == std::string::npos;
@@ -63,7 +63,7 @@ constexpr std::size_t header_lines = 4;
 
 struct FirstLine {
   std::string text;  ///< in lower case
-  Words words;       ///< of it
+  LowerWords words;  ///< of it
 };
 
 /// The first lines of a file, and after them those up to the first that is no comment of Abaqus or Nastran.
@@ -83,7 +83,7 @@ std::vector<FirstLine> first_lines(const std::filesystem::path& file) {
 /// By the first line that is no comment.
 std::optional<MatrixFormat> format_of_data(const FirstLine& line) {
   if (is_entry(line.words, 2)) return MatrixFormat::calculix;
-  Words fields;
+  LowerWords fields;
   for (const std::string_view word : detail::split(line.text, " ,\t\r")) fields.emplace_back(word);
   if (is_entry(fields, 4) || line.text.starts_with("*matrix") || line.text.starts_with("*cload"))
     return MatrixFormat::abaqus;
