@@ -37,8 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto read_output4s = [](std::istream& input, const std::string& name) {
     return read_output4(input, name);
   };
-  for (const SeveralReader reader :
-       {SeveralReader(read_abaqus_matrix), SeveralReader(read_dmigs), SeveralReader(read_output4s)})
+  for (const SeveralReader reader : {SeveralReader(read_abaqus_matrix), SeveralReader(read_substructure),
+                                     SeveralReader(read_dmigs), SeveralReader(read_output4s)})
     attempt([&] {
       std::istringstream input(text);
       for (const NamedMatrix& one : reader(input, "fuzz"))

@@ -1,12 +1,12 @@
-"""Matrix input, labels, coordinates and loads of Abaqus, and rows that it marks as held."""
+"""Matrix input, labels, coordinates, loads and substructures of Abaqus, and rows that it marks as held."""
 
 import numpy as np
 import pytest
-from code_files import ascending, concentrated_loads, matrix_input, random_structure
+from code_files import ascending, concentrated_loads, matrix_input, random_structure, substructure
 
 import wavebalance as wb
 
-MASS, _, STIFFNESS, LABELS = random_structure()
+MASS, DAMPING, STIFFNESS, LABELS = random_structure()
 LABELS[2] = (-1, 1)  # an internal node
 LOAD = np.zeros(9)
 LOAD[[1, 5]] = 5.0, -0.25
@@ -61,6 +61,37 @@ def test_what_is_wrong_is_named(write, text, expected):
         wb.read_matrices(write("k.mtx", text))
     assert expected in str(raised.value)
     assert "; the file was read as matrix input of Abaqus" in str(raised.value)
+
+
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_a_substructure_has_all_its_matrices_in_a_file(write, symmetric):
+    matrices = {"STIFFNESS": STIFFNESS, "MASS": MASS, "VISCOUS DAMPING": DAMPING @ DAMPING.T if symmetric else DAMPING}
+    found = wb.read_matrices(write("inner.mtx", substructure(matrices, LABELS, symmetric)))
+    for matrix, expected in zip((found.stiffness, found.mass, found.damping), matrices.values(), strict=True):
+        np.testing.assert_allclose(matrix.toarray(), ascending(expected, LABELS), rtol=1e-14)
+    assert list(found.nodes) == [node for node, _ in sorted(LABELS)]
+    assert list(wb.read_matrices("inner.mtx#mass").matrices) == ["mass"]
+
+
+SMALL = substructure({"STIFFNESS": np.eye(3)}, [(7, 1), (7, 2), (9, 1)])
+PARTS = {
+    "values": (SMALL[:SMALL.rindex("0.0")], "inner.mtx:12: the matrix of TYPE=stiffness has 4 values; it must have 6 for 3 rows"),
+    "nodes": (SMALL.replace("NODES= 2", "NODES= 3"), "lists 2 nodes; *USER ELEMENT says 3"),
+    "dofs": (SMALL.replace("\n1, 2\n2, 1\n", "\n"), "the degrees of freedom below *USER ELEMENT are missing"),
+    "dof": (SMALL.replace("\n1, 2\n", "\n1, 8\n"), "the degree of freedom is 8; it must be in 1..6"),
+    "place": (SMALL.replace("\n2, 1\n", "\n3, 1\n"), "the place of the node is 3; it must be in 1..2"),
+    "elements": (SMALL + SMALL, "there is a second *USER ELEMENT; the file must have one"),
+    "keyword": (SMALL + "*STEP\n", 'found "*STEP"; the keyword must be *USER ELEMENT or *MATRIX, TYPE='),
+    "no matrix": (SMALL[:SMALL.index("*MATRIX")], "there is no *MATRIX"),
+}
+
+
+@pytest.mark.parametrize("text, expected", PARTS.values(), ids=PARTS)
+def test_what_is_wrong_with_a_substructure_is_named(write, text, expected):
+    with pytest.raises(ValueError) as raised:
+        wb.read_matrices(write("inner.mtx", text))
+    assert expected in str(raised.value)
+    assert "; the file was read as a substructure of Abaqus or CalculiX" in str(raised.value)
 
 
 # A rod of three elements, whose first node is held: consistent masses couple it with the next one.

@@ -153,3 +153,19 @@ def concentrated_loads(load, labels):
     """*MATRIX OUTPUT, LOAD."""
     return "** Assembled nodal loads\n*CLOAD, REAL\n" + "".join(
         f"{node},{component},  {value:.15e}\n" for (node, component), value in zip(labels, load, strict=True) if value)
+
+
+def substructure(matrices, labels, symmetric=True):
+    """*SUBSTRUCTURE MATRIX OUTPUT: nodes in a comment, their components, and columns down to the diagonal."""
+    nodes = list(dict.fromkeys(node for node, _ in labels))
+    text = (f"**\n** ABAQUS SUBSTRUCTURE\n*USER ELEMENT, NODES= {len(nodes)}, LINEAR{'' if symmetric else ', UNSYMM'}\n"
+            "** ELEMENT NODES\n** " + ", ".join(map(str, nodes[:2])) + ",\n** " + ", ".join(map(str, nodes[2:])) + "\n")
+    for place, node in enumerate(nodes):
+        components = ", ".join(str(component) for one, component in labels if one == node)
+        text += f"{components}\n" if place == 0 else f"{place + 1}, {components}\n"
+    for kind, matrix in matrices.items():
+        text += f"*MATRIX,TYPE={kind}\n"
+        for column in range(len(labels)):
+            values = [f"{value:.15e}" for value in matrix[:column + 1 if symmetric else None, column]]
+            text += "".join(" ,".join(values[i:i + 4]) + " ,\n" for i in range(0, len(values), 4))
+    return text

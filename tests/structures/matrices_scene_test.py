@@ -70,7 +70,7 @@ def test_a_wrong_value_is_refused_at_its_line(change, line, key, part):
      ["free to move"]),
     ("%%MatrixMarket matrix array real general\n2 1\n0\n1\n", ("load_dofs = [3]", 'load = "x.mtx"'), 12, "forcing.load",
      ["2 entries; expected 3", "{folder}/x.mtx", "{folder}/k.mtx"]),
-    ("", ("load_dofs = [3]", 'load = "k.mtx"'), 12, "forcing.load", ["the count of columns is 3; it must be 1"]),
+    ("", ("load_dofs = [3]", 'load = "k.mtx"'), 12, "forcing.load", ["the file holds a matrix; expected a vector: one column"]),
     ("", ("load_dofs = [3] ", 'load = "f.mtx"\nload_dofs = [1] '), 13, "forcing.load_dofs", ["not both"]),
 ])
 def test_a_wrong_file_is_refused_at_its_line(chain, text, change, line, key, parts):

@@ -40,7 +40,8 @@ std::vector<Converted> converted(const fem::CollectedMatrices& all) {
   std::vector<Converted> files;
   for (const fem::CollectedMatrix& one : all.matrices)
     files.push_back({file_name(one.role), market_text(one.matrix),
-                     fmt::format("{} x {}, of {}", one.matrix.rows(), one.matrix.cols(), one.file.string())});
+                     fmt::format("{} x {}, {}of {}", one.matrix.rows(), one.matrix.cols(),
+                                 one.name.empty() ? "" : one.name + " ", one.file.string())});
   if (all.map)
     files.push_back({"dof_map.csv", fem::dof_map_text(*all.map), "which row is which motion of which node"});
   return files;

@@ -20,9 +20,14 @@ struct Word {
 };
 
 // Those that stand anywhere in a title or in the name of a file; the first one counts.
-constexpr std::array inside_words{
-    Word{"stif", stiffness_role}, Word{"mass", "mass"},    Word{"dmps", "structural_damping"},
-    Word{"dmpv", "damping"},      Word{"damp", "damping"}, Word{"load", load_role}};
+constexpr std::array inside_words{Word{"structural damp", "structural_damping"},
+
+                                  Word{"stif", stiffness_role},
+                                  Word{"mass", "mass"},
+                                  Word{"dmps", "structural_damping"},
+                                  Word{"dmpv", "damping"},
+                                  Word{"damp", "damping"},
+                                  Word{"load", load_role}};
 // Those with which a name of Nastran begins.
 constexpr std::array first_words{Word{"k4", "structural_damping"}, Word{"k", stiffness_role},
                                  Word{"m", "mass"}, Word{"b", "damping"}};
@@ -95,7 +100,8 @@ class Collector {
     if (read_.empty()) throw MatrixFileError("there is no file of a matrix; expected one at least");
     if (!map_) map_ = map_of_names();
     CollectedMatrices result{{}, map_};
-    for (const Read& one : read_) result.matrices.push_back({one.role, one.file, in_rows_of_all(one)});
+    for (const Read& one : read_)
+      result.matrices.push_back({one.role, one.matrix.name, one.file, in_rows_of_all(one)});
     leave_out_held(result);
     return result;
   }

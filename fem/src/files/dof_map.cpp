@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <istream>
 #include <stdexcept>
 
@@ -82,6 +83,9 @@ class DofMapReader {
     if (words.empty()) return;
     const bool opens = std::exchange(first_, false);
     const char letter = words[0][0];
+    if (opens && words.size() == 3 && direction_of(words[2]) > 0 &&
+        std::isalpha(static_cast<unsigned char>(words[2][0])))
+      columns_ = {1, 2, 0, 3};  // row, node and direction without their names
     if (opens && ((letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z'))) {
       columns_ = named_columns(lines_, words);
       return;

@@ -28,12 +28,13 @@ constexpr std::array known_formats{
     KnownFormat{MatrixFormat::calculix, "coordinates of CalculiX or Abaqus", {".sti", ".mas"}},
     KnownFormat{MatrixFormat::harwell_boeing, "Harwell-Boeing", {".rsa", ".rua"}},
     KnownFormat{MatrixFormat::abaqus, "matrix input of Abaqus", {}},
+    KnownFormat{MatrixFormat::substructure, "a substructure of Abaqus or CalculiX", {}},
     KnownFormat{MatrixFormat::dmig, "DMIG of Nastran", {".pch", ".bdf", ".dmig"}},
     KnownFormat{MatrixFormat::output4, "OUTPUT4 of Nastran", {".op4"}}};
 
 constexpr std::string_view all_formats =
     "expected Matrix Market (opens with %%MatrixMarket), CalculiX or Abaqus (lines of row, column and value), "
-    "Abaqus (node, dof, node, dof and value), Harwell-Boeing (RSA or RUA in its third line) or Nastran (DMIG or "
+    "Abaqus (node, dof, node, dof and value, or a substructure), Harwell-Boeing (RSA or RUA in its third line) or Nastran (DMIG or "
     "OUTPUT4)";
 
 bool has_digits_alone(std::string_view word) {
@@ -87,6 +88,7 @@ std::optional<MatrixFormat> format_of_data(const FirstLine& line) {
   for (const std::string_view word : detail::split(line.text, " ,\t\r")) fields.emplace_back(word);
   if (is_entry(fields, 4) || line.text.starts_with("*matrix") || line.text.starts_with("*cload"))
     return MatrixFormat::abaqus;
+  if (line.text.starts_with("*user element")) return MatrixFormat::substructure;
   if (line.text.starts_with("dmig")) return MatrixFormat::dmig;
   if (detail::is_output4_header(line.text)) return MatrixFormat::output4;
   return std::nullopt;

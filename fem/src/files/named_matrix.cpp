@@ -33,6 +33,8 @@ std::vector<NamedMatrix> read_format(MatrixFormat format, std::istream& input, c
       return detail::read_harwell_boeing_parts(input, name, part);
     case MatrixFormat::abaqus:
       return read_abaqus_matrix(input, name);
+    case MatrixFormat::substructure:
+      return read_substructure(input, name);
     case MatrixFormat::dmig:
       return read_dmig(input, name, wanted);
     case MatrixFormat::output4:

@@ -264,7 +264,7 @@ TEST_F(MatrixFiles, OfVectorsMayHoldThemAsRightHandSides) {
       "t\n9 3 3 3 2\nRSA 1 1 1 0\n(3I2) (3I2) (3E9.2) (1E9.2)\nF 1 0\n 1 2\n 1\n 2.00E+00\n 5.00E+00\n");
   EXPECT_EQ(read_vector(file), Eigen::VectorXd::Constant(1, 5.0));
   EXPECT_EQ(read_matrix(file).coeff(0, 0), 2.0);
-  expect_error([&] { read_vector(written("k.sti", "1 1 1\n")); },
+  expect_error([&] { read_vector(written("k.sti", "1 1 1\n2 2 1\n")); },
                "the file holds a matrix; expected a vector");
 }
 

@@ -54,6 +54,11 @@ std::vector<int> held_rows(const Eigen::SparseMatrix<double>& stiffness);
 /// of a matrix; below *CLOAD lines of node, degree of freedom and value. Throws MatrixFileError.
 std::vector<NamedMatrix> read_abaqus_matrix(std::istream& input, const std::string& name);
 
+/// Matrices of a substructure of Abaqus (*SUBSTRUCTURE MATRIX OUTPUT) or CalculiX (*SUBSTRUCTURE GENERATE),
+/// named by their TYPE: a user element with its nodes, their degrees of freedom and values by columns, down
+/// to the diagonal unless it is UNSYMM. Throws MatrixFileError.
+std::vector<NamedMatrix> read_substructure(std::istream& input, const std::string& name);
+
 /// DMIG of Nastran in bulk data with small, large or free fields, real, in the forms 1 (square), 6
 /// (symmetric), 2 and 9 (rectangular: loads). Component 0 or none is that of a scalar point. Other entries
 /// are passed over. With `wanted` the others have names alone. Throws MatrixFileError.
@@ -69,6 +74,7 @@ std::vector<NamedMatrix> read_output4(std::istream& input, const std::string& na
 /// A matrix under the name that says what it is.
 struct CollectedMatrix {
   std::string role;  ///< mass, stiffness, damping, structural_damping, load, or else the name in its file
+  std::string name;  ///< in its file, or empty
   std::filesystem::path file;
   Eigen::SparseMatrix<double> matrix;
 };
