@@ -273,12 +273,20 @@ LawDescription CoulombLaw::description() {
                {"normal_damping", "N s/m",
                 "dashpot beside the spring normal_stiffness, of a contact that does not pull; without it "
                 "none",
+                at_least_zero}),
+           may_lack(
+               {"normal_load_speed2", "N s^2",
+                "normal force over the square of the angular frequency of the load, beside normal_load: a "
+                "mass times its radius; without it none",
                 at_least_zero})},
       .beyond_gap_alone = false};
 }
 
 CoulombLaw CoulombLaw::of(const LawValues& values) {
   constexpr double rigid = std::numeric_limits<double>::infinity();
+  if (const double grows = number_or(values, "normal_load_speed2", 0.0); grows != 0.0)
+    detail::reject("CoulombLaw", "normal_load_speed2", grows,
+                   "0: a law is made at one frequency, at which it is part of normal_load");
   FrictionParameters parameters{
       number_of(values, "friction"), number_or(values, "tangential_stiffness", rigid),
       number_of(values, "normal_load"), static_cast<int>(number_of(values, "tangents"))};

@@ -52,6 +52,9 @@ class MotionsOfCurve {
     motion.contact = leading_contact(scene_, motion.contacts, model_.gaps);
     if (scene_.analysis.motion_points > 0)
       motion.structure = problem_.structure_motion(response, scene_.analysis.motion_points).displacement;
+    if (model_.plane.size() > 0)
+      motion.plane =
+          model_.plane * problem_.structure_motion(response, scene_.analysis.output_points).displacement;
     motion.stability.status.clear();
     if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.phases)) return motion;
     std::optional<solvers::ResponsePhases> near = solvers::near_phases(problem_, response);

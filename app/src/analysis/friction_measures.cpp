@@ -107,11 +107,29 @@ std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& pl
   return all;
 }
 
+/// The law of the contact with friction whose first row this is.
+using LawAtRow = std::pair<std::size_t, contact::CoulombLaw>;
+
+/// In the force form the unknown is that of the laws in series with its springs.
+std::vector<LawAtRow> laws_of_rows(const std::vector<SceneContact>& places,
+                                   const Eigen::VectorXd& flexibility) {
+  std::vector<LawAtRow> laws;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!has_friction(places[i].law) || places[i].place != 0) continue;
+    contact::CoulombLaw law = law_of(places[i]);
+    if (flexibility.size() > 0)
+      law = law.resolvent({flexibility.data() + i, static_cast<std::size_t>(law.rows())});
+    laws.emplace_back(i, std::move(law));
+  }
+  return laws;
+}
+
 }  // namespace
 
-std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts) {
+std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts,
+                                                std::optional<double> frequency) {
   std::vector<FrictionMeasures> all;
-  const std::vector<SceneContact> places = contacts_of(scene);
+  const std::vector<SceneContact> places = contacts_of(scene, frequency);
   for (std::size_t i = 0; i < places.size() && !contacts.empty(); ++i)
     if (has_friction(places[i].law) && places[i].place == 0)
       all.push_back(measures_of(places[i], static_cast<int>(i), contacts));
@@ -123,7 +141,7 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Respon
   if (response.flow) return exact_measures(contacts_of(scene), *response.flow);
   if (is_by_phases(response) && response.phases->motion.parts != nullptr)
     return exact_measures(contacts_of(scene), response.phases->motion, response.contacts.points());
-  return friction_measures(scene, response.contacts);
+  return friction_measures(scene, response.contacts, response.load_frequency);
 }
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
@@ -140,21 +158,15 @@ void append_shares(Summary& row, const FrictionShares& shares) {
   row.emplace_back("open_fraction", shares.open);
 }
 
-// In the force form the unknown is that of the laws in series with its springs.
 std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::FrequencySweep& curve) {
   if (!has_friction(scene)) return {};
-  const std::vector<SceneContact> places = contacts_of(scene);
-  std::vector<std::pair<std::size_t, contact::CoulombLaw>> laws;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!has_friction(places[i].law) || places[i].place != 0) continue;
-    contact::CoulombLaw law = law_of(places[i]);
-    if (curve.series_flexibility.size() > 0)
-      law = law.resolvent({curve.series_flexibility.data() + i, static_cast<std::size_t>(law.rows())});
-    laws.emplace_back(i, std::move(law));
-  }
   std::vector<FrictionShares> along;
+  std::vector<LawAtRow> laws = laws_of_rows(contacts_of(scene), curve.series_flexibility);
   for (const solvers::SweepPoint& point : curve.points) {
-    const std::size_t points = static_cast<std::size_t>(point.unknown.size()) / places.size();
+    if (has_growing_normal_load(scene.contact))
+      laws = laws_of_rows(contacts_of(scene, point.frequency), curve.series_flexibility);
+    const std::size_t points =
+        static_cast<std::size_t>(point.unknown.size()) / std::size_t(contact_count(scene));
     FrictionShares shares;
     for (const auto& [row, law] : laws) {
       const std::span<const double> rows(point.unknown.data() + row * points,

@@ -90,8 +90,10 @@ solvers::AnyContactLaw make_law(const Contact& contact) {
   return law_of(contact.law, law_values(contact.law, contact.values, contact.gap));
 }
 
-solvers::ContactLaws make_laws(const Scene& scene) {
-  const std::vector<SceneContact> contacts = contacts_of(scene);
+namespace {
+
+solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
+  const std::vector<SceneContact> contacts = contacts_of(scene, frequency);
   const bool one = std::all_of(contacts.begin(), contacts.end(),
                                [&](const SceneContact& other) { return other.same_law(contacts.front()); });
   if (one && !has_friction(scene) && !names_plane(scene.contact))
@@ -100,6 +102,14 @@ solvers::ContactLaws make_laws(const Scene& scene) {
   for (const SceneContact& contact : contacts)
     if (contact.place == 0) laws.push_back(law_of(contact.law, contact.values));
   return laws;
+}
+
+}  // namespace
+
+solvers::ContactLaws make_laws(const Scene& scene) {
+  if (!has_growing_normal_load(scene.contact)) return laws_at(scene, load_frequency(scene));
+  return solvers::ContactLaws::over_frequency([scene](double frequency) { return laws_at(scene, frequency); },
+                                              load_frequency(scene));
 }
 
 solvers::AnyTimeBasis make_basis(const std::string& name, int functions) {

@@ -193,7 +193,11 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
       fail_law(document, contact, key,
                "the contact has no normal direction, " + std::string(expected) +
                    ", or [[contact.pairs]] with tangent");
-  if (!has_normal && !(contact::number_of(values, "normal_load") > 0.0))
+  const bool grows = contact::number_or(values, "normal_load_speed2", 0.0) > 0.0;
+  if (grows && scene.analysis.type == AnalysisType::nonlinear_mode)
+    fail_rule(document, {section + ".normal_load_speed2", "contact.normal_load_speed2"},
+              "a nonlinear mode has no speed; expected normal_load alone");
+  if (!has_normal && !grows && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
         document, {section + ".normal_load", "contact.normal_load"},
         "the contact has no normal direction, so that the limit is friction times normal_load; expected a number in N, > 0");

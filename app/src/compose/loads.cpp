@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <complex>
 #include <cstdlib>
 #include <numbers>
@@ -60,7 +62,8 @@ Eigen::VectorXcd series_through(const std::vector<double>& samples) {
 void add_force(std::vector<PeriodicForce>& forces, PeriodicForce added) {
   if (added.shape.isZero(0.0) || added.harmonics.isZero(0.0)) return;
   for (PeriodicForce& force : forces) {
-    if (force.derivative != added.derivative || force.shape != added.shape) continue;
+    if (force.derivative != added.derivative || force.shape != added.shape || !(force.factor == added.factor))
+      continue;
     if (force.harmonics.size() < added.harmonics.size()) force.harmonics.swap(added.harmonics);
     force.harmonics.head(added.harmonics.size()) += added.harmonics;
     return;
@@ -98,14 +101,101 @@ void add_unbalance(std::vector<PeriodicForce>& forces, ForcingTerm term, const S
   }
 }
 
+/// The forces of a term at its amplitude.
+void add_term(std::vector<PeriodicForce>& forces, const Forcing& forcing, std::size_t index,
+              const LoadPlaces& places) {
+  const ForcingTerm& term = forcing.terms[index];
+  if (term.kind == LoadKind::base_displacement)
+    add_base_displacement(forces, term, places);
+  else if (term.kind == LoadKind::unbalance)
+    add_unbalance(forces, term, *places.files);
+  else if (term.kind == LoadKind::base_acceleration)
+    add_force(forces, {-(places.files == nullptr ? places.inertia : inertia_of(term, *places.files)),
+                       harmonics_of(term), 0});
+  else
+    add_force(forces,
+              {places.files == nullptr ? places.force : force_of(forcing, index, *places.files, places.force),
+               harmonics_of(term), 0});
+}
+
+/// A exp(i phi) of the table is A cos(phi) on the harmonics and A sin(phi) on those a quarter of a turn
+/// ahead.
+void add_by_table(std::vector<PeriodicForce>& forces, PeriodicForce force, const AmplitudeTable& table) {
+  const auto count = std::ssize(table.frequencies);
+  const auto factor = [&](double (*part)(double)) {
+    solvers::FrequencyFactor result{Eigen::VectorXd::Map(table.frequencies.data(), count),
+                                    Eigen::VectorXd(count)};
+    for (Eigen::Index i = 0; i < count; ++i)
+      result.values[i] =
+          table.amplitudes[std::size_t(i)] * part(table.phases[std::size_t(i)] * std::numbers::pi / 180.0);
+    return result;
+  };
+  PeriodicForce ahead = force;
+  ahead.harmonics *= std::complex<double>(0.0, 1.0);
+  force.factor = factor([](double angle) { return std::cos(angle); });
+  ahead.factor = factor([](double angle) { return std::sin(angle); });
+  add_force(forces, std::move(force));
+  if (!ahead.factor.values.isZero(0.0)) add_force(forces, std::move(ahead));
+}
+
 }  // namespace
 
+AmplitudeTable amplitude_table(const ForcingTerm& term) {
+  AmplitudeTable result;
+  const std::string& file = term.amplitude_table;
+  if (file.empty()) return result;
+  try {
+    const Table table = read_csv(file, max_samples_bytes);
+    for (const char* name : {"frequency_Hz", "amplitude"})
+      if (!table.has_column(name))
+        throw SamplesFault(
+            fmt::format("{}: there is no column {}; expected frequency_Hz, amplitude and, if wanted, "
+                        "phase_degrees",
+                        file, name));
+    result.frequencies = table.numbers("frequency_Hz");
+    result.amplitudes = table.numbers("amplitude");
+    result.phases = table.has_column("phase_degrees") ? table.numbers("phase_degrees")
+                                                      : std::vector<double>(table.rows(), 0.0);
+  } catch (const SamplesFault&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw SamplesFault(error.what());
+  }
+  if (result.frequencies.size() < 2)
+    throw SamplesFault(
+        fmt::format("{}: there are {} rows; expected at least 2", file, result.frequencies.size()));
+  for (std::size_t i = 0; i < result.frequencies.size(); ++i) {
+    if (!std::isfinite(result.frequencies[i] + result.amplitudes[i] + result.phases[i]))
+      throw SamplesFault(fmt::format("{}: row {} has an entry that is no finite number", file, i + 1));
+    if (i > 0 && !(result.frequencies[i] > result.frequencies[i - 1]))
+      throw SamplesFault(fmt::format("{}: frequency_Hz = {} of row {} is not above that of the row before",
+                                     file, result.frequencies[i], i + 1));
+  }
+  return result;
+}
+
+void check_amplitude_table(const Scene& scene, const ForcingTerm& term) {
+  const AmplitudeTable table = amplitude_table(term);
+  if (table.empty()) return;
+  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep;
+  const double from = sweep ? scene.analysis.frequency_from : scene.forcing.frequency,
+               to = sweep ? scene.analysis.frequency_to : from;
+  if (std::min(from, to) >= table.frequencies.front() && std::max(from, to) <= table.frequencies.back())
+    return;
+  throw SamplesFault(
+      fmt::format("{} has rows from {} to {} Hz; expected all frequencies of the scene, {} to {} Hz",
+                  term.amplitude_table, table.frequencies.front(), table.frequencies.back(),
+                  std::min(from, to), std::max(from, to)));
+}
+
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
-  if (!term.samples.empty()) return term.amplitude * series_through(samples_in(term.samples));
+  if (!term.samples.empty())
+    return term.amplitude * (term.unit == "g" ? standard_gravity : 1.0) *
+           series_through(samples_in(term.samples));
   Eigen::VectorXcd harmonics = Eigen::VectorXcd::Zero(term.harmonic + 1);
-  harmonics[term.harmonic] = term.harmonic == 0
-                                 ? term.amplitude
-                                 : std::polar(1.0, term.phase * std::numbers::pi / 180.0) * term.amplitude;
+  const double amplitude = term.amplitude * (term.unit == "g" ? standard_gravity : 1.0);
+  harmonics[term.harmonic] =
+      term.harmonic == 0 ? amplitude : std::polar(1.0, term.phase * std::numbers::pi / 180.0) * amplitude;
   return harmonics;
 }
 
@@ -114,18 +204,10 @@ std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& p
   if (places.files != nullptr && !forcing.weight.empty())
     add_force(forces, {weight_of(forcing, *places.files), Eigen::VectorXcd::Ones(1), 0});
   for (std::size_t i = 0; i < forcing.terms.size(); ++i) {
-    const ForcingTerm& term = forcing.terms[i];
-    if (term.kind == LoadKind::base_displacement)
-      add_base_displacement(forces, term, places);
-    else if (term.kind == LoadKind::unbalance)
-      add_unbalance(forces, term, *places.files);
-    else if (term.kind == LoadKind::base_acceleration)
-      add_force(forces, {-(places.files == nullptr ? places.inertia : inertia_of(term, *places.files)),
-                         harmonics_of(term), 0});
-    else
-      add_force(forces,
-                {places.files == nullptr ? places.force : force_of(forcing, i, *places.files, places.force),
-                 harmonics_of(term), 0});
+    const AmplitudeTable table = amplitude_table(forcing.terms[i]);
+    std::vector<PeriodicForce> own;
+    add_term(table.empty() ? forces : own, forcing, i, places);
+    for (PeriodicForce& force : own) add_by_table(forces, std::move(force), table);
   }
   return forces;
 }

@@ -10,7 +10,7 @@
 
 namespace wavebalance::app {
 
-/// A file of samples that cannot be read, and why.
+/// A file of samples or a table of a term that cannot be read, and why.
 class SamplesFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,6 +27,18 @@ struct LoadPlaces {
 /// The series of a term over a period of forcing.frequency: a harmonic, or samples by FFT. Throws
 /// SamplesFault for a file that is not there, without numbers, or with fewer than two.
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term);
+
+/// The columns of ForcingTerm::amplitude_table; empty without one.
+struct AmplitudeTable {
+  std::vector<double> frequencies, amplitudes, phases;  ///< Hz, 1, degrees: as many of each
+
+  bool empty() const { return frequencies.empty(); }
+};
+/// That of a term. Throws SamplesFault for a file that is not there, without these columns, with fewer than
+/// two rows or a number that is not finite, and for frequencies that do not ascend.
+AmplitudeTable amplitude_table(const ForcingTerm& term);
+/// The table of a term, if it has one, holds all frequencies of the scene. Throws SamplesFault.
+void check_amplitude_table(const Scene& scene, const ForcingTerm& term);
 
 /// The forces of the weight and of all terms, those of the same shape together. Throws as harmonics_of().
 std::vector<solvers::PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places);

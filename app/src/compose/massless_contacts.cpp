@@ -31,6 +31,7 @@ void make_contacts_massless(StructureModel& model, int modes) {
   solvers::MasslessContacts massless =
       solvers::with_massless_contacts(structure, modes, all.omega, all.shapes);
   model.structure = std::move(massless.structure);
+  if (model.plane.size() > 0) model.plane = (model.plane * massless.recovery).eval();
   model.recovery =
       model.reduced() ? Eigen::MatrixXd(model.recovery * massless.recovery) : std::move(massless.recovery);
 }

@@ -22,6 +22,7 @@ solvers::LinearStructure at_rest(const solvers::LinearStructure& structure) {
   result.load.setZero();
   result.damping.setZero();
   result.loss_factor = 0.0;
+  result.turning = {};  // it does not follow a load
   if (!structure.is_free()) result.mass.setZero();
   result.forces.clear();
   for (const solvers::PeriodicForce& force : structure.forces)

@@ -231,8 +231,10 @@ void check_series(const Document& document, const Scene& scene) {
                     "; expected no more" + (phases ? "" : ", or more time.functions"));
     try {
       harmonics_of(term);
+      check_amplitude_table(scene, term);
     } catch (const SamplesFault& fault) {
-      fail_rule(document, {term_section(i) + ".samples"}, fault.what());
+      const char* file = term.samples.empty() ? ".amplitude_table" : ".samples";
+      fail_rule(document, {term_section(i) + file}, fault.what());
     }
   }
 }

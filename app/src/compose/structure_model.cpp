@@ -252,9 +252,20 @@ Sparse proportional_damping(const StructureFiles& files, double beta) {
   return beta * (files.matrices.stiffness - files.spin_speed * files.spin_speed * files.spin_stiffness);
 }
 
-solvers::TurningParts turning_of(const StructureFiles& files) {
-  if (!files.turns_along_curve) return {};
-  return {files.gyroscopic, files.spin_stiffness, files.spin_speed};
+/// Two rows of n: those of the first unbalance that has two, or else of the first ring; none without.
+Eigen::MatrixXd plane_of(const Scene& scene, const StructureFiles& files,
+                         const solvers::ContactDirections& directions) {
+  for (const ForcingTerm& term : scene.forcing.terms) {
+    if (term.kind != LoadKind::unbalance || term.dofs.size() != 2) continue;
+    Eigen::MatrixXd plane(2, directions.cols());
+    plane.row(0) = forces_at_dofs({term.dofs[0]}, files);
+    plane.row(1) = forces_at_dofs({term.dofs[1]}, files);
+    return plane;
+  }
+  const std::vector<SceneContact> contacts = contact_places(scene);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (acts_in_plane(contacts[i].law)) return Eigen::MatrixXd(directions.middleRows(Eigen::Index(i), 2));
+  return {};
 }
 
 StructureModel matrices_model(const Scene& scene, const solvers::Observer& observer) {
@@ -281,14 +292,18 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
                                               .stiffness_damping = structure.stiffness_damping,
                                               .carried = carried_rows(scene, *files)})};
   const solvers::ContactDirections directions = contact_directions(scene, *files);
+  const solvers::TurningParts turning{files->gyroscopic, files->spin_stiffness, files->spin_speed};
   if (structure.kept_modes < 0) {
     set_structure(model, std::move(matrices), loads);
     model.structure.contact_directions = directions;
-    model.structure.turning = turning_of(*files);
+    model.structure.turning = turning;
+    model.plane = plane_of(scene, *files, directions);
     return model;
   }
   reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer,
-         turning_of(*files));
+         turning);
+  const Eigen::MatrixXd plane = plane_of(scene, *files, directions);
+  if (plane.size() > 0) model.plane = plane * model.recovery;
   return model;
 }
 
@@ -350,6 +365,8 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
       make_contacts_massless(model, massless_modes(scene.structure, model.structure));
     model.frequency_change = frequency_change(with_mass, model.structure);
   }
+  model.turning = model.structure.turning;
+  if (!turns_along_curve(scene)) model.structure.turning = {};
   set_gaps(model, scene);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (scene.structure.type != StructureType::bar) model.reduction_seconds = elapsed.count();

@@ -53,7 +53,7 @@ std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not known";
   const double least = unit == "Hz" ? 1.0 : 1e-12;
   const double magnitude = rounded(std::abs(value), 4);  // "1 mm" for 999.99 µm
-  const bool prefixed = unit == "kg m";
+  const bool prefixed = unit == "kg m" || unit == "g";
   if (prefixed || magnitude < least || magnitude == 0.0) return fmt::format("{:.4g} {}", value, unit);
   const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
   return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);

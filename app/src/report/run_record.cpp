@@ -79,6 +79,8 @@ bool may_write(const RunArguments& arguments, const Scene& scene, const std::str
   if (integrates_in_time(type) && (name == "section.csv" || name.starts_with("bifurcation."))) return true;
   if (name == "contacts.csv") return !curve;
   if (name.starts_with("outputs.")) return scene.analysis.has_outputs();
+  if (name.starts_with("campbell.") || name.starts_with("orbits."))  // of a rotor
+    return scene.structure.type == StructureType::matrices;
   const bool motions =
       scene.analysis.motion_points > 0 || !scene.analysis.motion_at.empty() || type == AnalysisType::motions;
   return motions && (name.starts_with("motion.") || name.starts_with("motion_"));

@@ -79,7 +79,8 @@ std::string outputs_of_record(const Record& record, const std::vector<ResultFile
   for (const RecordFigure& one : record.output_pictures)
     for (const ResultFile& file : files)
       if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
-  return pictures + folded_table(summary, "outputs", "Outputs");
+  return pictures + folded_table(summary, "outputs", "Outputs") +
+         folded_table(summary, "critical_speeds", "Critical speeds");
 }
 
 /// The table of coexisting motions, which is what they were sought for, or folded those of points of a curve.

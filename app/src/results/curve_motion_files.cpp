@@ -8,6 +8,7 @@
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
 #include "results/motion_files.hpp"
+#include "results/orbit_record.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_record.hpp"
@@ -42,6 +43,7 @@ void append_motion_picture(Record& record, const Scene& scene, const Sweep& swee
   response.contacts = motion.contacts;
   response.contact = motion.contact;
   response.periods = sweep.periods;
+  if (sweep.curve.parameter == solvers::SweepParameter::frequency) response.load_frequency = motion.place;
   response.phases = motion.near;
   RecordFigure picture{motion.name, motion_figure(scene, response, motion.place),
                        "the motion of the curve " + place};
@@ -98,6 +100,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
            cell_text(place), axis.unit);
   record.add(quantities::motions, table_of(rows));
   append_contact_instants(record, scene, motions);
+  append_orbits(record, scene, motions);
 }
 
 }  // namespace wavebalance::app

@@ -12,6 +12,7 @@
 #include "files/number_text.hpp"
 #include "results/contact_line.hpp"
 #include "results/rest_record.hpp"
+#include "results/whirl_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
@@ -110,8 +111,9 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string place = term_place(scene, term);
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
-  const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term.kind)) : "";
-  return fmt::format("           {}: {}{}{}{}\n", kind, series, unit, phase,
+  const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term)) : "";
+  const std::string table = term.amplitude_table.empty() ? "" : " times a table over the frequency";
+  return fmt::format("           {}: {}{}{}{}{}\n", kind, series, unit, table, phase,
                      place.empty() ? "" : " " + place);
 }
 
@@ -359,8 +361,8 @@ std::string matrices_lines(const Scene& scene) {
   const StructureFacts facts = structure_facts(scene);
   const std::string at_rest =
       scene.structure.matrices.gyroscopic.empty() ? "" : ", without gyroscopic forces";
-  return "modes      " + modes_text(facts) + at_rest + "\ncompliance " + compliance_text(facts) + "\n" +
-         rest_lines(scene);
+  return "modes      " + modes_text(facts) + at_rest + "\n" + whirl_lines(scene) + "compliance " +
+         compliance_text(facts) + "\n" + rest_lines(scene);
 }
 
 std::string warning_lines(const Scene& scene) {

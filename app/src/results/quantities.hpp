@@ -105,6 +105,7 @@ inline constexpr std::array peak_places{
     Quantity{"amplitude_at_max_displacement_N", result, "N", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_m", result, "m", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_m_per_s2", result, "m/s^2", "amplitude at max displacement"},
+    Quantity{"amplitude_at_max_displacement_g", result, "g", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_kg_m", result, "kg m", "amplitude at max displacement"}};
 
 /// That of a curve over a frequency or an amplitude in `unit`.
@@ -119,6 +120,7 @@ inline constexpr std::array vibration_places{
     Quantity{"amplitude_at_largest_vibration_N", result, "N", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_m", result, "m", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_m_per_s2", result, "m/s^2", "amplitude at largest vibration"},
+    Quantity{"amplitude_at_largest_vibration_g", result, "g", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_kg_m", result, "kg m", "amplitude at largest vibration"}};
 
 /// That of a curve over a frequency or an amplitude in `unit`.

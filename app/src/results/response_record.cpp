@@ -9,6 +9,7 @@
 #include "files/missing.hpp"
 #include "results/contact_record.hpp"
 #include "results/motion_files.hpp"
+#include "results/orbit_record.hpp"
 #include "results/output_record.hpp"
 #include "results/quantities.hpp"
 #include "results/rest_record.hpp"
@@ -186,7 +187,7 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
 
 int structure_points(const Scene& scene) {
   const int written = std::max(0, scene.analysis.motion_points);
-  if (!scene.analysis.outputs.empty() || (has_friction(scene) && written == 0))
+  if (!scene.analysis.outputs.empty() || has_unbalance_orbit(scene) || (has_friction(scene) && written == 0))
     return scene.analysis.output_points;
   if (written > 0 || scene.structure.type != StructureType::bar) return written;
   return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
@@ -245,6 +246,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);
   lead_with_output(record, scene);
+  append_orbits(record, scene, model, response);
   add_contacts(record, scene, response.contacts, response.contact);
   record.bar_motion = bar_motion_of(scene, model, response);
   if (scene.analysis.motion_points > 0)

@@ -12,6 +12,7 @@
 #include "results/rest_record.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
+#include "results/whirl_record.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -249,6 +250,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   append_rest(record, scene, model);
   record.sweep = sweep_table(sweep, scene.analysis.branches);
   append_outputs(record, scene, sweep, outputs);
+  append_whirls(record, scene, model);
   if (points > 0) record.figure = sweep_figure(scene, sweep, outputs);
   return record;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "wavebalance/contact/catalogue.hpp"
@@ -69,6 +70,16 @@ std::vector<SceneContact> unnumbered_places(const Scene& scene) {
   return contacts;
 }
 
+constexpr const char* growth_of_normal_load = "normal_load_speed2";
+
+// At a frequency of the load, Hz.
+void set_normal_load(contact::LawValues& values, double frequency) {
+  const double speed = 2.0 * std::numbers::pi * frequency;
+  const double grown = contact::number_or(values, growth_of_normal_load, 0.0) * speed * speed;
+  if (values.erase(growth_of_normal_load) > 0)
+    values.insert_or_assign("normal_load", contact::number_or(values, "normal_load", 0.0) + grown);
+}
+
 // The number of tangents of a contact with friction.
 int tangents_of(const Scene& scene, const SceneContact& contact) {
   if (!contact.pair) return 1;
@@ -122,7 +133,21 @@ contact::LawValues law_values(const std::string& law, const contact::LawValues& 
   return taken;
 }
 
-std::vector<SceneContact> contacts_of(const Scene& scene) {
+double load_frequency(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::frequency_sweep ? scene.analysis.frequency_from
+                                                              : scene.forcing.frequency;
+}
+
+bool has_growing_normal_load(const Contact& contact) {
+  const auto grows = [](const std::string& law, const contact::LawValues& values) {
+    return has_friction(law) && contact::number_or(values, growth_of_normal_load, 0.0) > 0.0;
+  };
+  return grows(contact.law, contact.values) ||
+         std::any_of(contact.pairs.begin(), contact.pairs.end(),
+                     [&](const ContactPair& pair) { return grows(pair.law, pair.values); });
+}
+
+std::vector<SceneContact> contacts_of(const Scene& scene, std::optional<double> frequency) {
   std::vector<SceneContact> contacts = contact_places(scene);
   const Contact& contact = scene.contact;
   if (!contact.gaps.empty() && contact.gaps.size() != contacts.size())
@@ -135,7 +160,9 @@ std::vector<SceneContact> contacts_of(const Scene& scene) {
     if (!pair) one.law = contact.law;
     one.gap = pair ? pair->gap : contact.gaps.empty() ? contact.gap : contact.gaps[i];
     one.values = law_values(one.law, pair ? pair->values : contact.values, one.gap);
-    if (has_friction(one.law)) one.values.insert_or_assign("tangents", double(tangents_of(scene, one)));
+    if (!has_friction(one.law)) continue;
+    one.values.insert_or_assign("tangents", double(tangents_of(scene, one)));
+    set_normal_load(one.values, frequency.value_or(load_frequency(scene)));
   }
   return contacts;
 }

@@ -37,6 +37,8 @@ std::string_view unit_of(LoadKind kind) {
   return "";
 }
 
+std::string_view unit_of(const ForcingTerm& term) { return term.unit == "g" ? "g" : unit_of(term.kind); }
+
 double spin_speed(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   if (structure.gyroscopic.empty() && structure.spin_stiffness.empty()) return 0.0;
@@ -53,7 +55,7 @@ std::optional<ReferenceLoad> reference_load(const Forcing& forcing) {
   if (forcing.amplitude != 0.0) return ReferenceLoad{forcing.amplitude, "N"};
   for (const ForcingTerm& term : forcing.terms) {
     if (term.amplitude == 0.0 || (term.harmonic == 0 && term.samples.empty())) continue;
-    return ReferenceLoad{term.amplitude, unit_of(term.kind)};
+    return ReferenceLoad{term.amplitude, unit_of(term)};
   }
   return std::nullopt;
 }
@@ -202,7 +204,8 @@ std::vector<std::string> input_files(const Scene& scene) {
                                  matrices.dof_map,        matrices.mesh,      matrices.gyroscopic,
                                  matrices.spin_stiffness, scene.forcing.load};
   add_files(files, scene.contact.values);
-  for (const ForcingTerm& term : scene.forcing.terms) files.insert(files.end(), {term.samples, term.load});
+  for (const ForcingTerm& term : scene.forcing.terms)
+    files.insert(files.end(), {term.samples, term.load, term.amplitude_table});
   for (const ContactPair& pair : scene.contact.pairs) add_files(files, pair.values);
   std::erase(files, "");
   for (std::string& file : files) file = file_of_input(file);

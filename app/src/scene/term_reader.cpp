@@ -18,6 +18,9 @@ class TermReader {
     check_samples();
     if (term_.harmonic == 0 && entry("phase") != nullptr)
       fail_at(document_, *entry("phase"), "does not belong to a static load, harmonic = 0");
+    if (!term_.unit.empty() && term_.kind != LoadKind::base_acceleration)
+      fail_at(document_, *entry("unit"), "only with kind = \"base_acceleration\"");
+    check_table();
     check_place();
   }
 
@@ -30,13 +33,23 @@ class TermReader {
 
   void check_samples() const {
     if (term_.samples.empty()) {
-      if (entry("amplitude") == nullptr)
+      if (entry("amplitude") == nullptr && term_.amplitude_table.empty())
         fail_without("amplitude", "a number in N, m, m/s^2 or kg m, or samples");
       return;
     }
-    for (const std::string_view name : {"harmonic", "phase"})
+    for (const std::string_view name : {"harmonic", "phase", "amplitude_table"})
       if (const DocumentEntry* given = entry(name))
         fail_at(document_, *given, "does not belong to a term with samples");
+  }
+
+  void check_table() const {
+    const DocumentEntry* given = entry("amplitude_table");
+    if (given == nullptr) return;
+    if (term_.harmonic == 0) fail_at(document_, *given, "does not belong to a static load, harmonic = 0");
+    const AnalysisType type = scene_.analysis.type;
+    if (type == AnalysisType::amplitude_sweep || type == AnalysisType::nonlinear_mode)
+      fail_at(document_, *given,
+              "not with analysis.type = \"" + name_of(type) + "\"; expected amplitude alone");
   }
 
   void check_place() const {

@@ -72,21 +72,30 @@ void CondensedProblem::set_unit_loads() {
   for (std::size_t l = 0; l < structure_->forces.size(); ++l) {
     PeriodicForce force = structure_->forces[l];
     force.harmonics = over_periods(force.harmonics, periods);
+    force.factor = {};  // as of the frequency itself
     set(Eigen::Index(l) + 1, force.amplitudes(1.0));
   }
 }
 
-// The power of the frequency that a load grows with.
-double CondensedProblem::load_power(Eigen::Index load) const {
-  return load == 0 ? 0.0 : structure_->forces[std::size_t(load) - 1].derivative;
+// f^d of a load that is a derivative, times its factor over the frequency of the load.
+CondensedProblem::Growth CondensedProblem::growth_of_load(Eigen::Index load) const {
+  if (load == 0) return {1.0, 0.0};
+  const PeriodicForce& force = structure_->forces[std::size_t(load) - 1];
+  const double periods = repeats_within_period(load_harmonics_), of_load = periods * frequency_;
+  const double power = force.derivative, grown = std::pow(frequency_, power),
+               growing = power > 0.0 ? power * std::pow(frequency_, power - 1.0) : 0.0;
+  const double factor = force.factor.at(of_load);
+  return {grown * factor, growing * factor + grown * periods * force.factor.slope(of_load)};
+}
+
+Eigen::MatrixXcd CondensedProblem::scaled_unit_loads() const {
+  if (load_factor() == 1.0) return unit_loads_;
+  return static_loads_ + load_factor() * (unit_loads_ - static_loads_);
 }
 
 void CondensedProblem::update_load() {
-  load_ = load_factor() == 1.0
-              ? unit_loads_
-              : Eigen::MatrixXcd(static_loads_ + load_factor() * (unit_loads_ - static_loads_));
-  for (Eigen::Index l = 0; l < load_.cols(); ++l)
-    if (load_power(l) > 0.0) load_.col(l) *= std::pow(frequency_, load_power(l));
+  load_ = scaled_unit_loads();
+  for (Eigen::Index l = 1; l < load_.cols(); ++l) load_.col(l) *= growth_of_load(l).value;
 }
 
 // The responses of the contacts to all loads together, (M/2 + 1) x C, from those to each unit load.
@@ -187,8 +196,8 @@ const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
   if (slope_is_current_) return free_response_slope_;
   Eigen::MatrixXcd slope = combine_loads(condensed_.load_response_slope, load_);
   if (!structure_->forces.empty()) {
-    Eigen::MatrixXcd growth = load_;  // by frequency, of loads that are derivatives
-    for (Eigen::Index l = 0; l < growth.cols(); ++l) growth.col(l) *= load_power(l) / frequency_;
+    Eigen::MatrixXcd growth = scaled_unit_loads();
+    for (Eigen::Index l = 0; l < growth.cols(); ++l) growth.col(l) *= growth_of_load(l).slope;
     slope += combine_loads(condensed_.load_response, growth);
   }
   synthesize(slope, free_response_slope_);
@@ -198,7 +207,7 @@ const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
 
 Eigen::VectorXd CondensedProblem::contact_free_response_by_scale() {
   Eigen::MatrixXcd varying = (unit_loads_ - static_loads_) / full_load_;
-  for (Eigen::Index l = 0; l < varying.cols(); ++l) varying.col(l) *= std::pow(frequency_, load_power(l));
+  for (Eigen::Index l = 1; l < varying.cols(); ++l) varying.col(l) *= growth_of_load(l).value;
   Eigen::VectorXd samples;
   synthesize(combine_loads(condensed_.load_response, varying), samples);
   return samples;

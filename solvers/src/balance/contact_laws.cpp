@@ -21,6 +21,19 @@ ContactLaws::ContactLaws(std::vector<AnyContactLaw> laws) : laws_(std::move(laws
   }
 }
 
+ContactLaws ContactLaws::over_frequency(AtFrequency make, double load_frequency) {
+  ContactLaws laws = make(load_frequency);
+  laws.make_ = std::make_shared<const AtFrequency>(std::move(make));
+  return laws;
+}
+
+ContactLaws ContactLaws::at(double load_frequency) const {
+  if (!make_ || !(load_frequency > 0.0)) return *this;
+  ContactLaws laws = (*make_)(load_frequency);
+  laws.make_ = make_;
+  return laws;
+}
+
 void ContactLaws::require(int contacts) const {
   const bool one_for_all = laws_.size() == 1 && !laws_.front().acts_over_period();
   if (one_for_all || law_of_row_.size() == static_cast<std::size_t>(contacts)) return;

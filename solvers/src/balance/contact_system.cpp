@@ -46,22 +46,18 @@ int rest_piece_of(const AnyContactLaw& law, const std::vector<LawKink>& kinks) {
 
 ContactSystem::ContactSystem(CondensedProblem& problem, ContactLaws laws, Eigen::VectorXd series_flexibility)
     : operator_(problem, std::move(series_flexibility)),
-      laws_(std::move(laws)),
+      given_(std::move(laws)),
+      laws_(given_),
       position_(problem.is_free() ? std::make_unique<RigidPosition>() : nullptr),
       rates_(laws_.depend_on_velocity() ? std::make_unique<RateMap>(problem.pair()) : nullptr),
       jacobian_(std::make_unique<JacobianSolver>(rates_.get())) {
   laws_.require(problem.contacts());
-  if (operator_.is_force_form()) {
+  if (operator_.is_force_form())
     if (laws_.depend_on_velocity() || (laws_.act_over_period() && !laws_.have_force_form()))
       throw std::invalid_argument(
           "ContactSystem: the force of a law depends on the velocity, or on the whole period without a resolvent; it is "
           "solved in the displacement form");
-    laws_ = laws_.resolvents(operator_.series_flexibility());
-  }
-  for (int c = 0; c < problem.contacts(); ++c) {
-    kinks_.push_back(kinks_of(laws_[c]));
-    rest_pieces_.push_back(rest_piece_of(laws_[c], kinks_.back()));
-  }
+  take_laws();
 }
 ContactSystem::ContactSystem(ContactSystem&&) noexcept = default;
 ContactSystem& ContactSystem::operator=(ContactSystem&&) noexcept = default;
@@ -73,7 +69,26 @@ int ContactSystem::piece_at(int sample, double displacement) const {
   return piece;
 }
 
+void ContactSystem::take_laws() {
+  const CondensedProblem& problem = operator_.problem();
+  laws_at_ = problem.load_frequency();
+  laws_ = given_.at(laws_at_);
+  if (operator_.is_force_form()) laws_ = laws_.resolvents(operator_.series_flexibility());
+  kinks_.clear();
+  rest_pieces_.clear();
+  for (int c = 0; c < problem.contacts(); ++c) {
+    kinks_.push_back(kinks_of(laws_[c]));
+    rest_pieces_.push_back(rest_piece_of(laws_[c], kinks_.back()));
+  }
+}
+
+void ContactSystem::follow_frequency() {
+  if (given_.follow_frequency() && laws_at_ != operator_.problem().load_frequency()) take_laws();
+}
+
 void ContactSystem::evaluate_laws(const Eigen::VectorXd& displacement) {
+  follow_frequency();
+  if (given_.follow_frequency()) evaluated_ = displacement;
   if (rates_) rates_->apply(displacement, operator_.problem().frequency(), velocity_);
   laws_.evaluate(operator_.problem().contacts(), displacement, velocity_, forces_);
 }
@@ -124,6 +139,18 @@ void ContactSystem::add_velocity_slope(Eigen::VectorXd& slope) {
   // At fixed samples the velocities f V u grow like the frequency.
   operator_.apply(forces_.slopes.velocity.cwiseProduct(velocity_) / operator_.problem().frequency(),
                   product_);
+  slope += product_;
+}
+
+void ContactSystem::add_law_slope(Eigen::VectorXd& slope) {
+  if (!given_.follow_frequency()) return;
+  constexpr double change = 1e-6;  // forces are linear in what varies, on one piece
+  const CondensedProblem& problem = operator_.problem();
+  ContactLaws beside = given_.at((1.0 + change) * problem.load_frequency());
+  if (operator_.is_force_form()) beside = beside.resolvents(operator_.series_flexibility());
+  ContactForces forces;
+  beside.evaluate(problem.contacts(), evaluated_, velocity_, forces);
+  operator_.apply((forces.force - forces_.force) / (change * problem.frequency()), product_);
   slope += product_;
 }
 

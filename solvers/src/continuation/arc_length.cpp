@@ -22,6 +22,7 @@ void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) co
   system.problem().apply_slope(system.force(), slope);
   slope -= system.problem().contact_free_response_slope();
   system.add_velocity_slope(slope);
+  system.add_law_slope(slope);
   slope /= system.problem().periods();
 }
 

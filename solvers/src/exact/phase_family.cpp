@@ -39,11 +39,12 @@ PhasesProblem PhaseFamily::at(double value) const {
   const bool varies = parts_->parameter == SweepParameter::frequency;
   const double frequency = varies ? value / parts_->periods : parts_->frequency,
                factor = varies ? parts_->factor : value / parts_->full_load;
+  const ContactLaws laws = parts_->laws.at(parts_->periods * frequency);
   if (!parts_->structure.turns())
-    return {*parts_->dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency};
+    return {*parts_->dynamics, laws, parts_->free.at(frequency, factor), frequency};
   const double speed = 2.0 * std::numbers::pi * frequency * parts_->repeats;
   auto dynamics = parts_->along.at(parts_->structure.at_speed(speed));
-  return {*dynamics, parts_->laws, parts_->free.at(frequency, factor), frequency, dynamics};
+  return {*dynamics, laws, parts_->free.at(frequency, factor), frequency, dynamics};
 }
 
 }  // namespace wavebalance::solvers

@@ -290,9 +290,10 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
   return settle(problem, laws, options, {});
 }
 
-SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws, const SettlingOptions& options,
-                     const TakesReturn& takes) {
+SettledMotion settle(const CondensedProblem& problem, const ContactLaws& any_laws,
+                     const SettlingOptions& options, const TakesReturn& takes) {
   options.validate();
+  const ContactLaws laws = any_laws.at(problem.load_frequency());
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
   if (structure.size() > options.max_size || !laws.advance_in_steps()) return {};

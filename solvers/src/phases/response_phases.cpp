@@ -35,7 +35,8 @@ double relative_distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& e
 PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
                              const ContactDynamics& dynamics) {
   detail::FreeContacts free(problem.structure(), problem.load_harmonics(), dynamics.holding());
-  return {dynamics, laws, free.at(problem.frequency(), problem.load_factor()), problem.frequency()};
+  return {dynamics, laws.at(problem.load_frequency()), free.at(problem.frequency(), problem.load_factor()),
+          problem.frequency()};
 }
 
 ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicResponse& response,

@@ -142,7 +142,7 @@ PhasesProblem ContactProblem::phases_problem_here() {
   if (!free_contacts_)
     free_contacts_ = std::make_shared<detail::FreeContacts>(structure(), condensed_.load_harmonics(),
                                                             dynamics()->holding());
-  PhasesProblem problem{*dynamics(), laws_,
+  PhasesProblem problem{*dynamics(), laws_.at(condensed_.load_frequency()),
                         free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
                         condensed_.frequency()};
   if (structure().turns()) problem.kept = dynamics_->of(structure());
@@ -378,7 +378,7 @@ SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& op
 
 TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {
   require_no_impacts();
-  return integrate_to_periodic(structure(), laws_, frequency, options);
+  return integrate_to_periodic(structure(), laws_.at(frequency), frequency, options);
 }
 
 }  // namespace wavebalance::solvers

@@ -254,7 +254,7 @@ void ForcedResponseOptions::validate() const {
   detail::require_positive("ForcedResponseOptions", "max_fallback_operations", max_fallback_operations);
 }
 
-PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& laws,
+PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& any_laws,
                                  const ForcedResponseOptions& options, const Eigen::VectorXd& guess,
                                  const Eigen::VectorXd& guess_force) {
   options.validate();
@@ -262,6 +262,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& l
   require_start(problem, start);
   const bool guessed = guess.size() > 0;
   if (!guessed) start = {problem.contact_free_response(), {}};
+  const ContactLaws laws = any_laws.at(problem.load_frequency());
   laws.require(problem.contacts());
   const Task task{problem, laws, options};
   int attractor_periods = SettledMotion::unknown;

@@ -9,7 +9,8 @@
 namespace wavebalance::solvers {
 
 Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& response,
-                      const ContactLaws& laws, int points) {
+                      const ContactLaws& any_laws, int points) {
+  const ContactLaws laws = any_laws.at(problem.periods() * response.frequency);
   MotionEvaluator evaluate(problem.pair().trial(), points);
   Motion motion = evaluate(response.coefficients, response.frequency);
   if (response.series_flexibility.size() > 0)

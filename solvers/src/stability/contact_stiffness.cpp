@@ -195,7 +195,7 @@ PeriodicStiffness contact_stiffness(const CondensedProblem& problem, const Conta
   const ContactUnknowns unknowns{
       response.unknown_coefficients, response.unknown.reshaped(problem.points(), problem.contacts()),
       response.series_flexibility, problem.pair().first_sample(), response.frequency};
-  return contact_stiffness(problem.pair().trial(), laws, unknowns);
+  return contact_stiffness(problem.pair().trial(), laws.at(problem.periods() * response.frequency), unknowns);
 }
 
 namespace {

@@ -14,13 +14,17 @@ namespace {
 class StickMargin {
  public:
   StickMargin(const CondensedProblem& problem, const ContactLaws& laws)
-      : laws_(laws), points_(problem.points()), finely_(problem.pair().trial(), fineness * points_, 0) {}
+      : laws_(laws),
+        points_(problem.points()),
+        periods_(problem.periods()),
+        finely_(problem.pair().trial(), fineness * points_, 0) {}
 
   /// The least of all contacts with friction; nothing where one slips or opens at a sample.
   std::optional<double> operator()(const PeriodicResponse& at) {
     double least = std::numeric_limits<double>::infinity();
-    for (int c = 0; c < at.coefficients.cols(); c += laws_[c].rows()) {
-      const auto friction = laws_[c].friction();
+    const ContactLaws laws = laws_.at(periods_ * at.frequency);
+    for (int c = 0; c < at.coefficients.cols(); c += laws[c].rows()) {
+      const auto friction = laws[c].friction();
       if (!friction) continue;
       if (!sticks(at, c, *friction)) return std::nullopt;
       least = std::min(least, margin(at, c, *friction));
@@ -75,7 +79,7 @@ class StickMargin {
   }
 
   const ContactLaws& laws_;
-  int points_;
+  int points_, periods_;
   TrialEvaluator finely_;
 };
 

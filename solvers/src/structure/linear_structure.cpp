@@ -47,6 +47,11 @@ void require_force(const PeriodicForce& force, std::size_t index, Index size) {
                                 " entries; the load has " + std::to_string(size));
   if (!force.shape.allFinite() || !force.harmonics.allFinite())
     throw std::invalid_argument(name + " has a number that is not finite");
+  const FrequencyFactor& factor = force.factor;
+  if (factor.frequencies.size() == 1 || factor.frequencies.size() != factor.values.size())
+    throw std::invalid_argument(name + " has a factor of " + std::to_string(factor.frequencies.size()) +
+                                " frequencies and " + std::to_string(factor.values.size()) +
+                                " values; it must have none, or as many and at least two");
   if (force.derivative < 0)
     throw std::invalid_argument(name + " has the derivative " + std::to_string(force.derivative) +
                                 "; it must be at least 0");

@@ -46,6 +46,13 @@ std::vector<SceneKey> term_keys(std::size_t index) {
       &ForcingTerm::amplitude, "amplitude", "",
       "in N, m, m/s^2 or, mass times eccentricity, kg m, of amplitude cos(harmonic 2 pi frequency t + phase), or a factor on samples",
       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
+  term(&ForcingTerm::unit, "unit", "", "of the amplitude of a base_acceleration: g is 9.80665 m/s^2",
+       one_of({"g"}), none_by_default());
+  term(
+      &ForcingTerm::amplitude_table, "amplitude_table", "",
+      "CSV file with the columns frequency_Hz, amplitude and, if wanted, phase_degrees over the frequency of the load: "
+      "factors on amplitude, which is 1 where it is not given, monotone between its rows",
+      path, none_by_default());
   term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
        derived("1", [](const Scene&) { return std::int64_t{1}; }));
   term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",

@@ -19,6 +19,7 @@ struct CurveMotion {
   solvers::Motion contacts;     ///< of all contacts, analysis.output_points points
   int contact = 0;              ///< the leading one, see leading_contact()
   Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
+  Eigen::MatrixXd plane;        ///< of StructureModel::plane, 2 x output_points, m; or empty
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
   /// With analysis.stability or analysis.phases; where it is not empty, the stability is that of the motion
   /// found, or not known where there is none near.

@@ -26,8 +26,10 @@ struct FrictionMeasures {
 };
 
 /// The measures of all contacts with friction along a motion of one period, whose rows are the directions of
-/// contact, from its samples. Empty without such contacts. O(directions instants).
-std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts);
+/// contact, from its samples, at a frequency as of contacts_of(). Empty without such contacts. O(directions
+/// instants).
+std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solvers::Motion& contacts,
+                                                std::optional<double> frequency = {});
 /// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 

@@ -60,8 +60,9 @@ struct Response {
   int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
                        ///< states of the integrator (time stepping)
   int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
-  int periods = 1;             ///< of the load, over which the motion is written: analysis.subharmonic
-  int motion_periods = 1;      ///< of the load, after which it repeats: solvers::motion_periods()
+  std::optional<double> load_frequency{};  ///< Hz, of a motion of a curve; else forcing.frequency
+  int periods = 1;         ///< of the load, over which the motion is written: analysis.subharmonic
+  int motion_periods = 1;  ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
   std::string strategy;  ///< solvers::Strategy that found it, or from where phases were found; empty for time
                          ///< stepping

@@ -30,6 +30,11 @@ struct MovedMesh {
 struct StructureModel {
   /// Reduced if the scene has kept_modes. The load is the force's amplitude.
   solvers::LinearStructure structure;
+  /// G and K_s of a structure that turns; `structure` has them too where they follow the frequency.
+  solvers::TurningParts turning;
+  /// 2 x r: how coordinates move the plane of a rotor, x and y in the sense in which its unbalance turns, or
+  /// a ring's; 0 x 0 without.
+  Eigen::MatrixXd plane;
   Eigen::VectorXd gaps;               ///< m, one per contact
   std::vector<std::string> warnings;  ///< doubtful properties of the structure, one sentence each
   int unknowns = 0;                   ///< degrees of freedom before the reduction

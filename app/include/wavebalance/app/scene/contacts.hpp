@@ -29,8 +29,14 @@ struct SceneContact {
 
 /// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a
 /// bar or blade, then those of [[contact.pairs]], of which one with obstacles on both sides has two, the
-/// positive one first. Throws std::invalid_argument for another number of gaps than one, or one each.
-std::vector<SceneContact> contacts_of(const Scene& scene);
+/// positive one first. Normal loads that grow with the square of the frequency have their size at
+/// `frequency`, Hz of the load, which is load_frequency() unless it is given. Throws std::invalid_argument
+/// for another number of gaps than one, or one each.
+std::vector<SceneContact> contacts_of(const Scene& scene, std::optional<double> frequency = {});
+/// Hz: forcing.frequency, or that at which a sweep over the frequency begins.
+double load_frequency(const Scene& scene);
+/// Whether the normal load of a contact grows with the square of the frequency.
+bool has_growing_normal_load(const Contact& contact);
 
 /// The same without the values of laws and gaps.
 std::vector<SceneContact> contact_places(const Scene& scene);

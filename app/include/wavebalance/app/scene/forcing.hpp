@@ -17,8 +17,12 @@ enum class LoadKind { force, base_displacement, base_acceleration, unbalance };
 /// periodic function given by samples.
 struct ForcingTerm {
   LoadKind kind = LoadKind::force;
-  int harmonic = 1;            ///< of Forcing::frequency; 0: static, without phase
-  double amplitude = 1.0;      ///< in unit_of(kind)
+  int harmonic = 1;        ///< of Forcing::frequency; 0: static, without phase
+  double amplitude = 1.0;  ///< in unit_of() the term
+  std::string unit = {};   ///< of a base_acceleration "g"; empty: that of SI
+  /// CSV file with the columns frequency_Hz, amplitude and phase_degrees, which may be left out: factors on
+  /// amplitude and phases added to phase, over Forcing::frequency or along a sweep; or empty.
+  std::string amplitude_table = {};
   double phase = 0.0;          ///< degrees ahead of a cosine
   std::string samples = {};    ///< CSV file, its last column one period at uniform times; or empty
   std::vector<int> dofs = {};  ///< matrices: as Forcing::load_dofs; empty: where Forcing::amplitude acts
@@ -47,6 +51,9 @@ struct Forcing {
 
 /// Of the amplitude of a term: "N", "m", "m/s^2" or "kg m", mass times eccentricity of an unbalance.
 std::string_view unit_of(LoadKind kind);
+/// Of the amplitude of a term, which may be in "g".
+std::string_view unit_of(const ForcingTerm& term);
+inline constexpr double standard_gravity = 9.80665;  ///< m/s^2 in a g
 
 /// The load whose amplitude an amplitude sweep varies, with all others in proportion: Forcing::amplitude or,
 /// where that is 0, the first term that is not static. Null without any.

@@ -180,7 +180,11 @@ class CondensedProblem {
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
   void project(const Eigen::VectorXd& force);
   void set_unit_loads();
-  double load_power(Eigen::Index load) const;
+  struct Growth {
+    double value, slope;  // a factor on a unit load, and its derivative per Hz
+  };
+  Growth growth_of_load(Eigen::Index load) const;
+  Eigen::MatrixXcd scaled_unit_loads() const;
   Eigen::MatrixXcd combine_loads(const Eigen::MatrixXcd& responses, const Eigen::MatrixXcd& loads) const;
   Eigen::MatrixXd load_errors() const;
   void update_load();

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <concepts>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "wavebalance/solvers/balance/contact_law.hpp"
@@ -30,6 +32,14 @@ class ContactLaws {
 
   /// One law each. Throws std::invalid_argument when empty.
   ContactLaws(std::vector<AnyContactLaw> laws);  // NOLINT
+
+  /// Laws that vary with the frequency of the load, Hz: those at one frequency, and how others are made,
+  /// which must have the same rows, gaps and kinds.
+  using AtFrequency = std::function<ContactLaws(double load_frequency)>;
+  static ContactLaws over_frequency(AtFrequency make, double load_frequency);
+  bool follow_frequency() const { return make_ != nullptr; }
+  /// Those at a frequency of the load; these where they do not follow it, or at 0.
+  ContactLaws at(double load_frequency) const;
 
   /// The law of contact c >= 0.
   const AnyContactLaw& operator[](int contact) const {
@@ -98,6 +108,7 @@ class ContactLaws {
 
   std::vector<AnyContactLaw> laws_;
   std::vector<std::size_t> law_of_row_;
+  std::shared_ptr<const AtFrequency> make_;  // null where they do not follow the frequency
 };
 
 }  // namespace wavebalance::solvers

@@ -40,7 +40,8 @@ enum class LinearSolver {
 /// velocity f V u of the motion u is read by D_u + D_v f V. A linear solve with J reduces exactly to the
 /// active samples, those whose force changes with u: x = r - K D x, an LU of their number and one product
 /// with K. Many of them are solved for by GMRES, which forms no matrix over them. In the force form
-/// (ContactOperator) u stands for its unknown v, and the laws are their resolvents.
+/// (ContactOperator) u stands for its unknown v, and the laws are their resolvents. Laws that follow the
+/// frequency are those at the frequency of the problem, at each evaluation.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact, for a law that
@@ -55,7 +56,7 @@ class ContactSystem {
   CondensedProblem& problem() { return operator_.problem(); }
   /// ContactOperator::series_flexibility() of its form.
   const Eigen::VectorXd& series_flexibility() const { return operator_.series_flexibility(); }
-  /// The laws of its form.
+  /// The laws of its form, at the frequency of the last evaluation.
   const ContactLaws& laws() const { return laws_; }
   /// The kinks of the law of the contact that a sample belongs to, ascending.
   std::span<const LawKink> kinks_at(int sample) const {
@@ -101,6 +102,9 @@ class ContactSystem {
   /// Adds to `slope` the derivative by frequency (m/Hz) that a residual at fixed samples has through the
   /// velocities. It is zero where no law depends on them.
   void add_velocity_slope(Eigen::VectorXd& slope);
+  /// The same through laws that follow the frequency, by a difference at the displacements of the last
+  /// evaluate().
+  void add_law_slope(Eigen::VectorXd& slope);
 
   /// Overrides the tangent of a sample.
   void set_tangent(int sample, double value) { forces_.slopes.displacement[sample] = value; }
@@ -136,13 +140,16 @@ class ContactSystem {
  private:
   double evaluate_residual(const Eigen::VectorXd& displacement);
   void evaluate_laws(const Eigen::VectorXd& displacement);
+  void take_laws();
+  void follow_frequency();
   void take_side(int sample, const ForceSlopes& side);
   ForceSlopes side_of(int sample, const LawKink& kink, bool beyond) const;
   void continue_piece(int sample, double displacement, const LawKink& kink, bool beyond);
   bool factorize(const Border& border);
 
   ContactOperator operator_;
-  ContactLaws laws_;
+  ContactLaws given_, laws_;                 // of any frequency, and in the form at laws_at_
+  double laws_at_ = 0.0;                     // Hz of the load
   std::vector<std::vector<LawKink>> kinks_;  // of each contact
   std::vector<int> rest_pieces_;
   Eigen::VectorXd added_motion_;
@@ -150,7 +157,8 @@ class ContactSystem {
   double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
   double products_ = 0.0;                        // operations of products with K
   ContactForces forces_;
-  Eigen::VectorXd velocity_;  // m/s; empty where no law reads it
+  Eigen::VectorXd velocity_;   // m/s; empty where no law reads it
+  Eigen::VectorXd evaluated_;  // m, of the last evaluation; empty where laws do not follow the frequency
   Eigen::VectorXd residual_, product_;
   Eigen::VectorXd state_;                    // of a free structure
   std::unique_ptr<RigidPosition> position_;  // of a free structure

@@ -3,6 +3,18 @@
 
 namespace wavebalance::solvers {
 
+/// A factor that varies with the frequency of a load: through its values by cubics that are monotone between
+/// places and have a continuous slope, which curves over the frequency need [M. Steffen, Astron. Astrophys.
+/// 239, 1990]; by a line of two places, and beyond the places that of the nearest.
+struct FrequencyFactor {
+  Eigen::VectorXd frequencies = {};  ///< Hz, ascending; empty: the factor is 1
+  Eigen::VectorXd values = {};       ///< one each
+
+  double at(double frequency) const;     ///< O(places)
+  double slope(double frequency) const;  ///< by the frequency, 1/Hz; 0 beyond the places
+  bool operator==(const FrequencyFactor& other) const;
+};
+
 /// A force shape h(t) on a structure, with h the d-th time derivative of
 ///
 ///   Re sum_m harmonics[m] exp(2 pi i m f t),  m = 0, 1, ..., H,
@@ -14,8 +26,10 @@ struct PeriodicForce {
   Eigen::VectorXd shape;       ///< n, N s^d per unit of the series
   Eigen::VectorXcd harmonics;  ///< H + 1 complex amplitudes
   int derivative = 0;          ///< d, 0 or more
+  FrequencyFactor factor = {};
 
-  /// The complex amplitudes of h at a frequency f (Hz), harmonics[m] (2 pi i m f)^d; real for m = 0.
+  /// The complex amplitudes of h at a frequency f (Hz), factor(f) harmonics[m] (2 pi i m f)^d; real for m =
+  /// 0.
   Eigen::VectorXcd amplitudes(double frequency) const;
 };
 

@@ -1,0 +1,234 @@
+"""Loads that vary with the frequency: amplitude_table of [[forcing.terms]], accelerations in g, and normal loads that grow."""
+
+import numpy as np
+import pytest
+import scipy.interpolate
+from structure_scenes import displacements, distance, refused, terms
+
+import wavebalance as wb
+
+MASS, STIFFNESS, DAMPING = 2.0, 8e3, 6.0  # kg, N/m, N s/m
+SCENE = """
+[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "k.mtx"
+damping = "c.mtx"
+contact_dofs = [1]
+[contact]
+{contact}
+[forcing]
+frequency = 9.0
+{terms}
+[time]
+{time}
+[analysis]
+{analysis}
+"""
+BASES = 'trial = "fourier"\nweight = "fourier"\nfunctions = 31'
+SWEEP = 'type = "frequency_sweep"\nfrequency_from = 6.0\nfrequency_to = 14.0'
+RESPONSE = 'type = "forced_response"'
+STOP = 'law = "linear"\nstiffness = 2e4\ngap = 1e-3'
+PLACES, AMPLITUDES, PHASES = [5.0, 8.0, 11.0, 15.0], [3.0, 5.0, 2.0, 4.0], [0.0, 40.0, -30.0, 10.0]
+
+
+@pytest.fixture(autouse=True)
+def matrices(matrix, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, value in (("m", MASS), ("k", STIFFNESS), ("c", DAMPING)):
+        matrix(f"{name}.mtx", [[value, 0.0], [0.0, value]])
+    table("table.csv")
+    return tmp_path
+
+
+def table(name, places=PLACES, amplitudes=AMPLITUDES, phases=None, head="frequency_Hz,amplitude"):
+    columns = [places, amplitudes] + ([] if phases is None else [phases])
+    lines = [head + ("" if phases is None else ",phase_degrees")] + [",".join(map(repr, row)) for row in zip(*columns)]
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
+
+
+def scene(*each, contact='law = "none"', time=BASES, analysis=RESPONSE):
+    return SCENE.format(contact=contact, terms=terms(*each), time=time, analysis=analysis)
+
+
+def solved(*arguments, overrides=None, unset=(), **named):
+    record = wb.run(scene(*arguments, **named), overrides, unset=unset)
+    assert record.converged, record.status
+    return record
+
+
+def steffen(places, values):
+    """Monotone cubics with a continuous slope [M. Steffen, Astron. Astrophys. 239, 1990]."""
+    width, slope = np.diff(places), np.diff(values) / np.diff(places)
+    middle = (slope[:-1] * width[1:] + slope[1:] * width[:-1]) / (width[:-1] + width[1:])
+    least = np.minimum(np.minimum(np.abs(slope[:-1]), np.abs(slope[1:])), 0.5 * np.abs(middle))
+    inner = (np.sign(slope[:-1]) + np.sign(slope[1:])) * least
+    return scipy.interpolate.CubicHermiteSpline(places, values, np.r_[slope[0], inner, slope[-1]])
+
+
+def force_at(frequency, phases=None, amplitude=1.0):
+    """The complex amplitude of the table."""
+    values = np.array(AMPLITUDES) * np.exp(1j * np.radians(phases if phases is not None else np.zeros(4)))
+    return amplitude * (steffen(PLACES, values.real)(frequency) + 1j * steffen(PLACES, values.imag)(frequency))
+
+
+def receptance(frequency):
+    omega = 2.0 * np.pi * frequency
+    return 1.0 / (STIFFNESS - MASS * omega**2 + 1j * omega * DAMPING)
+
+
+TABLE = 'dofs = [1]\namplitude_table = "table.csv"'
+
+
+@pytest.mark.parametrize("exact", ["false", "true"])
+@pytest.mark.parametrize("phases", [None, PHASES])
+@pytest.mark.parametrize("amplitude", [1.0, 2.5])
+def test_a_curve_has_the_amplitude_of_the_table_at_each_point(exact, phases, amplitude):
+    table("table.csv", phases=phases)
+    record = solved(TABLE + f"\namplitude = {amplitude}", analysis=SWEEP + f"\nexact = {exact}")
+    frequency = record.sweep["frequency_Hz"]
+    assert len(frequency) > 10
+    expected = np.abs(receptance(frequency) * force_at(frequency, phases, amplitude)) / np.sqrt(2.0)
+    np.testing.assert_allclose(record.sweep["rms_displacement_m"], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("kind, unit", [("unbalance", lambda omega: omega**2), ("base_acceleration", lambda omega: -MASS)])
+def test_the_table_is_a_factor_on_loads_of_every_kind(kind, unit):
+    record = solved(f'kind = "{kind}"\n' + TABLE + "\namplitude = 1e-3", analysis=SWEEP)
+    frequency = record.sweep["frequency_Hz"]
+    load = unit(2.0 * np.pi * frequency) * force_at(frequency, amplitude=1e-3)
+    np.testing.assert_allclose(record.sweep["rms_displacement_m"], np.abs(receptance(frequency) * load) / np.sqrt(2.0), rtol=1e-9)
+
+
+def test_points_with_a_stop_are_responses_to_the_amplitude_there():
+    table("table.csv", phases=PHASES)
+    for exact, apart in (("false", 1e-9), ("true", 1e-8)):
+        sweep = solved(TABLE, contact=STOP, analysis=SWEEP + f"\nexact = {exact}").sweep
+        touching = np.flatnonzero(sweep["max_contact_force_N"] > 0.5)
+        for point in touching[[1, -2]]:
+            at = float(sweep["frequency_Hz"][point])
+            load = force_at(at, PHASES)
+            term = f"dofs = [1]\namplitude = {abs(load)!r}\nphase = {np.degrees(np.angle(load))!r}"
+            time = 'method = "exact"' if exact == "true" else BASES
+            response = solved(term, contact=STOP, time=time, overrides={"forcing.frequency": at}).summary
+            assert sweep["max_displacement_m"][point] == pytest.approx(response["max_displacement_m"], rel=apart)
+
+
+def test_time_stepping_and_a_study_take_the_amplitude_at_their_frequency(tmp_path):
+    stepped = solved(TABLE, time="", analysis='type = "time_stepping"\ntolerance = 1e-9', contact=STOP)
+    balance = solved(f"dofs = [1]\namplitude = {force_at(9.0).real!r}", time='method = "exact"', contact=STOP)
+    assert stepped.summary["max_displacement_m"] == pytest.approx(balance.summary["max_displacement_m"], rel=1e-7)
+    values = [6.5, 9.0, 12.0]
+    found = wb.study(scene(TABLE), {"forcing.frequency": values}, output=tmp_path / "study").table["rms_displacement_m"]
+    np.testing.assert_allclose(found, [abs(receptance(one) * force_at(one)) / np.sqrt(2.0) for one in values], rtol=1e-9)
+
+
+def test_an_acceleration_in_g_is_one_in_si_units(tmp_path):
+    base = 'kind = "base_acceleration"\ndofs = [1, 2]\n'
+    in_g = wb.run(scene(base + 'amplitude = 0.3\nunit = "g"'), output=tmp_path / "g")
+    assert distance(displacements(in_g), displacements(solved(base + f"amplitude = {0.3 * 9.80665!r}"))) < 1e-14
+    assert "0.3 g" in wb.check(scene(base + 'amplitude = 0.3\nunit = "g"'))
+    assert distance(displacements(wb.run(tmp_path / "g" / "scene.toml")), displacements(in_g)) == 0.0
+    sweep = 'type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'
+    record = solved(base + 'amplitude = 0.3\nunit = "g"', analysis=sweep)
+    assert record.sweep["amplitude_g"][-1] == 0.3
+    assert record.sweep["max_displacement_m"][-1] == pytest.approx(in_g.summary["max_displacement_m"], rel=1e-9)
+
+
+def test_a_scene_is_written_with_its_table(tmp_path):
+    first = wb.run(scene(TABLE + "\namplitude = 2.0"), output=tmp_path / "out")
+    assert distance(displacements(wb.run(tmp_path / "out" / "scene.toml")), displacements(first)) == 0.0
+    assert "2 N times a table over the frequency" in wb.check(scene(TABLE + "\namplitude = 2.0"))
+
+
+@pytest.mark.parametrize("prepare, part", [
+    (lambda: table("table.csv", places=[7.0, 8.0, 11.0, 15.0]), "6 to 14 Hz"),
+    (lambda: table("table.csv", places=[5.0, 8.0, 8.0, 15.0]), "not above"),
+    (lambda: table("table.csv", head="frequency,amplitude"), "frequency_Hz"),
+    (lambda: table("table.csv", places=[5.0], amplitudes=[1.0]), "at least 2"),
+])
+def test_a_table_that_does_not_fit_is_refused_by_key(prepare, part):
+    prepare()
+    assert part in str(refused(scene(TABLE, analysis=SWEEP), "forcing.terms[1].amplitude_table"))
+
+
+@pytest.mark.parametrize("term, key", [
+    (TABLE + "\nharmonic = 0", "forcing.terms[1].amplitude_table"),
+    ('dofs = [1]\namplitude = 1.0\nunit = "g"', "forcing.terms[1].unit"),
+])
+def test_a_key_that_does_not_belong_to_the_term_is_refused(term, key):
+    refused(scene(term), key)
+
+
+def test_an_amplitude_sweep_takes_no_table():
+    sweep = 'type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'
+    refused(scene(TABLE, analysis=sweep), "forcing.terms[1].amplitude_table", "amplitude alone")
+
+
+# A slider on the first mass, whose normal load grows with the square of the frequency.
+MU, TANGENTIAL, GROWTH, LOAD = 0.4, 2e4, 6.5e-3, 1.0
+PRESSED = f'law = "coulomb"\nfriction = {MU}\ntangential_stiffness = {TANGENTIAL}\nnormal_load = '
+GROWING = PRESSED + f"{LOAD}\nnormal_load_speed2 = {GROWTH}"
+DRIVE = "dofs = [1]\namplitude = 12.0"
+FINE = BASES.replace("31", "63") + "\nquadrature_points = 512"
+
+
+def normal_load(frequency):
+    return LOAD + GROWTH * (2.0 * np.pi * frequency)**2
+
+
+def at(frequency, load, time=FINE, keys=None):
+    """The response at a frequency under a normal load that is given."""
+    return solved(DRIVE, contact=PRESSED + repr(load), time=time, overrides={"forcing.frequency": frequency, **(keys or {})})
+
+
+@pytest.mark.parametrize("time", [FINE, 'method = "exact"', "stepping"])
+def test_a_response_has_the_normal_load_at_its_frequency(time):
+    stepping = time == "stepping"
+    named = {"time": "" if stepping else time, "analysis": 'type = "time_stepping"' if stepping else RESPONSE}
+    grown = solved(DRIVE, contact=GROWING, **named)
+    given = solved(DRIVE, contact=PRESSED + repr(normal_load(9.0)), **named)
+    assert distance(displacements(grown), displacements(given)) < 1e-10
+    assert grown.summary["friction_work_J"] == pytest.approx(given.summary["friction_work_J"], rel=1e-9)
+    assert given.summary["friction_work_J"] > 0.0
+
+
+@pytest.mark.parametrize("exact", ["false", "true"])
+def test_points_of_a_curve_are_responses_under_the_normal_load_there(exact):
+    sweep = solved(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + f"\nexact = {exact}").sweep
+    frequency = sweep["frequency_Hz"]
+    assert len(frequency) > 10
+    slips = np.flatnonzero(sweep["slip_fraction"] > 0.05) if "slip_fraction" in sweep else np.arange(len(frequency))
+    for point in slips[[0, len(slips) // 2, -1]]:
+        one = float(frequency[point])
+        time = 'method = "exact"' if exact == "true" else FINE
+        response = at(one, normal_load(one), time).summary
+        assert sweep["max_displacement_m"][point] == pytest.approx(response["max_displacement_m"], rel=1e-7)
+        assert sweep["unstable"][point] == response["unstable_multipliers"]
+        if "friction_work_J" in sweep:
+            assert sweep["friction_work_J"][point] == pytest.approx(response["friction_work_J"], rel=1e-6)
+
+
+def test_the_first_slip_is_where_the_spring_force_is_the_limit_at_its_frequency():
+    record = solved(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP)
+    points = record.summary["special_points"]
+    slips = points["frequency_Hz"][np.isin(points["type"], ["slip"])]
+    assert len(slips) > 0
+    for one in slips:
+        omega = 2.0 * np.pi * one
+        stuck = 12.0 / abs(STIFFNESS + TANGENTIAL - MASS * omega**2 + 1j * omega * DAMPING)
+        assert TANGENTIAL * stuck == pytest.approx(MU * normal_load(one), rel=1e-4)
+
+
+def test_a_study_over_the_frequency_has_the_normal_load_of_each_run(tmp_path):
+    values = [8.0, 10.0]
+    text = scene(DRIVE, contact=GROWING, time=FINE)
+    found = wb.study(text, {"forcing.frequency": values}, output=tmp_path / "study").table["rms_displacement_m"]
+    expected = [at(one, normal_load(one)).summary["rms_displacement_m"] for one in values]
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_a_motion_of_the_curve_has_its_friction_at_its_frequency(tmp_path):
+    wb.run(scene(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + "\nmotion_at = [9.0]"), output=tmp_path / "out")
+    assert (tmp_path / "out" / "motion_9_Hz.csv").exists() or list((tmp_path / "out").glob("motion*.csv"))
