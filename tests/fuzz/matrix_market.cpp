@@ -34,25 +34,14 @@ void matrix_survives(const std::string& text) {
   }
 }
 
-void vector_is_finite(const std::string& text) {
-  std::istringstream input(text);
-  require(read_matrix_market_vector(input, "fuzz").allFinite(), "a vector's values are finite");
-}
-
-template <typename Read>
-void attempt(Read read, const std::string& text) {
-  try {
-    read(text);
-  } catch (const MatrixMarketError& error) {
-    require(*error.what() != '\0', "an error says something");
-  }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  attempt(matrix_survives, text);
-  attempt(vector_is_finite, text);
+  try {
+    matrix_survives(text);
+  } catch (const MatrixMarketError& error) {
+    require(*error.what() != '\0', "an error says something");
+  }
   return 0;
 }

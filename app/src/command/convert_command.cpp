@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cctype>
 #include <sstream>
 #include <stdexcept>
 

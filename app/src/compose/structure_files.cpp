@@ -110,6 +110,8 @@ void hold_rows(StructureFiles& files) {
   const std::vector<int> held = fem::held_rows(files.matrices.stiffness);
   std::set_union(files.base_rows.begin(), files.base_rows.end(), held.begin(), held.end(),
                  std::back_inserter(files.moving));
+  if (std::ssize(held) == size)
+    throw StructureFault(stiffness_key, "the matrix has 1e36 in all rows, which holds them; expected fewer");
   if (std::ssize(files.moving) == size)
     throw StructureFault("forcing.terms", "a base displacement moves all degrees of freedom; expected fewer");
   for (int row = 0; row < size; ++row)

@@ -23,8 +23,4 @@ Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std:
   return detail::matrix_of(std::move(entries), size, size, true, name);
 }
 
-Eigen::SparseMatrix<double> read_calculix_matrix(const std::filesystem::path& file) {
-  return detail::from_file(file, [](auto&&... from) { return read_calculix_matrix(from...); });
-}
-
 }  // namespace wavebalance::fem

@@ -183,10 +183,6 @@ Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::
   return detail::read_harwell_boeing_parts(input, name, detail::MatrixPart::matrix).front().matrix;
 }
 
-Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file) {
-  return detail::from_file(file, [](auto&&... from) { return read_harwell_boeing(from...); });
-}
-
 std::vector<NamedMatrix> detail::read_harwell_boeing_parts(std::istream& input, const std::string& name,
                                                            MatrixPart part) {
   Lines lines(input, name);
@@ -207,10 +203,6 @@ std::vector<NamedMatrix> detail::read_harwell_boeing_parts(std::istream& input, 
 Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name) {
   return Eigen::VectorXd(
       detail::read_harwell_boeing_parts(input, name, detail::MatrixPart::load).front().matrix.col(0));
-}
-
-Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file) {
-  return detail::from_file(file, [](auto&&... from) { return read_right_hand_side(from...); });
 }
 
 }  // namespace wavebalance::fem

@@ -83,15 +83,11 @@ struct Sizes {
   long long entries;
 };
 
-// columns: how many the matrix must have, 0 for any number.
-Sizes read_sizes(Lines& lines, const Header& header, int columns) {
+Sizes read_sizes(Lines& lines, const Header& header) {
   if (!lines.next_with_data('%')) lines.fail("the line of sizes is missing");
   lines.require_words(header.array ? 2 : 3, header.array ? "rows and columns" : "rows, columns and entries");
   Sizes sizes{read_side(lines, 0, "the count of rows"), read_side(lines, 1, "the count of columns"), 0};
   const long long rows = sizes.rows, room = rows * sizes.columns;
-  if (columns > 0 && sizes.columns != columns)
-    lines.fail("the count of columns is " + std::to_string(sizes.columns) + "; it must be " +
-               std::to_string(columns));
   if (header.one_triangle() && sizes.rows != sizes.columns)
     lines.fail("a symmetric or skew-symmetric matrix must be square; this one is " +
                std::to_string(sizes.rows) + " x " + std::to_string(sizes.columns));
@@ -157,18 +153,6 @@ void append_negative_mirror(MatrixEntries& entries) {
   }
 }
 
-Sparse read_with_columns(std::istream& input, const std::string& name, int columns) {
-  Lines lines(input, name);
-  const Header header = read_header(lines);
-  const Sizes sizes = read_sizes(lines, header, columns);
-  MatrixEntries entries =
-      header.array ? read_array(lines, sizes, header) : read_coordinates(lines, sizes, header);
-  require_end(lines, sizes.entries);
-  if (header.symmetry == Symmetry::skew) append_negative_mirror(entries);
-  return detail::matrix_of(std::move(entries), sizes.rows, sizes.columns,
-                           header.symmetry == Symmetry::symmetric, name);
-}
-
 void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
   for (int column = 0; column < matrix.outerSize(); ++column)
     for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
@@ -186,19 +170,19 @@ void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
 }  // namespace
 
 Sparse read_matrix_market(std::istream& input, const std::string& name) {
-  return read_with_columns(input, name, 0);
+  Lines lines(input, name);
+  const Header header = read_header(lines);
+  const Sizes sizes = read_sizes(lines, header);
+  MatrixEntries entries =
+      header.array ? read_array(lines, sizes, header) : read_coordinates(lines, sizes, header);
+  require_end(lines, sizes.entries);
+  if (header.symmetry == Symmetry::skew) append_negative_mirror(entries);
+  return detail::matrix_of(std::move(entries), sizes.rows, sizes.columns,
+                           header.symmetry == Symmetry::symmetric, name);
 }
 
 Sparse read_matrix_market(const std::filesystem::path& file) {
   return detail::from_file(file, [](auto&&... from) { return read_matrix_market(from...); });
-}
-
-Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name) {
-  return Eigen::VectorXd(read_with_columns(input, name, 1).col(0));
-}
-
-Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file) {
-  return detail::from_file(file, [](auto&&... from) { return read_matrix_market_vector(from...); });
 }
 
 void write_matrix_market(std::ostream& output, const Sparse& matrix, MatrixMarketSymmetry symmetry) {

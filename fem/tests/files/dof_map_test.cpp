@@ -19,8 +19,7 @@ TEST(DofMap, NamesTheRowsInTheOrderOfTheLines) {
        {"7.1\n7.3\n1042.2\n9.6\n", "7 x\n7 z\n1042 y\n9 rz\n", "node,direction\n7,1\n7,3\n1042,2\n9,6\n",
         "# of a plate\nNode; Direction\n7; UX\n7; UZ\n1042; uy\n\n9; ROTZ\n",
         "direction\tnode\r\nX\t7\r\nZ\t7\r\nY\t1042\r\nRZ\t9\r\n",
-        "row node direction\n3 1042 y\n4 9 rz\n2 7 z\n1 7 x\n",
-        "1 7 UX\n2 7 UZ\n4 9 ROTZ\n3 1042 UY\n",
+        "row node direction\n3 1042 y\n4 9 rz\n2 7 z\n1 7 x\n", "1 7 UX\n2 7 UZ\n4 9 ROTZ\n3 1042 UY\n",
         "  Matrix Eqn    Node    DOF\n  1  7  UX\n  2  7  UZ\n  3  1042  UY\n  4  9  ROTZ\n"}) {
     const DofMap map = dof_map(text);
     ASSERT_EQ(map.rows(), 4) << text;

@@ -87,21 +87,12 @@ TEST(MatrixMarket, NamesWhatIsWrongAndWhere) {
   expect_error([] { read_matrix_market("no/such/file.mtx"); }, "no/such/file.mtx");
 }
 
-TEST(MatrixMarket, ReadsLoadVectors) {
-  const auto vector = [](const std::string& text) {
-    std::istringstream input(text);
-    return read_matrix_market_vector(input, "load.mtx");
-  };
+TEST(MatrixMarket, ReadsColumns) {
   const std::string header = "%%MatrixMarket matrix array real general\n";
-  EXPECT_EQ(vector(header + "3 1\n1\n-2.5\n3e4\n"), Eigen::Vector3d(1, -2.5, 3e4));
-  expect_error([&] { vector(header + "3 2\n"); }, "the count of columns is 2; it must be 1");
-  expect_error([&] { vector(header + "3 1\n1\n2\n"); }, "ends after 2 of 3");
-  expect_error([&] { vector(header + "1 1\n1\n2\n"); }, "more than the 1");
-}
-
-TEST(MatrixMarket, ReadsLoadsInTheCoordinateFormat) {
-  std::istringstream input(general + "4 1 2\n3 1 -2.5\n1 1 1\n");
-  EXPECT_EQ(read_matrix_market_vector(input, "load.mtx"), Eigen::Vector4d(1, 0, -2.5, 0));
+  EXPECT_EQ(Eigen::MatrixXd(read(header + "3 1\n1\n-2.5\n3e4\n")), Eigen::Vector3d(1, -2.5, 3e4));
+  EXPECT_EQ(Eigen::MatrixXd(read(general + "4 1 2\n3 1 -2.5\n1 1 1\n")), Eigen::Vector4d(1, 0, -2.5, 0));
+  expect_error([&] { read(header + "3 1\n1\n2\n"); }, "ends after 2 of 3");
+  expect_error([&] { read(header + "1 1\n1\n2\n"); }, "more than the 1");
 }
 
 TEST(MatrixMarket, ReadsDenseMatrices) {
@@ -143,10 +134,8 @@ TEST(MatrixMarket, RefusesDevicesPipesAndFoldersAtOnce) {
   const TemporaryFolder folder;
   const auto pipe = folder / "pipe.mtx";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  for (const std::filesystem::path& file : {std::filesystem::path("/dev/zero"), pipe, folder.path()}) {
+  for (const std::filesystem::path& file : {std::filesystem::path("/dev/zero"), pipe, folder.path()})
     expect_error([&] { read_matrix_market(file); }, file.string() + " is not a regular file");
-    expect_error([&] { read_matrix_market_vector(file); }, file.string() + " is not a regular file");
-  }
 }
 
 TEST(MatrixMarket, RefusesFilesAboveTheSizeLimit) {

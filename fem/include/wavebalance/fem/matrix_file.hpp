@@ -26,10 +26,10 @@ std::string_view to_string(MatrixFormat format);
 /// The format of a file by its content: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file has
 /// the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth, CalculiX
 /// and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) have lines of row, column and value, Abaqus otherwise of
-/// node, dof, node, dof and value or a user element, and Nastran DMIG entries or OUTPUT4, text or binary. Comments of Abaqus
-/// and Nastran may come first. Where the content fits none, the end of the name says the format: .mtx Matrix
-/// Market, .sti and .mas CalculiX, .rsa and .rua Harwell-Boeing, .pch, .bdf and .dmig DMIG, .op4 OUTPUT4.
-/// Throws MatrixFileError if neither says anything or the file cannot be read.
+/// node, dof, node, dof and value or a user element, and Nastran DMIG entries or OUTPUT4, text or binary.
+/// Comments of Abaqus and Nastran may come first. Where the content fits none, the end of the name says the
+/// format: .mtx Matrix Market, .sti and .mas CalculiX, .rsa and .rua Harwell-Boeing, .pch, .bdf and .dmig
+/// DMIG, .op4 OUTPUT4. Throws MatrixFileError if neither says anything or the file cannot be read.
 MatrixFormat matrix_format(const std::filesystem::path& file);
 
 /// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles. Of several
@@ -45,9 +45,7 @@ Eigen::VectorXd read_vector(const std::filesystem::path& file);
 /// (from 1) and value, one triangle of a symmetric matrix or both. There is no line of sizes: the largest
 /// index is the number of rows. Entries that are zero are left out. Throws MatrixFileError for another line,
 /// an index below 1 or above 10^8, a value that is not finite, an entry given twice, two triangles that
-/// differ, a file without entries.
-Eigen::SparseMatrix<double> read_calculix_matrix(const std::filesystem::path& file);
-/// The same from a stream; errors call it `name`.
+/// differ, a file without entries. Errors call the stream `name`.
 Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std::string& name);
 
 /// Reads an assembled real matrix in the format of Harwell and Boeing [DGL89], type RSA (one triangle of a
@@ -56,13 +54,11 @@ Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std:
 /// 1P. Throws MatrixFileError for another type, formats other than these, a field that holds no such number,
 /// pointers that do not increase or an index out of range, an entry given twice, two triangles of an RSA file
 /// that differ, a file that ends early.
-Eigen::SparseMatrix<double> read_harwell_boeing(const std::filesystem::path& file);
 Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::string& name);
 
 /// Reads the right-hand side at the end of such a file, where Ansys puts the load: one full vector (F).
 /// Throws MatrixFileError as read_harwell_boeing does, and for a file that has none, several, or another
 /// kind.
-Eigen::VectorXd read_right_hand_side(const std::filesystem::path& file);
 Eigen::VectorXd read_right_hand_side(std::istream& input, const std::string& name);
 
 }  // namespace wavebalance::fem

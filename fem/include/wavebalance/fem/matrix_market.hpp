@@ -29,10 +29,6 @@ Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& file
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::string& name);
 
-/// Reads a vector: the same formats with one column. Throws MatrixMarketError as read_matrix_market does.
-Eigen::VectorXd read_matrix_market_vector(const std::filesystem::path& file);
-Eigen::VectorXd read_matrix_market_vector(std::istream& input, const std::string& name);
-
 /// Which entries of a matrix are written.
 enum class MatrixMarketSymmetry {
   general,   ///< every stored entry
