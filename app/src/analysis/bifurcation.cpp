@@ -103,14 +103,16 @@ int unstable_at(const Sweep& sweep, std::size_t branch, std::size_t point) {
   return point < points.size() ? points[point].unstable : -1;
 }
 
+/// Behind those of other curves of the diagram.
 void add_exact_lines(const Sweep& sweep, int place, Diagram& diagram) {
+  const int first = diagram.exact.empty() ? 0 : diagram.exact.back().branch + 1;
   for (std::size_t branch = 0; branch < sweep.exact_motions.size(); ++branch) {
     const auto& motions = sweep.exact_motions[branch];
     if (motions.empty()) continue;
     const auto& points = sweep.curve_of(branch).points;
     const int periods = std::max(1, int(std::lround(points.front().frequency / motions.front().frequency())));
     for (int l = 0; l < periods; ++l) {
-      ExactLine line{.branch = int(branch), .periods = periods};
+      ExactLine line{.branch = first + int(branch), .periods = periods};
       const Eigen::VectorXd begin = Eigen::VectorXd::Constant(1, double(l) / periods);
       for (std::size_t i = 0; i < motions.size(); ++i) {
         line.value.push_back(parameter_of(points[i], sweep.curve.parameter));
@@ -123,6 +125,15 @@ void add_exact_lines(const Sweep& sweep, int place, Diagram& diagram) {
   }
 }
 
+/// The same interval from its other end on.
+Scene reversed(Scene scene) {
+  std::swap(scene.analysis.frequency_from, scene.analysis.frequency_to);
+  std::swap(scene.analysis.amplitude_from, scene.analysis.amplitude_to);
+  return scene;
+}
+
+/// A curve that comes back to its first end, or ends within, leaves the motions at the other end out, which
+/// have a curve of their own.
 void add_exact_curve(const Scene& scene, const StructureModel& model, const Observer& observer,
                      Diagram& diagram) {
   diagram.exact_status = "not_sought";
@@ -133,6 +144,10 @@ void add_exact_curve(const Scene& scene, const StructureModel& model, const Obse
   const Sweep sweep = exact_sweep(*swept, model, observer);
   diagram.exact_status = sweep.status();
   add_exact_lines(sweep, diagram.place, diagram);
+  if (sweep.curve.status == solvers::SweepStatus::reached_end || sweep.interrupted()) return;
+  const Sweep back = exact_sweep(reversed(*swept), model, observer);
+  diagram.exact_status_back = back.status();
+  add_exact_lines(back, diagram.place, diagram);
 }
 
 SweepAxis axis_of(const Scene& scene) {
@@ -175,7 +190,8 @@ Diagram bifurcation_diagram(const Scene& scene, const StructureModel& model, con
   pass_values(scene, rows, observer, diagram);
   diagram.place = scene.analysis.outputs.empty() ? widest_place(diagram) : rows.contacts();
   if (diagram.status != "interrupted") add_exact_curve(scene, model, observer, diagram);
-  if (diagram.exact_status == "interrupted") diagram.status = "interrupted";
+  if (diagram.exact_status == "interrupted" || diagram.exact_status_back == "interrupted")
+    diagram.status = "interrupted";
   diagram.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return diagram;
 }

@@ -12,6 +12,10 @@ using namespace moves;
 using Remedies = std::map<std::string, std::vector<Move>>;
 
 const Move integrate = always("analysis.type = \"time_stepping\"", {.analysis = "time_stepping"});
+const Move recorded = always(
+    "analysis.type = \"time_stepping\" with analysis.max_periods = 200, which has statistics of what does "
+    "not repeat",
+    {.analysis = "time_stepping", .set = {"analysis.max_periods=200"}});
 const Move all_motions = always("analysis.type = \"motions\"", {.analysis = "motions"});
 const Move static_load = always("a static load that presses the structure against a contact (forcing.terms)",
                                 {.added = "[[forcing.terms]]\nharmonic = 0\namplitude = 1.0"});
@@ -32,28 +36,29 @@ const Move longer_period = scaled("a larger", "analysis.longest_period", 2);
 const Remedies& of_responses() {
   static const std::vector<Move> sizes{more_functions, odd_functions, more_points, tolerance_in_place};
   static const std::vector<Move> elsewhere{balance, integrate};
-  static const Remedies all{{"stalled", sizes},
-                            {"iteration_limit", sizes},
-                            {"effort_limit", sizes},
-                            {"inaccurate", {other_frequency, more_damping, moved_contact}},
-                            {"singular", {more_damping, other_frequency}},
-                            {"unbalanced", {static_load}},
-                            {"size_limit", {larger_tolerance}},
-                            {"stagnated", {larger_tolerance}},
-                            {"no_start", elsewhere},
-                            {"not_found", elsewhere},
-                            {"tolerance_missed", {larger_tolerance}},
-                            {"rigid_contact", {balance}},
-                            {"velocity_and_no_mass", {balance}},
-                            {"structural_damping", {balance}},
-                            {"no_modes", {balance}},
-                            {"resonant", {other_frequency, more_damping}},
-                            {"chattering", {all_motions, no_rebound, stiff_law, more_rebound}},
-                            {"lasting_contact", {stiff_law}},
-                            {"too_many_impacts", {stiff_law, more_damping, less_rebound}},
-                            {"grazing", {other_frequency, other_gap}},
-                            {"not_settled", {all_motions, more_damping, other_frequency}},
-                            {"not_converged", {sizes_in_place, more_damping}}};
+  static const Remedies all{
+      {"stalled", {more_functions, odd_functions, more_points, tolerance_in_place, recorded}},
+      {"iteration_limit", sizes},
+      {"effort_limit", {more_functions, odd_functions, more_points, tolerance_in_place, recorded}},
+      {"inaccurate", {other_frequency, more_damping, moved_contact}},
+      {"singular", {more_damping, other_frequency}},
+      {"unbalanced", {static_load}},
+      {"size_limit", {larger_tolerance}},
+      {"stagnated", {larger_tolerance}},
+      {"no_start", elsewhere},
+      {"not_found", elsewhere},
+      {"tolerance_missed", {larger_tolerance}},
+      {"rigid_contact", {balance}},
+      {"velocity_and_no_mass", {balance}},
+      {"structural_damping", {balance}},
+      {"no_modes", {balance}},
+      {"resonant", {other_frequency, more_damping}},
+      {"chattering", {all_motions, no_rebound, stiff_law, more_rebound}},
+      {"lasting_contact", {stiff_law}},
+      {"too_many_impacts", {stiff_law, more_damping, less_rebound}},
+      {"grazing", {other_frequency, other_gap}},
+      {"not_settled", {recorded, all_motions, more_damping, other_frequency}},
+      {"not_converged", {sizes_in_place, more_damping}}};
   return all;
 }
 
@@ -118,7 +123,7 @@ const Remedies& of_shooting() {
 }
 
 const Remedies& of_motions() {
-  static const Remedies all{{"not_settled", {longer_period, more_starts, more_damping, response}},
+  static const Remedies all{{"not_settled", {longer_period, more_starts, recorded, more_damping, response}},
                             {"not_solved", {response}},
                             {"no_modes", {response}}};
   return all;

@@ -82,7 +82,7 @@ void add_motion(Figure& figure, const MotionPicture& picture, const std::string&
   panel.x = picture.window.axis();
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   Series series = picture.window.curve(scale.factor * values);
-  if (!response.converged) {
+  if (!response.converged && !response.recorded) {
     series.colour = Colour::grey;
     series.dash = Dash::dashed;
   }
@@ -193,7 +193,10 @@ Figure response_figure(const Scene& scene, const Response& response) {
 Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
   Figure figure;
   figure.title = method_title(scene) + ", " + frequency_text(frequency);
-  if (!response.converged) figure.title += " (NOT CONVERGED)";
+  if (response.recorded)
+    figure.title += ", the last period before the record";
+  else if (!response.converged)
+    figure.title += " (NOT CONVERGED)";
   figure.panel_height = 240;
   figure.panel_width = 600;
   const std::vector<SceneContact> contacts = contacts_of(scene);

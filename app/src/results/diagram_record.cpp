@@ -142,6 +142,7 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   record.add(quantities::period_intervals, intervals_table(diagram));
   record.add(quantities::hysteresis, hysteresis);
   record.add(quantities::exact_curve, diagram.exact_status);
+  if (!diagram.exact_status_back.empty()) record.add(quantities::exact_curve_back, diagram.exact_status_back);
   const auto failed = count([](const DiagramValue& one) { return !one.failure.empty(); });
   if (failed > 0)
     warn(record,

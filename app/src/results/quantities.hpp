@@ -85,7 +85,8 @@ inline constexpr Quantity motion_kind{"motion_kind"}, recorded_periods{"recorded
 inline constexpr Quantity diagram_values{"values", setting}, section_of{"section_of"},
     period_intervals{"period_intervals"}, hysteresis{"hysteresis"},
     aperiodic_values{"aperiodic_values", result}, hysteresis_values{"hysteresis_values", result},
-    longest_found{"longest_period_found", result}, exact_curve{"exact_curve"};
+    longest_found{"longest_period_found", result}, exact_curve{"exact_curve"},
+    exact_curve_back{"exact_curve_back"};
 
 // Those of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},

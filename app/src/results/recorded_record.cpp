@@ -92,7 +92,8 @@ void warn_of_kind(Record& record, const RecordedMotion& motion) {
          "periods of the load. {}",
          motion.recorded / 4, statistics);
   if (motion.kind == MotionKind::periodic)
-    warn(record, "The motion repeats after {} periods of the load. {}", motion.repeats, statistics);
+    warn(record, "The motion repeats after {} of the load. {}",
+         motion.repeats == 1 ? "one period" : fmt::format("{} periods", motion.repeats), statistics);
   if (motion.kind == MotionKind::not_known)
     warn(record,
          "Whether the motion is aperiodic or has not settled yet is not known: its largest Lyapunov exponent "

@@ -347,13 +347,6 @@ void ContactFlow::start_near(const Eigen::MatrixXcd& harmonics, const Eigen::Vec
 }
 const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->panels_; }
 
-Eigen::VectorXd ContactFlow::displacements_by_state() const {
-  const detail::ContactPoles& poles = engine_->poles_;
-  Eigen::VectorXd result = Eigen::VectorXd::Ones(poles.states() + engine_->contacts_.memories());
-  result.head(poles.states()) = poles.real_outputs(0).cwiseAbs().colwise().maxCoeff().transpose();
-  return result;
-}
-
 FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample,
                                        double first) {
   return engine_->advance_period(points, sample, first);
@@ -394,19 +387,5 @@ double ContactFlow::tolerance() const { return engine_->options_.tolerance; }
 double ContactFlow::unresolved() const { return engine_->unresolved_; }
 double ContactFlow::length() const { return engine_->moving_; }
 bool ContactFlow::rests_on_contacts() const { return engine_->length_ > engine_->moving_; }
-
-void ContactFlow::perturb(const Eigen::MatrixXd& columns) {
-  engine_->variation_ = {};
-  if (columns.cols() == 0) return;
-  engine_->variation_ = detail::Variation(columns.topRows(engine_->poles_.states()),
-                                          columns.bottomRows(engine_->contacts_.memories()));
-}
-
-Eigen::MatrixXd ContactFlow::perturbation() const {
-  const detail::Variation& variation = engine_->variation_;
-  Eigen::MatrixXd result(engine_->poles_.states() + engine_->contacts_.memories(), variation.poles().cols());
-  if (!variation.empty()) result << variation.poles(), variation.memory();
-  return result;
-}
 
 }  // namespace wavebalance::solvers

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
@@ -13,11 +14,10 @@ namespace {
 // A perturbation that is carried along a flow and scaled to the size one after each period.
 class Perturbation {
  public:
-  explicit Perturbation(ContactFlow& flow) : flow_(flow), weights_(flow.displacements_by_state()) {
-    const Eigen::VectorXd memories = flow.state();
-    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(memories.size(), 1);
+  explicit Perturbation(ContactFlow& flow) : flow_(flow), weights_(flow.amplitudes_by_state()) {
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(weights_.size(), 1);
     // A slider that never moves keeps a change of its position, which says nothing of the motion.
-    const Index states = memories.size() - memories_of(flow);
+    const Index states = weights_.size() - memories_of(flow);
     for (Index i = 0; i < states; ++i)
       if (weights_[i] > 0.0) column(i, 0) = (i % 3 == 0 ? 1.0 : -0.7) / weights_[i];
     scale(column);

@@ -24,7 +24,7 @@ int points_shown(const DiagramValue& value);
 
 /// A line of the exact curve, in the section: a motion of p periods has p of them.
 struct ExactLine {
-  int branch = 0;   ///< 0 of the curve, from 1 of its branches
+  int branch = 0;   ///< 0 of the curve, from 1 of its branches and of the curve from the other end
   int periods = 1;  ///< of the load
   std::vector<double> value = {}, displacement = {}, velocity = {};
   std::vector<int> unstable = {};  ///< multipliers outside the unit circle; -1 where not known
@@ -37,6 +37,8 @@ struct Diagram {
   int place = 0;  ///< the one that is drawn: the first output, or the contact that moves most
   std::vector<DiagramValue> values = {};
   std::vector<ExactLine> exact = {};
+  /// Of the curve from the other end, which is followed where the first did not come to it; else empty.
+  std::string exact_status_back = {};
   std::string exact_status;  ///< of the exact curve; "not_sought", or "refused" where the scene has none
   std::string status;        ///< "converged", "interrupted", "no_modes" or "incomplete" with a failure
   double wall_seconds = 0.0;
