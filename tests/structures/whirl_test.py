@@ -98,6 +98,9 @@ def test_critical_speeds_are_where_a_root_has_the_frequency_of_the_speed(tmp_pat
 def test_an_unbalance_that_turns_the_other_way_exchanges_the_directions(tmp_path):
     record, _ = written(tmp_path, SWEEP, ROTOR.replace("[1, 2]", "[1, -2]"))
     assert list(record.summary["critical_speeds"]["direction"]) == ["forward", "backward"]
+    assert any("turns against structure.gyroscopic" in warning for warning in record.warnings)
+    assert not any("gyroscopic" in warning for warning in written(tmp_path, SWEEP, name="along")[0].warnings)
+    assert "turns against structure.gyroscopic" in wb.check(ROTOR.replace("[1, 2]", "[1, -2]"))
 
 
 def test_bearings_of_two_stiffnesses_make_ellipses_of_their_circularity(tmp_path, matrices):

@@ -179,4 +179,16 @@ CampbellDiagram campbell_diagram(const StructureModel& model, double highest) {
   return diagram;
 }
 
+bool turns_against_plane(const CampbellDiagram& diagram) {
+  constexpr double same = 1e-6;  // of the frequencies
+  double along = 0.0, size = 0.0;
+  for (const Line& line : diagram.lines) {
+    const double rise = line.back().exponent.imag() - line.front().exponent.imag();
+    if (!std::isfinite(rise * line.back().circularity)) continue;
+    along += rise * line.back().circularity;
+    size += std::abs(line.back().exponent.imag());
+  }
+  return along < -same * size;
+}
+
 }  // namespace wavebalance::app

@@ -64,12 +64,21 @@ std::string whirls_text(const StructureModel& model, double speed) {
                      texts.empty() ? "none found" : fmt::format("{}", fmt::join(texts, ", ")));
 }
 
+/// Of a matrix G of the other sign than the unbalance; empty without.
+std::string sense_warning(const Scene& scene, const CampbellDiagram& diagram) {
+  if (scene.structure.matrices.gyroscopic.empty() || !turns_against_plane(diagram)) return "";
+  return "The unbalance turns against structure.gyroscopic, whose moments lower forward whirls and raise backward ones. "
+         "Expected the other order or sign of its dofs, or the other sign of the matrix.";
+}
+
 }  // namespace
 
 void append_whirls(Record& record, const Scene& scene, const StructureModel& model) {
   if (!is_sweep(scene) || !has_whirls(model)) return;
   const CampbellDiagram diagram = campbell_diagram(model, highest_speed(scene));
   if (diagram.lines.empty()) return;
+  if (const std::string warning = sense_warning(scene, diagram); !warning.empty())
+    record.warnings.push_back(warning);
   record.add("critical_speeds", critical_table(diagram.critical));
   record.files.push_back(
       {"campbell.csv", csv_text(campbell_table(diagram)), "whirl frequencies over the speed"});
@@ -96,12 +105,15 @@ std::string whirl_lines(const Scene& scene) {
   for (const double speed : speeds)
     text += (text.empty() ? "whirl      " : "           ") + whirls_text(model, speed) + "\n";
   const double highest = highest_speed(scene);
+  const CampbellDiagram diagram = campbell_diagram(model, highest);
   std::vector<std::string> critical;
-  for (const CriticalSpeed& one : campbell_diagram(model, highest).critical)
+  for (const CriticalSpeed& one : diagram.critical)
     critical.push_back(whirl_text(one.speed / two_pi, one.whirl));
-  return text + fmt::format("critical   {}, up to {:.5g} Hz\n",
-                            critical.empty() ? "no speed" : fmt::format("{}", fmt::join(critical, ", ")),
-                            highest / two_pi);
+  const std::string warning = sense_warning(scene, diagram);
+  return text + (warning.empty() ? "" : "warning    " + warning + "\n") +
+         fmt::format("critical   {}, up to {:.5g} Hz\n",
+                     critical.empty() ? "no speed" : fmt::format("{}", fmt::join(critical, ", ")),
+                     highest / two_pi);
 }
 
 }  // namespace wavebalance::app

@@ -51,4 +51,8 @@ std::vector<WhirlMode> whirls_at(const StructureModel& model, double speed, int 
 /// not noticed. 60 whirls_at(), and some 8 for each critical speed.
 CampbellDiagram campbell_diagram(const StructureModel& model, double highest);
 
+/// Whether gyroscopic forces raise the whirls against the sense of the plane and lower those along it: a
+/// matrix G of the other sign than the unbalance. O(lines).
+bool turns_against_plane(const CampbellDiagram& diagram);
+
 }  // namespace wavebalance::app
