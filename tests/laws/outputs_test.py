@@ -140,4 +140,4 @@ def test_outputs_are_written_and_read_back(scene_file, completed, mapped):
     analysis = completed(mapped, overrides)["analysis"]
     text = wb.complete(scene_file(mapped), overrides)
     assert wb.complete(text) == text
-    assert analysis["outputs"] == [-1, 2] and analysis["peak_of"] == "-node 7 z"  # whose node is the first row
+    assert analysis["outputs"] == ["-node 7 z", "row 2"] and analysis["peak_of"] == "-node 7 z"

@@ -20,6 +20,7 @@ class MotionsOfCurve {
       : scene_(scene), model_(model), sweep_(sweep), problem_(compose_problem(scene, model)) {}
 
   CurveMotion peak() {
+    if (sweep_.solved_peak) return measured("peak", sweep_.solved_peak->value, sweep_.solved_peak->unknown);
     const solvers::SweepPoint& highest = sweep_.curve.points[sweep_.peak()];
     return measured("peak", parameter_of(highest, sweep_.curve.parameter), highest.unknown);
   }

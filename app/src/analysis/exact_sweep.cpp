@@ -67,11 +67,13 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
 }
 
 /// The means over contacts and the work of all of them.
-FrictionShares friction_of(const PhaseMotion& motion) {
+FrictionShares friction_of(const PhaseMotion& motion, const std::vector<SceneContact>& places) {
   FrictionShares shares;
   using enum solvers::ContactState;
-  for (const solvers::FrictionCycle& cycle : motion.cycles)
+  for (const solvers::FrictionCycle& cycle : motion.cycles) {
+    shares.each.push_back(contact_work(places[std::size_t(cycle.row)], cycle.work, cycle.wear));
     shares.add({cycle.work, cycle.share(stick), cycle.share(slip), cycle.share(open)}, motion.cycles.size());
+  }
   return shares;
 }
 
@@ -86,6 +88,9 @@ PointImpacts impacts_of(const PhaseMotion& motion, int periods) {
   for (const solvers::Impact& impact : motion.impacts) {
     result.largest_impulse = std::max(result.largest_impulse, impact.impulse);
     result.largest_speed = std::max(result.largest_speed, impact.velocity_before);
+    const auto contact = static_cast<std::size_t>(impact.contact);
+    if (result.speeds.size() <= contact) result.speeds.resize(contact + 1, 0.0);
+    result.speeds[contact] = std::max(result.speeds[contact], impact.velocity_before);
   }
   result.energy_lost = motion.energy_lost() / periods;
   return result;
@@ -203,7 +208,8 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
   }
   if (has_friction(scene)) {
     std::vector<FrictionShares>& shares = sweep.friction.emplace_back();
-    for (const ExactPoint& point : curve.points) shares.push_back(friction_of(point.motion));
+    const std::vector<SceneContact> places = contacts_of(scene);
+    for (const ExactPoint& point : curve.points) shares.push_back(friction_of(point.motion, places));
   }
   if (parameter_of(scene) == solvers::SweepParameter::load_scale)
     sweep.amplitude_unit = reference_load(scene.forcing).value().unit;

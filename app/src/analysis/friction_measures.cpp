@@ -42,14 +42,14 @@ contact::FrictionPeriod period_of(const contact::CoulombLaw& law, int row, const
 
 /// `normal_work`: J, the normal force times the distance of slip.
 void set_wear(FrictionMeasures& measures, const SceneContact& contact, double normal_work) {
-  const auto wears = contact.values.find("wear_coefficient");
-  if (wears == contact.values.end()) return;
-  measures.wears = true;
-  measures.wear = std::get<double>(wears->second) * normal_work;
+  const ContactWork found = contact_work(contact, measures.work, normal_work);
+  measures.wears = found.wears;
+  measures.wear = found.wear;
 }
 
 FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers::Motion& contacts) {
-  FrictionMeasures measures{.row = row, .number = contact.number, .law = law_of(contact)};
+  FrictionMeasures measures{
+      .row = row, .number = contact.number, .law = law_of(contact), .name = whole_name_of(contact)};
   const contact::FrictionPeriod period = period_of(measures.law, row, contacts);
   measures.state = period.state;
   measures.stick_fraction = share_of(period, contact::FrictionState::stick);
@@ -64,7 +64,8 @@ FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers
 
 FrictionMeasures measures_of(const SceneContact& contact, const solvers::FrictionCycle& cycle) {
   using enum solvers::ContactState;
-  FrictionMeasures measures{.row = cycle.row, .number = contact.number, .law = law_of(contact)};
+  FrictionMeasures measures{
+      .row = cycle.row, .number = contact.number, .law = law_of(contact), .name = whole_name_of(contact)};
   measures.stick_fraction = cycle.share(stick);
   measures.slip_fraction = cycle.share(slip);
   measures.open_fraction = cycle.share(open);
@@ -151,6 +152,15 @@ FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
   return shares;
 }
 
+ContactWork contact_work(const SceneContact& contact, double work, double normal_work) {
+  ContactWork found{.number = contact.number, .work = work};
+  if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end()) {
+    found.wears = true;
+    found.wear = std::get<double>(wears->second) * normal_work;
+  }
+  return found;
+}
+
 void append_shares(Summary& row, const FrictionShares& shares) {
   row.emplace_back("friction_work_J", shares.work);
   row.emplace_back("stick_fraction", shares.stick);
@@ -172,6 +182,7 @@ std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::Fr
       const std::span<const double> rows(point.unknown.data() + row * points,
                                          static_cast<std::size_t>(law.rows()) * points);
       const contact::FrictionPeriod period = law.over_period(static_cast<int>(points), rows, false);
+      shares.each.push_back(contact_work(places[row], period.work, period.normal_work));
       shares.add(
           {period.work, share_of(period, contact::FrictionState::stick),
            share_of(period, contact::FrictionState::slip), share_of(period, contact::FrictionState::open)},

@@ -44,7 +44,7 @@ int solve_study(const StudyArguments& arguments);
 struct OverlayArguments {
   std::vector<std::filesystem::path> folders;  ///< results of earlier runs
   std::filesystem::path output;
-  std::string quantity = "max";  ///< see overlay_quantity()
+  std::string quantity;  ///< see read_overlay()
   bool quiet = false;
 };
 

@@ -151,8 +151,10 @@ void add_overlay(CLI::App& command, OverlayArguments& arguments) {
       ->required();
   add_output(command, arguments.output, "folder of the picture, made if missing");
   command
-      .add_option("--quantity", arguments.quantity,
-                  "max, min, max_abs or rms of the displacement; max without it")
+      .add_option(
+          "--quantity", arguments.quantity,
+          "max, min, max_abs or rms of the displacement of contacts, or the vibration of an output, as \"row 19\"; "
+          "without it that of the leading output where all have it, else max")
       ->type_name("NAME");
   add_quiet(command, arguments.quiet);
 }

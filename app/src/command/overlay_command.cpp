@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "command/command_parts.hpp"
+#include "plot/plot_text.hpp"
 #include "report/overlay.hpp"
 #include "report/report_parts.hpp"
 #include "report/run_report.hpp"
@@ -47,9 +48,11 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   page.body =
       "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
       (holds_file(files, "overlay.svg")
-           ? picture_html(files, "overlay",
-                          is_over_time(overlay) ? "Displacement over a period, of all folders"
-                                                : "Displacement over the frequency, of all folders")
+           ? picture_html(
+                 files, "overlay",
+                 (overlay.quantity.is_output() ? capitalised(overlay.quantity.name) : "Displacement") +
+                     (is_over_time(overlay) ? " over a period, of all folders"
+                                            : " over the frequency, of all folders"))
            : "<p>There is no picture: gnuplot was not found.</p>\n") +
       (has_unstable ? "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n"
                     : "<p>The curves are those of</p>\n<ul>\n") +
@@ -58,9 +61,8 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   return page_html(page);
 }
 
-std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overlay& overlay,
-                                 OverlayQuantity quantity) {
-  const Figure figure = overlay_figure(overlay, quantity);
+std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overlay& overlay) {
+  const Figure figure = overlay_figure(overlay);
   std::vector<ResultFile> files;
   try {
     files.push_back({"overlay.svg", render(figure, PictureFormat::svg), "the picture"});
@@ -80,7 +82,7 @@ std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay
   std::vector<std::string> folders;
   for (const fs::path& folder : arguments.folders) folders.push_back(folder.string());
   Summary summary{{"folders", folders},
-                  {"quantity", arguments.quantity},
+                  {"quantity", overlay.quantity.name},
                   {"curves", static_cast<std::int64_t>(overlay.curves.size())},
                   {"warnings", overlay.warnings}};
   append_files(summary, files);
@@ -91,13 +93,12 @@ std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay
 
 int overlay_results(const OverlayArguments& arguments) {
   check(arguments);
-  const OverlayQuantity quantity = overlay_quantity(arguments.quantity);
-  const Overlay overlay = read_overlay(arguments.folders, quantity);
+  const Overlay overlay = read_overlay(arguments.folders, arguments.quantity);
   require_replaceable(
       arguments.output,
       [](const std::string& name) { return name == "summary.json" || name.starts_with("overlay."); }, {});
   OutputFiles output(arguments.output);
-  const std::vector<ResultFile> files = files_of(arguments, overlay, quantity);
+  const std::vector<ResultFile> files = files_of(arguments, overlay);
   output.replace(files_of_record(output.directory() / "summary.json"));
   for (const ResultFile& file : files) output.add(file.name, file.contents);
   output.add("summary.json", summary_of(arguments, overlay, files));

@@ -19,12 +19,6 @@
 namespace wavebalance::app {
 namespace {
 
-struct NamedDof {
-  int sign = 1;
-  fem::NodeDof dof;
-  bool numbered = false;  // "node 2 z #2", one of several rows of the name
-};
-
 bool is_list_of_dofs(const DocumentEntry& entry) {
   if (is_term_section(entry.section)) return entry.key == "dofs";
   if (is_pair_section(entry.section))
@@ -42,7 +36,8 @@ std::optional<Integer> integer_of(const std::string& word) {
   return value;
 }
 
-/// "node 1042 z" or "node 2 z #2", with a minus sign before it or not; none if the text is another.
+}  // namespace
+
 std::optional<NamedDof> named_dof(std::string text) {
   NamedDof found;
   if (text.starts_with('-')) {
@@ -64,21 +59,76 @@ std::optional<NamedDof> named_dof(std::string text) {
   return found.dof.direction == 0 ? std::nullopt : std::optional(found);
 }
 
+std::vector<int> rows_of(const fem::DofMap& map, const NamedDof& named) {
+  std::vector<int> rows;
+  fem::NodeDof dof = named.dof;
+  const int copies = named.numbered ? 1 : map.copies(dof);
+  for (int copy = 0; copy < copies; ++copy) {
+    if (!named.numbered) dof.copy = copy + 1;
+    if (const int row = map.row(dof); row >= 0) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const std::string& path) {
+  if (const int copies = map.copies(dof); copies > 0)
+    return fmt::format("there {} {} row{} of that name in {}; expected no #{}", copies == 1 ? "is" : "are",
+                       copies, copies == 1 ? "" : "s", path, dof.copy);
+  std::vector<std::string> present;
+  for (const int direction : map.directions(dof.node)) {
+    const std::string name = map.name(map.row({dof.node, direction}));
+    present.push_back(name.substr(name.rfind(' ') + 1));
+  }
+  if (present.empty())
+    return fmt::format(
+        "node {} is not in {}; expected one that has rows of the matrices, which a node that "
+        "is held does not",
+        dof.node, path);
+  return fmt::format("node {} does not move that way in {}; expected one of {}", dof.node, path,
+                     fmt::join(present, ", "));
+}
+
+namespace {
+
+/// What becomes of a name of several rows, by the list in which it is.
+enum class SeveralRows {
+  mean,     // of them, by coefficients: contacts, and forces that do work with it
+  all,      // of the support that moves
+  refused,  // where each row stands for itself
+};
+
+/// A list of degrees of freedom, and what its names become: rows, each with its part of the name's weight.
+struct NamedRows {
+  DocumentList rows;
+  std::vector<std::size_t> names;  // of each row, the entry of the list
+  std::vector<double> parts;       // of each row
+  bool means() const { return rows.size() > (names.empty() ? 0 : names.back() + 1); }
+};
+
 class RowsOfNames {
  public:
   explicit RowsOfNames(const Document& document) : document_(document) {}
 
-  DocumentList rows(const DocumentEntry& entry, DocumentList list) {
-    for (DocumentScalar& one : list)
-      if (const auto* text = std::get_if<std::string>(&one)) {
-        const auto integer = integer_of<std::int64_t>(*text);
-        one = integer ? *integer : row(entry, *text);
+  NamedRows rows(const DocumentEntry& entry, const DocumentList& list, SeveralRows several) {
+    NamedRows found;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto* text = std::get_if<std::string>(&list[i]);
+      const auto integer = text == nullptr ? std::nullopt : integer_of<std::int64_t>(*text);
+      std::vector<std::int64_t> rows;
+      if (text != nullptr && !integer) rows = rows_named(entry, *text, several);
+      const std::size_t count = std::max<std::size_t>(1, rows.size());
+      for (std::size_t k = 0; k < count; ++k) {
+        found.rows.push_back(integer ? DocumentScalar(*integer) : text ? DocumentScalar(rows[k]) : list[i]);
+        found.names.push_back(i);
+        found.parts.push_back(1.0 / double(count));
       }
-    return list;
+    }
+    return found;
   }
 
  private:
-  std::int64_t row(const DocumentEntry& entry, const std::string& text) {
+  std::vector<std::int64_t> rows_named(const DocumentEntry& entry, const std::string& text,
+                                       SeveralRows several) {
     const auto named = named_dof(text);
     if (!named)
       fail_at(
@@ -91,11 +141,12 @@ class RowsOfNames {
       fail_at(document_, entry,
               fmt::format("\"{}\": expected no sign here; coefficients has the signs", text));
     const fem::DofMap& map = read_once(entry);
-    const int found = map.row(named->dof);
-    if (found < 0) fail_at(document_, entry, absent_text(map, named->dof));
-    if (!named->numbered && map.copies(named->dof) > 1)
+    std::vector<std::int64_t> rows;
+    for (const int row : rows_of(map, *named)) rows.push_back(named->sign * (row + std::int64_t{1}));
+    if (rows.empty()) fail_at(document_, entry, absent_text(map, named->dof, path_));
+    if (rows.size() > 1 && several == SeveralRows::refused)
       fail_at(document_, entry, several_text(map, named->dof));
-    return named->sign * (found + std::int64_t{1});
+    return rows;
   }
 
   /// The entry of a key whose value is the name of a file, or null.
@@ -132,26 +183,9 @@ class RowsOfNames {
     for (dof.copy = 1; dof.copy <= std::min(copies, shown); ++dof.copy)
       rows.push_back(fmt::format("\"{}\" (row {})", map.name(map.row(dof)), map.row(dof) + 1));
     return fmt::format(
-        "{} rows of {} have that name, as those of shells and beams that are expanded to solids; expected one of {}{}",
+        "{} rows of {} have that name, as those of shells and beams that are expanded to solids; expected one of "
+        "{}{}; the contact of [[contact.pairs]] takes their mean",
         copies, path_, fmt::join(rows, ", "), copies > shown ? ", ..." : "");
-  }
-
-  std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof) const {
-    if (const int copies = map.copies(dof); copies > 0)
-      return fmt::format("there {} {} row{} of that name in {}; expected no #{}", copies == 1 ? "is" : "are",
-                         copies, copies == 1 ? "" : "s", path_, dof.copy);
-    std::vector<std::string> present;
-    for (const int direction : map.directions(dof.node)) {
-      const std::string name = map.name(map.row({dof.node, direction}));
-      present.push_back(name.substr(name.rfind(' ') + 1));
-    }
-    if (present.empty())
-      return fmt::format(
-          "node {} is not in {}; expected one that has rows of the matrices, which a node that "
-          "is held does not",
-          dof.node, path_);
-    return fmt::format("node {} does not move that way in {}; expected one of {}", dof.node, path_,
-                       fmt::join(present, ", "));
   }
 
   const Document& document_;
@@ -159,21 +193,86 @@ class RowsOfNames {
   std::optional<fem::DofMap> map_;
 };
 
+bool has_text(const Document& document, const std::string& section, std::string_view key,
+              std::string_view text) {
+  const DocumentEntry* entry = document.find(section, key);
+  return entry != nullptr && entry->value == DocumentValue(std::string(text));
+}
+
+SeveralRows several_rows_in(const Document& document, const DocumentEntry& entry) {
+  if (is_pair_section(entry.section)) return SeveralRows::mean;
+  if (entry.key == "load_dofs") return SeveralRows::mean;
+  if (!is_term_section(entry.section) || has_text(document, entry.section, "kind", "unbalance"))
+    return SeveralRows::refused;
+  const bool moves = has_text(document, entry.section, "kind", "base_displacement") ||
+                     has_text(document, entry.section, "kind", "base_acceleration");
+  return moves ? SeveralRows::all : SeveralRows::mean;
+}
+
+/// The key of the weights of a list of degrees of freedom.
+std::string weights_key(const std::string& key) {
+  return key == "dofs" ? "coefficients" : key == "load_dofs" ? "load_coefficients" : key + "_coefficients";
+}
+
+/// The weights of each row of `found`, from those of its names: the given ones, or those that are usual.
+DocumentList weights_of(const NamedRows& found, const DocumentEntry* given, bool pair) {
+  const auto* list = given == nullptr ? nullptr : std::get_if<DocumentList>(&given->value);
+  const std::size_t names = found.names.back() + 1;
+  DocumentList weights;
+  for (std::size_t i = 0; i < found.rows.size(); ++i) {
+    const std::size_t name = found.names[i];
+    double weight = pair && names == 2 && name == 1 ? -1.0 : 1.0;  // two places that face each other
+    if (list != nullptr)
+      if (const auto* number = std::get_if<double>(&(*list)[name])) weight = *number;
+    if (list != nullptr)
+      if (const auto* integer = std::get_if<std::int64_t>(&(*list)[name])) weight = double(*integer);
+    weights.emplace_back(weight * found.parts[i]);
+  }
+  return weights;
+}
+
+/// Sets the weights beside a list whose names are means of several rows. A list of weights of another length
+/// is an error that is told later.
+void set_weights(Document& document, const DocumentEntry& entry, const NamedRows& found) {
+  const std::string key = weights_key(entry.key);
+  const bool pair = is_pair_section(entry.section);
+  const DocumentEntry* given = document.find(entry.section, key);
+  const std::size_t names = found.names.back() + 1;
+  if (given == nullptr && pair && names > 2) return;  // missing
+  const auto* list = given == nullptr ? nullptr : std::get_if<DocumentList>(&given->value);
+  if (given != nullptr &&
+      (list == nullptr || list->size() != names || std::ranges::any_of(*list, [](const DocumentScalar& one) {
+         return std::holds_alternative<std::string>(one);
+       })))
+    return;
+  DocumentList weights = weights_of(found, given, pair);
+  if (given == nullptr)
+    document.entries.push_back({entry.section, key, std::move(weights), "", entry.line, entry.override});
+  else
+    document.entries[std::size_t(given - document.entries.data())].value = std::move(weights);
+}
+
 }  // namespace
 
 Document with_rows_for_names(Document document) {
   const DocumentEntry* type = document.find("structure", "type");
   if (type == nullptr || type->value != DocumentValue("matrices")) return document;
   RowsOfNames names(document);
-  std::vector<std::pair<std::size_t, DocumentList>> found;
+  std::vector<std::pair<std::size_t, NamedRows>> found;
   for (std::size_t i = 0; i < document.entries.size(); ++i) {
     const DocumentEntry& entry = document.entries[i];
     const auto* list = std::get_if<DocumentList>(&entry.value);
-    if (list == nullptr || !is_list_of_dofs(entry)) continue;
+    if (list == nullptr || list->empty() || !is_list_of_dofs(entry)) continue;
     const auto is_number = [](const DocumentScalar& one) { return std::holds_alternative<double>(one); };
-    if (std::ranges::none_of(*list, is_number)) found.emplace_back(i, names.rows(entry, *list));
+    if (std::ranges::none_of(*list, is_number))
+      found.emplace_back(i, names.rows(entry, *list, several_rows_in(document, entry)));
   }
-  for (auto& [index, rows] : found) document.entries[index].value = std::move(rows);
+  for (auto& [index, rows] : found) {
+    const DocumentEntry entry = document.entries[index];
+    if (rows.means() && several_rows_in(document, entry) == SeveralRows::mean)
+      set_weights(document, entry, rows);
+    document.entries[index].value = std::move(rows.rows);
+  }
   return document;
 }
 

@@ -47,11 +47,22 @@ void check_not_driven(const std::vector<int>& dofs, const StructureFiles& files,
                            dof));
 }
 
+void check_coefficients(const std::vector<double>& coefficients, const std::vector<int>& dofs,
+                        const std::string& key, const std::string& dofs_name) {
+  if (!coefficients.empty() && coefficients.size() != dofs.size())
+    throw StructureFault(key, fmt::format("there are {}; expected one for each of {} {}", coefficients.size(),
+                                          dofs.size(), dofs_name));
+}
+
 void check_terms(const Scene& scene, const StructureFiles& files) {
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
     const ForcingTerm& term = scene.forcing.terms[i];
     const std::string key = term_section(i) + ".dofs";
     check_dofs(term.dofs, files.file_rows(), key);
+    const std::string coefficients = term_section(i) + ".coefficients";
+    check_coefficients(term.coefficients, term.dofs, coefficients, "dofs");
+    if (!term.coefficients.empty() && term.kind != LoadKind::force)
+      throw StructureFault(coefficients, "only with kind = \"force\"");
     if (term.kind == LoadKind::base_acceleration)
       check_not_driven(term.dofs, files, key);  // rows that are held move with the base
     else if (term.kind != LoadKind::base_displacement)
@@ -82,10 +93,13 @@ void check_place(const Scene& scene) {
                          "say where the force acts");
 }
 
-/// 1 or -1 at each of `dofs`, an entry per row of the files.
-Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const StructureFiles& files) {
+/// Of each of `dofs`, an entry per row of the files: 1 or -1, times its coefficient where there are some.
+Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const std::vector<double>& coefficients,
+                               const StructureFiles& files) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());
-  for (const int dof : dofs) values[std::abs(dof) - 1] = dof > 0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < dofs.size(); ++i)
+    values[std::abs(dofs[i]) - 1] =
+        (dofs[i] > 0 ? 1.0 : -1.0) * (coefficients.empty() ? 1.0 : coefficients[i]);
   return values;
 }
 
@@ -93,6 +107,8 @@ Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const StructureFile
 
 void check_loads(const Scene& scene, const StructureFiles& files) {
   check_dofs(scene.forcing.load_dofs, files.file_rows(), "forcing.load_dofs");
+  check_coefficients(scene.forcing.load_coefficients, scene.forcing.load_dofs, "forcing.load_coefficients",
+                     "load_dofs");
   check_unknown(scene.forcing.load_dofs, files, "forcing.load_dofs");
   check_terms(scene, files);
   check_weight(scene, files);
@@ -134,13 +150,17 @@ void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, st
 
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files) {
   if (files.load.size() > 0) return files.load;
-  return forces_at_dofs(scene.forcing.load_dofs, files);
+  return forces_at_dofs(scene.forcing.load_dofs, files, scene.forcing.load_coefficients);
+}
+
+Eigen::VectorXd base_direction(const ForcingTerm& term, const StructureFiles& files) {
+  if (term.direction.empty()) return signs_in_files(term.dofs, {}, files);
+  const double sign = term.direction.front() == '-' ? -1.0 : 1.0;
+  return sign * files.rows_along(term.direction.back() - 'x');
 }
 
 Eigen::VectorXd inertia_of(const ForcingTerm& term, const StructureFiles& files) {
-  if (term.direction.empty()) return files.inertia(signs_in_files(term.dofs, files));
-  const double sign = term.direction.front() == '-' ? -1.0 : 1.0;
-  return files.inertia(sign * files.rows_along(term.direction.back() - 'x'));
+  return files.inertia(base_direction(term, files));
 }
 
 Eigen::VectorXd weight_of(const Forcing& forcing, const StructureFiles& files) {
@@ -155,11 +175,12 @@ Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const Structu
                          const Eigen::VectorXd& elsewhere) {
   const ForcingTerm& one = forcing.terms[term];
   if (!one.load.empty()) return files.term_loads[term];
-  return one.dofs.empty() ? elsewhere : forces_at_dofs(one.dofs, files);
+  return one.dofs.empty() ? elsewhere : forces_at_dofs(one.dofs, files, one.coefficients);
 }
 
-Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files) {
-  return files.forces_at_unknowns(signs_in_files(dofs, files));
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files,
+                               const std::vector<double>& coefficients) {
+  return files.forces_at_unknowns(signs_in_files(dofs, coefficients, files));
 }
 
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {

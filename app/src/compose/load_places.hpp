@@ -26,6 +26,9 @@ inline constexpr int most_loaded_dofs = 30;
 /// The force of amplitude 1 on all n degrees of freedom; zero where the scene gives it no place.
 Eigen::VectorXd unit_load(const Scene& scene, const StructureFiles& files);
 
+/// r of a base acceleration with an entry per row of the files: 1 along its direction, or 1 or -1 at its
+/// dofs; of a base displacement at the rows that move.
+Eigen::VectorXd base_direction(const ForcingTerm& term, const StructureFiles& files);
 /// M r of a base acceleration, n values, kg: r is 1 along its direction, or 1 or -1 at its dofs.
 Eigen::VectorXd inertia_of(const ForcingTerm& term, const StructureFiles& files);
 /// M g of forcing.weight, n values, N; without one no values.
@@ -34,7 +37,9 @@ Eigen::VectorXd weight_of(const Forcing& forcing, const StructureFiles& files);
 /// own.
 Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const StructureFiles& files,
                          const Eigen::VectorXd& elsewhere);
-/// 1 or -1 as a force at each of `dofs`, from 1 with a sign, which rows without mass pass on.
-Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files);
+/// 1 or -1, times its coefficient where there are some, as a force at each of `dofs`, from 1 with a sign,
+/// which rows without mass pass on.
+Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files,
+                               const std::vector<double>& coefficients = {});
 
 }  // namespace wavebalance::app

@@ -1,17 +1,22 @@
 #include "wavebalance/app/compose/outputs.hpp"
 
-#include <algorithm>
-#include <cstdlib>
+#include <fmt/format.h>
 
-#include "compose/load_places.hpp"
+#include <algorithm>
+#include <charconv>
+
+#include "compose/dof_names.hpp"
+#include "compose/loads.hpp"
 #include "compose/scene_rules.hpp"
 #include "compose/structure_facts.hpp"
 #include "compose/structure_files.hpp"
+#include "compose/support_motion.hpp"
 #include "files/contains.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
+#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -21,19 +26,78 @@ bool is_rotation(const StructureFiles& files, int row) {
   return direction > 3 && direction <= 6;
 }
 
-Output output_of(const Scene& scene, int dof) {
-  Output output;
-  output.dof = dof;
-  if (scene.structure.type == StructureType::matrices) {
-    const auto files = structure_files(scene);
-    output.name = files->row_name(std::abs(dof) - 1);
-    if (is_rotation(*files, std::abs(dof) - 1)) output.unit = "rad";
+[[noreturn]] void fail_at_place(const OutputWords& words) {
+  throw std::invalid_argument(fmt::format(
+      "\"{}\" is no place; expected \"row 7\", a node of structure.dof_map such as \"node 1042 z\", or \"node 3\" of "
+      "a bar",
+      words.place));
+}
+
+/// The whole number at the end of "row 7"; none in other texts.
+std::optional<int> number_after(std::string_view text, std::string_view noun) {
+  if (!text.starts_with(noun)) return std::nullopt;
+  text.remove_prefix(noun.size());
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+void set_numbered_place(Output& output, int number, int size) {
+  if (number < 1 || number > size)
+    throw std::invalid_argument(
+        fmt::format("there is no degree of freedom {}; expected 1..{}", number, size));
+  output.rows = {number - 1};
+}
+
+/// The rows of a place, and its name: that of the dof map where it has the row.
+void set_place(Output& output, OutputWords& words, const Scene& scene, bool& rotation) {
+  const bool negative = words.place.starts_with('-');
+  std::string place = negative ? words.place.substr(1) : words.place;
+  if (scene.structure.type != StructureType::matrices) {
+    const std::optional<int> node = number_after(place, "node ");
+    if (!node) fail_at_place(words);
+    set_numbered_place(output, *node, scene.structure.elements);
   } else {
-    output.name = "node " + std::to_string(std::abs(dof));
+    const auto files = structure_files(scene);
+    const auto named = named_dof(place);
+    if (named && !files->dof_map)
+      throw std::invalid_argument("names a node, but the scene has no structure.dof_map; expected this file");
+    if (named) {
+      output.rows = rows_of(*files->dof_map, *named);
+      if (output.rows.empty())
+        throw std::invalid_argument(
+            absent_text(*files->dof_map, named->dof, scene.structure.matrices.dof_map));
+    } else {
+      const std::optional<int> row = number_after(place, "row ");
+      if (!row) fail_at_place(words);
+      set_numbered_place(output, *row, int(files->file_rows()));
+    }
+    if (output.rows.size() == 1) place = files->row_name(output.rows.front());
+    rotation = is_rotation(*files, output.rows.front());
+    for (const int row : output.rows)
+      if (std::binary_search(files->moving.begin(), files->moving.end(), row))
+        throw std::invalid_argument(fmt::format(
+            "degree of freedom {} moves with a base displacement; expected one that does not", row + 1));
   }
-  if (dof < 0) output.name = "-" + output.name;
+  output.weight = (negative ? -1.0 : 1.0) / double(output.rows.size());
+  words.place = (negative ? "-" : "") + place;
+}
+
+Output output_of(const Scene& scene, const std::string& text) {
+  OutputWords words = output_words(text);
+  Output output;
+  bool rotation = false;
+  set_place(output, words, scene, rotation);
+  const OutputUnit& unit = output_unit(words, rotation);
+  output.name = output_name(words);
   output.title = output.name;
   output.column = column_of(output.name);
+  output.unit = unit.name == "um" ? "µm" : std::string(unit.name);
+  output.suffix = unit.suffix;
+  output.size = unit.size;
+  output.derivative = derivative_of(words.quantity);
+  set_frame(output, words, scene);
   return output;
 }
 
@@ -64,6 +128,15 @@ std::string column_of(const std::string& name) {
   return column;
 }
 
+std::string Output::column_of(const std::string& value) const {
+  return column + "_" + value + (suffix.empty() ? "" : "_" + suffix);
+}
+
+std::string Output::quantity_words(const std::string& of_displacement) const {
+  if (!over.empty()) return "Transmissibility";
+  return derivative == 0 ? of_displacement : derivative == 1 ? "Velocity" : "Acceleration";
+}
+
 std::string displacement_unit(const Scene& scene, const SceneContact& contact) {
   if (scene.structure.type != StructureType::matrices) return "m";
   const auto files = structure_files(scene);
@@ -79,27 +152,36 @@ std::string displacement_unit(const Scene& scene) {
 
 std::vector<Output> outputs_of(const Scene& scene) {
   std::vector<Output> outputs;
-  for (const int dof : scene.analysis.outputs) outputs.push_back(output_of(scene, dof));
+  for (const std::string& text : scene.analysis.outputs) outputs.push_back(output_of(scene, text));
   if (!scene.analysis.contact_outputs) return outputs;
   const std::vector<SceneContact> contacts = contacts_of(scene);
   std::vector<std::string> places;
   if (scene.structure.type == StructureType::matrices) places = contact_names(scene);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const std::string name = name_of(contacts[i]);
-    const std::string title = places.empty() ? name : name + ", " + places[i];
+    const bool placed = !places.empty() && contacts[i].name.empty();
+    const std::string title = placed ? name + ", " + places[i] : name;
     outputs.push_back({.name = name,
                        .title = title,
                        .column = column_of(name),
                        .unit = displacement_unit(scene, contacts[i]),
+                       .suffix = displacement_unit(scene, contacts[i]),
                        .contact = static_cast<int>(i),
+                       .number = number_text_of(contacts[i]),
                        .closed_by = closing_direction(contacts[i], static_cast<int>(i))});
   }
   return outputs;
 }
 
+std::string peak_name(const Scene& scene) {
+  if (scene.analysis.peak_of.empty()) return "";
+  return output_name(output_words(scene.analysis.peak_of));
+}
+
 std::optional<std::size_t> leading_output(const std::vector<Output>& outputs, const Scene& scene) {
+  const std::string wanted = peak_name(scene);
   for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (outputs[i].name == scene.analysis.peak_of) return i;
+    if (!wanted.empty() && (outputs[i].name == wanted || outputs[i].number == wanted)) return i;
   if (outputs.empty() || outputs.front().is_contact()) return std::nullopt;
   return 0;
 }
@@ -111,38 +193,59 @@ Eigen::MatrixXd rows_of_outputs(const std::vector<Output>& outputs, const Scene&
   const auto files = matrices ? structure_files(scene) : nullptr;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].is_contact()) continue;
-    const int row = std::abs(outputs[i].dof) - 1;
-    const Eigen::RowVectorXd unknowns =
-        matrices ? row_of_unknowns(*files, row) : Eigen::RowVectorXd::Unit(model.unknowns, row);
-    rows.row(Eigen::Index(i)) = (outputs[i].dof < 0 ? -1.0 : 1.0) *
-                                (model.reduced() ? Eigen::RowVectorXd(unknowns * model.recovery) : unknowns);
+    Eigen::RowVectorXd unknowns = Eigen::RowVectorXd::Zero(model.unknowns);
+    for (const int row : outputs[i].rows)
+      unknowns += outputs[i].weight *
+                  (matrices ? row_of_unknowns(*files, row) : Eigen::RowVectorXd::Unit(model.unknowns, row));
+    rows.row(Eigen::Index(i)) = model.reduced() ? Eigen::RowVectorXd(unknowns * model.recovery) : unknowns;
   }
   return rows;
 }
 
 namespace {
 
-void check_output_dofs(const Document& document, const Scene& scene) {
-  const std::vector<int>& outputs = scene.analysis.outputs;
-  try {
-    if (scene.structure.type == StructureType::matrices) {
-      const auto files = structure_files(scene);
-      check_dofs(outputs, files->file_rows(), "analysis.outputs");
-      check_unknown(outputs, *files, "analysis.outputs");
-    } else {
-      check_dofs(outputs, scene.structure.elements, "analysis.outputs");
+/// Balances of other bases have no second derivative at a point, and impacts none at all.
+void check_acceleration(const Document& document, const Scene& scene) {
+  if (has_impacts(scene.contact))
+    fail_rule(document, {"analysis.outputs"},
+              "an impact has no finite acceleration; expected velocities, or contact.restitution left out");
+  const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_by_phases(scene) &&
+                        !scene.analysis.exact && !scene.time.trial.empty();
+  if (by_bases && is_wavelet(scene.time.trial))
+    fail_rule(document, {"analysis.outputs"},
+              "functions of time.trial = \"" + scene.time.trial +
+                  "\" have no second derivative at each instant; expected time.trial = \"fourier\" beside an "
+                  "acceleration");
+}
+
+void check_output_words(const Document& document, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const std::string& text : scene.analysis.outputs) {
+    try {
+      const Output output = output_of(scene, text);
+      std::string name = output.name;  // whatever its sign
+      std::erase(name, '-');
+      if (contains(names, name)) throw std::invalid_argument(name + " is there twice; expected each once");
+      names.push_back(name);
+      if (output.derivative == 2) check_acceleration(document, scene);
+    } catch (const std::invalid_argument& error) {
+      fail_rule(document, {"analysis.outputs"}, toml_text(text) + ": " + error.what());
+    } catch (const StructureFault& fault) {
+      fail_rule(document, {fault.key()}, fault.what());
+    } catch (const SamplesFault& fault) {
+      fail_rule(document, {"forcing.terms"}, fault.what());
     }
-  } catch (const StructureFault& fault) {
-    fail_rule(document, {fault.key()}, fault.what());
   }
 }
 
 void check_peak(const Document& document, const Scene& scene) {
-  const std::string& wanted = scene.analysis.peak_of;
-  if (wanted.empty()) return;
+  if (scene.analysis.peak_of.empty()) return;
+  const std::string wanted = peak_name(scene);
   std::vector<std::string> names;
-  for (const Output& output : outputs_of(scene)) names.push_back(output.name);
-  if (contains(names, wanted)) return;
+  for (const Output& output : outputs_of(scene)) {
+    if (output.name == wanted || output.number == wanted) return;
+    names.push_back(output.name);
+  }
   fail_rule(document, {"analysis.peak_of"},
             names.empty() ? "there are no outputs; expected analysis.outputs or contact_outputs beside it"
                           : "expected one of the outputs, which are " + joined(names));
@@ -152,7 +255,7 @@ void check_peak(const Document& document, const Scene& scene) {
 
 void check_outputs(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
-  if (!analysis.outputs.empty()) check_output_dofs(document, scene);
+  check_output_words(document, scene);
   check_peak(document, scene);
   if (!analysis.has_outputs()) return;
   const bool response =

@@ -82,6 +82,24 @@ Eigen::VectorXd circulatory_compliances(const fem::Matrices& matrices,
   return condensation.dynamic_compliance({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).compliance.diagonal().real();
 }
 
+/// How many of `dofs` from one on are all rows of one name, as of an expanded beam; 1 where it stands alone.
+std::size_t copies_from(const StructureFiles& files, const std::vector<int>& dofs, std::size_t from) {
+  if (!files.dof_map) return 1;
+  fem::NodeDof dof = files.dof_map->dof(dofs[from] - 1);
+  const auto copies = std::size_t(files.dof_map->copies(dof));
+  for (std::size_t i = 0; i < copies; ++i) {
+    dof.copy = int(i) + 1;
+    if (from + i >= dofs.size() || files.dof_map->row(dof) != dofs[from + i] - 1) return 1;
+  }
+  return copies;
+}
+
+/// "node 7 z", also of all of its rows.
+std::string name_from(const StructureFiles& files, const std::vector<int>& dofs, std::size_t from) {
+  const std::string name = files.row_name(dofs[from] - 1);
+  return copies_from(files, dofs, from) > 1 ? name.substr(0, name.find(" #")) : name;
+}
+
 }  // namespace
 
 std::vector<std::string> contact_names(const Scene& scene) {
@@ -93,7 +111,8 @@ std::vector<std::string> contact_names(const Scene& scene) {
       continue;
     }
     std::vector<std::string> rows;
-    for (const int dof : contact.dofs) rows.push_back(files->row_name(dof - 1));
+    for (std::size_t i = 0; i < contact.dofs.size(); i += copies_from(*files, contact.dofs, i))
+      rows.push_back(name_from(*files, contact.dofs, i));
     const bool negative = contact.coefficients.front() < 0.0 && (!contact.pair || contact.dofs.size() == 1);
     const std::size_t more = rows.size() > most_rows_named ? rows.size() - (most_rows_named - 1) : 0;
     rows.resize(rows.size() - more);

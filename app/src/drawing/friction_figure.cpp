@@ -31,8 +31,7 @@ std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
   std::vector<Loop> loops;
   for (const FrictionMeasures& one : contacts)
     for (int i = 0; i < one.law.tangents() && loops.size() < most_loops; ++i)
-      loops.push_back({"contact " + std::to_string(one.number) +
-                           (one.law.tangents() > 1 ? ", tangent " + std::to_string(i + 1) : ""),
+      loops.push_back({one.name + (one.law.tangents() > 1 ? ", tangent " + std::to_string(i + 1) : ""),
                        one.row + one.law.normal_rows() + i});
   return loops;
 }

@@ -35,7 +35,7 @@ Figure motions_figure(const Scene& scene, const Motions& all) {
   }
   const Scale length = axis_scale(reach), speed = axis_scale(fastest);
   const std::vector<SceneContact> contacts = contact_places(scene);
-  const std::string name = contacts.size() > 1 ? " of " + plain(title_of(contacts[std::size_t(row)])) : "";
+  const std::string name = contacts.size() > 1 ? " of " + plain(name_of(contacts[std::size_t(row)])) : "";
   const std::string unit = displacement_unit(scene, contacts[std::size_t(row)]);
   figure.title = all.motions.size() > count ? "The first " + std::to_string(count) + " motions" : "";
   figure.panel_width = 600;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 
 #include "drawing/sweep_lines.hpp"
+#include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
 
 namespace wavebalance::app {
@@ -33,10 +36,17 @@ void add_line(Panel& panel, const SweepLine& line, std::size_t output, double fa
 }
 
 /// The multiple of the unit in which the vibration along all curves is readable.
-Scale scale_of(const std::vector<SweepLine>& lines, std::optional<std::size_t> output) {
+Scale scale_of(const std::vector<SweepLine>& lines, std::optional<std::size_t> output,
+               const std::string& unit) {
   double largest = 0.0;
   for (const SweepLine& line : lines) largest = largest_of(line.vibration(output), largest);
-  return axis_scale(largest);
+  return axis_scale(largest, unit);
+}
+
+/// "Velocity (mm/s)", "Transmissibility".
+std::string ordinate(const Output& output, const Scale& scale, const std::string& of_displacement) {
+  const std::string words = output.quantity_words(of_displacement);
+  return output.unit.empty() ? words : words + " (" + scale.prefix + output.unit + ")";
 }
 
 /// Special points of a curve that is drawn: those of outputs between its points beside them.
@@ -76,6 +86,86 @@ Figure empty_figure(const std::string& title, std::size_t outputs) {
   return figure;
 }
 
+/// The amplitudes of the harmonics of an output along the curve, where there are several.
+void add_harmonics(Figure& figure, const Sweep& sweep, const SweepLine& line, const Output& output,
+                   std::size_t index) {
+  constexpr int most = 5;
+  double largest = 0.0;
+  std::vector<std::vector<double>> amplitudes;
+  for (int n = 1; n <= most; ++n) {
+    amplitudes.push_back(line.harmonic(index, n));
+    if (std::ranges::none_of(amplitudes.back(), [](double one) { return std::isfinite(one); })) break;
+    largest = largest_of(amplitudes.back(), largest);
+  }
+  if (amplitudes.size() < 3) return;  // the last is none, or the most
+  const Scale scale = axis_scale(largest, output.unit);
+  Panel& panel = figure.add_panel("Harmonics of " + plain(output.title));
+  panel.x.label = sweep_axis(sweep).label();
+  panel.y.label = ordinate(output, scale, "Amplitude");
+  panel.y.lower = 0.0;
+  for (std::size_t n = 0; n < amplitudes.size(); ++n)
+    if (Series series = line.series("harmonic " + std::to_string(n + 1), amplitudes[n], scale.factor);
+        largest_of(series.y, 0.0) > 0.0) {
+      series.colour = Colour::automatic;
+      panel.add(std::move(series));
+    }
+}
+
+/// A value of each contact along the main curve, in a panel with the contacts in its legend.
+void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<SceneContact>& contacts,
+                       const std::string& title, const std::string& quantity, const std::string& unit,
+                       const std::function<double(std::size_t point, std::size_t contact)>& value) {
+  constexpr std::size_t most = 7;  // colours
+  std::vector<Series> drawn;
+  double largest = 0.0;
+  for (std::size_t k = 0; k < contacts.size() && drawn.size() < most; ++k) {
+    if (contacts[k].place > 0) continue;
+    Series series(plain(whole_name_of(contacts[k])), SeriesStyle::line);
+    for (std::size_t i = 0; i < sweep.curve.points.size(); ++i)
+      series.append(parameter_of(sweep.curve.points[i], sweep.curve.parameter), value(i, k));
+    if (std::ranges::none_of(series.y, [](double one) { return std::isfinite(one); })) continue;
+    largest = largest_of(series.y, largest);
+    drawn.push_back(std::move(series));
+  }
+  if (!(largest > 0.0)) return;
+  const bool cubic = unit.starts_with("m^3");  // whose prefixes would be cubed
+  const Scale scale = cubic ? Scale() : axis_scale(largest);
+  Panel& panel = figure.add_panel(title);
+  panel.x.label = sweep_axis(sweep).label();
+  panel.y.label = quantity + " (" + scale.prefix + unit + ")";
+  panel.y.lower = 0.0;
+  for (Series& series : drawn) {
+    for (double& y : series.y) y *= scale.factor;
+    panel.add(std::move(series));
+  }
+}
+
+/// Work and wear of friction, or speeds of impacts, of each contact along the main curve.
+void add_each_contact(Figure& figure, const Sweep& sweep, const std::vector<SceneContact>& contacts) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const auto friction = [&](std::size_t i, std::size_t k) -> const ContactWork* {
+    if (sweep.friction.empty() || i >= sweep.friction.front().size()) return nullptr;
+    const std::vector<ContactWork>& each = sweep.friction.front()[i].each;
+    const auto found = std::ranges::find(each, contacts[k].number, &ContactWork::number);
+    return found == each.end() ? nullptr : &*found;
+  };
+  add_contact_panel(figure, sweep, contacts, "Work of friction in a period", "Work", "J",
+                    [&](std::size_t i, std::size_t k) {
+                      const ContactWork* one = friction(i, k);
+                      return one == nullptr ? none : one->work;
+                    });
+  add_contact_panel(figure, sweep, contacts, "Wear", "Wear", "m^3/s", [&](std::size_t i, std::size_t k) {
+    const ContactWork* one = friction(i, k);
+    return one == nullptr || !one->wears ? none : one->wear * sweep.curve.points[i].frequency / sweep.periods;
+  });
+  add_contact_panel(figure, sweep, contacts, "Speed of impacts", "Largest speed", "m/s",
+                    [&](std::size_t i, std::size_t k) {
+                      if (sweep.impacts.empty() || i >= sweep.impacts.front().size()) return none;
+                      const std::vector<double>& speeds = sweep.impacts.front()[i].speeds;
+                      return k < speeds.size() ? speeds[k] : 0.0;
+                    });
+}
+
 }  // namespace
 
 void scale_amplitudes(Figure& figure, const SweepAxis& axis) {
@@ -95,30 +185,36 @@ void scale_amplitudes(Figure& figure, const SweepAxis& axis) {
 
 Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output) {
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
-  const Scale scale = scale_of(lines, output);
+  const Output* drawn = output ? &outputs.outputs[*output] : nullptr;
+  const Scale scale = scale_of(lines, output, drawn == nullptr ? "m" : drawn->unit);
   Panel panel;
-  panel.title =
-      "Vibration of " + (output ? plain(outputs.outputs[*output].title) : std::string("the contacts"));
+  panel.title = drawn == nullptr          ? "Vibration of the contacts"
+                : drawn->names_quantity() ? capitalised(plain(drawn->title))
+                                          : "Vibration of " + plain(drawn->title);
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label =
-      "Vibration (" + scale.prefix + (output ? outputs.outputs[*output].unit : std::string("m")) + ")";
+      drawn == nullptr ? "Vibration (" + scale.prefix + "m)" : ordinate(*drawn, scale, "Vibration");
   panel.y.lower = 0.0;
   draw_vibrations(panel, lines, output, scale.factor);
   return panel;
 }
 
-Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs) {
+Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
+                      const std::vector<SceneContact>& contacts) {
   Figure figure =
       empty_figure("Vibration of each output, half its peak-to-peak value", outputs.outputs.size());
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
   for (std::size_t i = 0; i < std::min(outputs.outputs.size(), most_drawn_outputs); ++i) {
-    const Scale scale = scale_of(lines, i);
+    const Scale scale = scale_of(lines, i, outputs.outputs[i].unit);
     Panel& panel = figure.add_panel(plain(outputs.outputs[i].title));
     panel.x.label = sweep_axis(sweep).label();
-    panel.y.label = "Vibration (" + scale.prefix + outputs.outputs[i].unit + ")";
+    panel.y.label = ordinate(outputs.outputs[i], scale, "Vibration");
     panel.y.lower = 0.0;
     for (const SweepLine& line : lines) add_line(panel, line, i, scale.factor);
   }
+  for (std::size_t i = 0; i < std::min(outputs.outputs.size(), most_drawn_harmonics); ++i)
+    if (!outputs.outputs[i].is_contact()) add_harmonics(figure, sweep, lines.front(), outputs.outputs[i], i);
+  if (!outputs.outputs.front().is_contact()) add_each_contact(figure, sweep, contacts);
   scale_amplitudes(figure, sweep_axis(sweep));
   return figure;
 }
@@ -128,10 +224,10 @@ Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd&
   Figure figure = empty_figure("Motion of each output", outputs.size());
   for (std::size_t i = 0; i < std::min(outputs.size(), most_drawn_outputs); ++i) {
     const auto row = motion.row(Eigen::Index(i));
-    const Scale scale = axis_scale(row.cwiseAbs().maxCoeff());
+    const Scale scale = axis_scale(row.cwiseAbs().maxCoeff(), outputs[i].unit);
     Panel& panel = figure.add_panel(plain(outputs[i].title));
     panel.x = window.axis();
-    panel.y.label = "Displacement (" + scale.prefix + outputs[i].unit + ")";
+    panel.y.label = ordinate(outputs[i], scale, "Displacement");
     Series series = window.curve(scale.factor * row.transpose());
     series.colour = Colour::blue;
     panel.add(std::move(series));

@@ -6,15 +6,19 @@
 #include "drawing/period_window.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
 #include "wavebalance/app/plot/plot.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 
 /// Outputs that one picture shows, a panel each.
 inline constexpr std::size_t most_drawn_outputs = 12;
+/// Those whose harmonics are drawn.
+inline constexpr std::size_t most_drawn_harmonics = 4;
 
 /// Half the peak-to-peak value of each output along a sweep, its branches and isolas: the vibration apart
 /// from what static loads deflect. Dashed where motions are unstable.
-Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs);
+Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
+                      const std::vector<SceneContact>& contacts);
 
 /// Takes the amplitudes over which `figure` draws a sweep to a readable multiple of their unit.
 void scale_amplitudes(Figure& figure, const SweepAxis& axis);

@@ -203,7 +203,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   const SceneContact& contact = contacts.at(static_cast<std::size_t>(response.contact));
   const PeriodWindow window(response);
   const MotionPicture picture{response, window, contact_spans(scene, response, window),
-                              contacts.size() > 1 ? ", " + plain(title_of(contact)) : ""};
+                              contacts.size() > 1 ? ", " + plain(name_of(contact)) : ""};
   const std::string unit = displacement_unit(scene, contact), force_unit = unit == "rad" ? "N m" : "N";
   add_motion(figure, picture, "Displacement", unit, response.displacement());
   if (response.impacts || !response.struck.empty()) {
@@ -362,8 +362,9 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   const std::optional<std::size_t> output = leading_output(outputs.outputs, scene);
   const bool about_a_mean = vibrates_about_a_mean(scene);
   if (output || about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, output));
+  if (output && about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, std::nullopt));
   // A rigid obstacle leaves a line at its gap, and without gaps the vibration of the contacts says it all.
-  const bool is_shown = output || !about_a_mean || has_gaps(scene);
+  const bool is_shown = !about_a_mean || has_gaps(scene);
   if (is_shown && !is_rigid(scene.contact.law)) add_displacements_along(figure, scene, sweep);
   if (!sweep.impacts.empty()) {
     add_impacts_along(figure, sweep, &PointImpacts::largest_impulse, "Impulses of impacts", "N s");
@@ -374,6 +375,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   else
     figure.panel_height = 320;
   scale_amplitudes(figure, sweep_axis(sweep));
+  if (scene.plot.log) take_logarithmic_ordinates(figure);
   return figure;
 }
 

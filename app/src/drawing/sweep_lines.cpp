@@ -23,6 +23,16 @@ std::vector<double> SweepLine::vibration(std::optional<std::size_t> output, bool
   return values;
 }
 
+std::vector<double> SweepLine::harmonic(std::size_t output, int n) const {
+  std::vector<double> values(curve.points.size(), std::nan(""));
+  for (std::size_t i = 0; measured != nullptr && i < std::min(values.size(), measured->size()); ++i) {
+    if ((*measured)[i].empty()) continue;
+    const Eigen::VectorXcd& harmonics = (*measured)[i][output].harmonics;
+    if (n <= harmonics.size()) values[i] = std::abs(harmonics[n - 1]);
+  }
+  return values;
+}
+
 Series SweepLine::series(const std::string& label, const std::vector<double>& values, double factor) const {
   Series drawn;
   drawn.label = label;

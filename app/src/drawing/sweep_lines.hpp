@@ -23,6 +23,8 @@ struct SweepLine {
   /// Half the peak-to-peak value at each point, or the rms without the mean, of an output or else of the
   /// contacts.
   std::vector<double> vibration(std::optional<std::size_t> output, bool rms = false) const;
+  /// The amplitude of harmonic `n` of the load, from 1, of an output at each point.
+  std::vector<double> harmonic(std::size_t output, int n) const;
   /// `values` at its points, times `factor`, over its frequencies or amplitudes.
   Series series(const std::string& label, const std::vector<double>& values, double factor) const;
   /// Its special points at the ordinates that `height` has for them.

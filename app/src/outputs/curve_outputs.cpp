@@ -5,6 +5,8 @@
 
 #include "analysis/exact_parts.hpp"
 #include "analysis/response_parts.hpp"
+#include "outputs/output_peaks.hpp"
+#include "outputs/point_measurer.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -14,77 +16,6 @@
 
 namespace wavebalance::app {
 namespace {
-
-/// Measures points of curves of one scene, over `periods` periods of the load.
-class PointMeasurer {
- public:
-  PointMeasurer(const Scene& scene, const StructureModel& model, const std::vector<Output>& outputs,
-                solvers::ContactProblem problem, int periods)
-      : outputs_(outputs),
-        harmonics_(scene.analysis.output_harmonics),
-        points_(scene.analysis.output_points),
-        periods_(periods),
-        over_amplitude_(scene.analysis.type == AnalysisType::amplitude_sweep),
-        impacts_alone_(solves_by_impacts(scene)),
-        problem_(std::move(problem)),
-        evaluate_(problem_.pair().trial(), points_),
-        rows_(rows_of_outputs(outputs, scene, model)) {}
-
-  /// Of a balance.
-  MeasuredPoint operator()(const solvers::FrequencySweep& curve, const solvers::SweepPoint& point) {
-    const solvers::PeriodicResponse response =
-        problem_.response(curve, parameter_of(point, curve.parameter), point.unknown);
-    const solvers::Motion contacts = problem_.motion(response, points_);
-    return measured(contacts.displacement, contacts.force, [&] {
-      const Eigen::MatrixXcd all = problem_.condensed().full_coefficients(response.force_on_held_structure);
-      return evaluate_((rows_ * all).transpose(), response.frequency).displacement;
-    });
-  }
-
-  /// Of an exact motion. The force of an impact is not known.
-  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
-    const Eigen::VectorXd times = time_fractions(points_);
-    const bool impulses = impacts_alone_ && motion.phases.empty();
-    return measured(motion.displacement(times), impulses ? Eigen::MatrixXd() : motion.force(times), [&] {
-      return Eigen::MatrixXd(rows_ *
-                             solvers::structure_phases(held_at(point), motion, points_, precision_of(motion))
-                                 .motion.displacement);
-    });
-  }
-
- private:
-  /// `structure` gives the rows of outputs that are no contacts.
-  template <class Structure>
-  MeasuredPoint measured(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& forces,
-                         const Structure& structure) const {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(rows_.rows(), points_);
-    if (!rows_.isZero(0.0)) rows = structure();
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      if (outputs_[i].is_contact()) rows.row(Eigen::Index(i)) = contacts.row(outputs_[i].contact);
-    return measure(outputs_, rows, forces, harmonics_, periods_);
-  }
-
-  // Relative errors of the displacements of contacts by the harmonics left out, below what a picture shows.
-  // Harmonics fall like 1 / n^4 with elastic contacts and like 1 / n^2 with impacts.
-  static solvers::StructurePhasesOptions precision_of(const solvers::PhaseMotion& motion) {
-    if (motion.impacts.empty()) return {.tolerance = 1e-6};
-    return {.tolerance = 1e-4, .max_harmonics = 2048};
-  }
-
-  solvers::CondensedProblem& held_at(const solvers::SweepPoint& point) {
-    solvers::CondensedProblem& problem = problem_.condensed();
-    problem.set_load_scale(over_amplitude_ ? point.load_scale : problem.full_load());
-    problem.set_load_frequency(point.frequency);
-    return problem;
-  }
-
-  const std::vector<Output>& outputs_;
-  int harmonics_, points_, periods_;
-  bool over_amplitude_, impacts_alone_;
-  solvers::ContactProblem problem_;
-  solvers::MotionEvaluator evaluate_;
-  Eigen::MatrixXd rows_;
-};
 
 /// What `measure` finds of each of so many points. Sets `cancelled` where the observer stops it.
 template <class Measure>
@@ -119,15 +50,6 @@ std::vector<MeasuredPoint> along_curve(const Scene& scene, const StructureModel&
                          periods == 1 ? std::move(problem) : problem.over_periods(periods), periods);
   return along(curve.points.size(), observer, cancelled,
                [&](std::size_t i) { return measurer(curve.points[i], sweep.exact_motions[number][i]); });
-}
-
-/// The point with the largest vibration of an output; nothing where none was measured.
-std::optional<std::size_t> highest(const std::vector<MeasuredPoint>& points, std::size_t output) {
-  std::optional<std::size_t> best;
-  const auto value = [&](std::size_t i) { return points[i][output].half_peak_to_peak(); };
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (!points[i].empty() && (!best || value(i) > value(*best))) best = i;
-  return best;
 }
 
 /// Empty where the exact motion is not known at the peak itself.
@@ -168,8 +90,13 @@ SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sw
   for (std::size_t i = 0; i <= sweep.branches.size(); ++i) found.curves.push_back(measured(sweep, i));
   for (const Sweep& isola : sweep.isolas) found.isolas.push_back(measured(isola, 0));
   found.exact_at_peak = exact_at_peak(scene, model, found.outputs, sweep);
-  for (std::size_t i = 0; i < found.outputs.size(); ++i)
-    if (found.outputs[i].name == scene.analysis.peak_of) sweep.peak_of_output = highest(found.curves[0], i);
+  if (!cancelled && !sweep.interrupted()) solve_for_peaks(scene, model, found, sweep, watch);
+  const std::string wanted = peak_name(scene);
+  for (std::size_t i = 0; i < found.outputs.size(); ++i) {
+    if (wanted.empty() || (found.outputs[i].name != wanted && found.outputs[i].number != wanted)) continue;
+    sweep.peak_of_output = highest(found.curves[0], i);
+    if (i < found.peaks.size() && found.peaks[i].at.unknown.size() > 0) sweep.solved_peak = found.peaks[i].at;
+  }
   return found;
 }
 

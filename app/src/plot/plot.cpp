@@ -87,6 +87,23 @@ void write_pictures(const std::filesystem::path& stem, const Figure& figure) {
   files.commit();
 }
 
+void take_logarithmic_ordinates(Figure& figure) {
+  constexpr double decades = 1e-6;
+  for (Panel& panel : figure.panels) {
+    double least = std::numeric_limits<double>::infinity(), largest = 0.0;
+    for (const Series& series : panel.series)
+      for (const double value : series.y)
+        if (value > 0.0 && std::isfinite(value))
+          least = std::min(least, value), largest = std::max(largest, value);
+    if (!(largest > 0.0) || panel.heat_map || panel.drawing || panel.z) continue;
+    panel.y.logarithmic = true;
+    panel.y.ticks.clear();
+    panel.y.lower.reset();
+    if (least < decades * largest) panel.y.lower = decades * largest;
+    if (panel.y.upper && !(*panel.y.upper > 0.0)) panel.y.upper.reset();
+  }
+}
+
 std::string plain(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -1,11 +1,17 @@
 #include "plot/plot_text.hpp"
 
 #include <array>
+#include <cctype>
 #include <cmath>
 
 #include "files/number_text.hpp"
 
 namespace wavebalance::app {
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 std::string quoted(const std::string& text) {
   std::string result = "'";

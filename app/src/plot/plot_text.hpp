@@ -6,6 +6,9 @@
 
 namespace wavebalance::app {
 
+/// The text with a capital letter first.
+std::string capitalised(std::string text);
+
 /// A gnuplot string in single quotes, in which gnuplot runs no commands. The only escape there is the doubled
 /// quote, which gnuplot 5.4 misreads at the start of a string, so that an apostrophe is written in its
 /// typographic form.

@@ -49,12 +49,25 @@ Scale take_to_scale(std::vector<double>& values) {
   return scale;
 }
 
+bool takes_prefix(std::string_view unit) {
+  constexpr std::array fixed{"",     "kg m",  "mm",     "µm",      "mrad", "deg",
+                             "mm/s", "deg/s", "mm/s^2", "deg/s^2", "g"};
+  return std::find(fixed.begin(), fixed.end(), unit) == fixed.end();
+}
+
+Scale axis_scale(double largest, std::string_view unit) {
+  if (!takes_prefix(unit)) return {};
+  const bool length = unit == "m" || unit == "rad";
+  return axis_scale(length ? largest : std::min(largest, 1.0));
+}
+
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not known";
+  if (unit.empty()) return fmt::format("{:.4g}", value);
   const double least = unit == "Hz" ? 1.0 : 1e-12;
   const double magnitude = rounded(std::abs(value), 4);  // "1 mm" for 999.99 µm
-  const bool prefixed = unit == "kg m" || unit == "g";
-  if (prefixed || magnitude < least || magnitude == 0.0) return fmt::format("{:.4g} {}", value, unit);
+  if (!takes_prefix(unit) || magnitude < least || magnitude == 0.0)
+    return fmt::format("{:.4g} {}", value, unit);
   const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
   return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);
 }

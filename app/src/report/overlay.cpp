@@ -1,17 +1,22 @@
 #include "report/overlay.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "files/contains.hpp"
 #include "files/missing.hpp"
+#include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/files/output.hpp"
@@ -24,19 +29,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct QuantityNames {
-  const char* name;
-  std::string column;
-  const char* words;
-};
-
-const QuantityNames& names_of(OverlayQuantity quantity) {
-  static const std::array<QuantityNames, 4> names{
+/// Of the displacements of contacts.
+const std::array<OverlayQuantity, 4>& contact_quantities() {
+  static const std::array<OverlayQuantity, 4> quantities{
       {{"max", quantities::max_displacement.column(), "Largest displacement"},
        {"min", quantities::min_displacement.column(), "Least displacement"},
        {"max_abs", "max_abs_displacement_m", "Largest absolute displacement"},
        {"rms", quantities::rms_displacement.column(), "rms displacement"}}};
-  return names[static_cast<std::size_t>(quantity)];
+  return quantities;
+}
+
+OverlayQuantity quantity_of(const Output& output) {
+  return {output.name, output.column_of("half_peak_to_peak"),
+          output.names_quantity() ? capitalised(output.title) : "Vibration of " + output.title, output.unit,
+          output.column + (output.suffix.empty() ? "" : "_" + output.suffix)};
 }
 
 bool holds(const fs::path& folder, const char* name) {
@@ -145,28 +151,42 @@ void add_mode(std::vector<OverlayCurve>& curves, const fs::path& file, const std
   curves.push_back(std::move(curve));
 }
 
+/// Half the peak-to-peak value of an output in a motion.
+double vibration_in(const fs::path& folder, const OverlayQuantity& quantity) {
+  const std::vector<double> values =
+      column_of(read_csv(folder / "outputs.csv"), quantity.motion, folder / "outputs.csv");
+  if (values.empty()) return missing;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return 0.5 * (*high - *low);
+}
+
 /// The displacements of all contacts where there are several.
 void add_response(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
-                  OverlayQuantity quantity) {
+                  const OverlayQuantity& quantity) {
   const Table table = read_csv(folder / (holds(folder, "contacts.csv") ? "contacts.csv" : "response.csv"));
   const std::vector<double> u = column_of(table, "displacement_m", folder / "response.csv");
   const Summary summary = read_summary(folder / "summary.json");
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   double value = missing;
-  if (!u.empty() && quantity == OverlayQuantity::max) value = *high;
-  if (!u.empty() && quantity == OverlayQuantity::min) value = *low;
-  if (!u.empty() && quantity == OverlayQuantity::max_abs) value = std::max(-*low, *high);
-  if (quantity == OverlayQuantity::rms) value = number_in(summary, quantities::rms_displacement);
+  if (!u.empty() && quantity.name == "max") value = *high;
+  if (!u.empty() && quantity.name == "min") value = *low;
+  if (!u.empty() && quantity.name == "max_abs") value = std::max(-*low, *high);
+  if (quantity.name == "rms") value = number_in(summary, quantities::rms_displacement);
+  if (quantity.is_output()) value = vibration_in(folder, quantity);
   curves.push_back({label, "response", {number_in(summary, quantities::frequency)}, {}, {value}, {missing}});
 }
 
-/// A motion of the contact that leads in the folder `first`.
-OverlayCurve motion_in(const fs::path& folder, const std::string& label, const fs::path& first) {
+/// A motion of an output, or of the contact that leads in the folder `first`.
+OverlayCurve motion_in(const fs::path& folder, const std::string& label, const fs::path& first,
+                       const OverlayQuantity& quantity) {
   const Summary summary = read_summary(folder / "summary.json"),
                 wanted = read_summary(first / "summary.json");
   fs::path file = folder / "response.csv";
   Table table = read_csv(file);
-  if (holds(folder, "contacts.csv")) {
+  if (quantity.is_output()) {
+    file = folder / "outputs.csv";
+    table = read_csv(file);
+  } else if (holds(folder, "contacts.csv")) {
     file = folder / "contacts.csv";
     const double contact = number_in(wanted, quantities::leading_contact);
     table = read_csv(file).where("contact", fmt::format("{:g}", contact));
@@ -175,9 +195,12 @@ OverlayCurve motion_in(const fs::path& folder, const std::string& label, const f
   }
   const double frequency = number_in(summary, quantities::frequency),
                unstable = number_in(summary, quantities::unstable_multipliers);
-  OverlayCurve curve{
-      fmt::format("{}, {:.6g} Hz", label, frequency), "motion", {}, column_of(table, "time_fraction", file),
-      column_of(table, "displacement_m", file),       {}};
+  OverlayCurve curve{fmt::format("{}, {:.6g} Hz", label, frequency),
+                     "motion",
+                     {},
+                     column_of(table, "time_fraction", file),
+                     column_of(table, quantity.is_output() ? quantity.motion : "displacement_m", file),
+                     {}};
   curve.frequency.assign(table.rows(), frequency);
   curve.unstable.assign(table.rows(), unstable);
   return curve;
@@ -189,8 +212,8 @@ bool is_response(const fs::path& folder) {
 }
 
 void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
-                OverlayQuantity quantity) {
-  const std::string& column = names_of(quantity).column;
+                const OverlayQuantity& quantity) {
+  const std::string& column = quantity.column;
   if (holds(folder, "sweep.csv"))
     add_sweep(curves, folder / "sweep.csv", label, column);
   else if (holds(folder, "backbone.csv"))
@@ -223,28 +246,61 @@ void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor)
   if (any_number(dashed)) panel.add(std::move(dashed));
 }
 
-}  // namespace
-
-OverlayQuantity overlay_quantity(const std::string& name) {
-  for (const auto quantity :
-       {OverlayQuantity::max, OverlayQuantity::min, OverlayQuantity::max_abs, OverlayQuantity::rms})
-    if (names_of(quantity).name == name) return quantity;
-  throw std::invalid_argument("--quantity is \"" + name + "\"; expected max, min, max_abs or rms");
+std::vector<std::string> names_in(const std::vector<Output>& outputs) {
+  std::vector<std::string> names;
+  for (const Output& output : outputs) names.push_back(output.name);
+  return names;
 }
 
-Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity) {
+/// The output of this name in the first folder, which all must have.
+OverlayQuantity output_quantity(std::span<const fs::path> folders, const std::vector<Scene>& scenes,
+                                const std::string& name) {
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::vector<std::string> names = names_in(outputs_of(scenes[i]));
+    if (contains(names, name)) continue;
+    throw std::invalid_argument(fmt::format(
+        "--quantity is \"{}\", but {} has {}; expected max, min, max_abs or rms, or an output of "
+        "all folders (analysis.outputs)",
+        name, folders[i].string(),
+        names.empty() ? "no outputs" : "the outputs " + fmt::format("{}", fmt::join(names, ", "))));
+  }
+  for (const Output& output : outputs_of(scenes.front()))
+    if (output.name == name) return quantity_of(output);
+  return {};
+}
+
+OverlayQuantity overlay_quantity(std::span<const fs::path> folders, const std::vector<Scene>& scenes,
+                                 const std::string& name) {
+  for (const OverlayQuantity& one : contact_quantities())
+    if (one.name == name) return one;
+  if (!name.empty()) return output_quantity(folders, scenes, output_name(output_words(name)));
+  const std::vector<Output> outputs = outputs_of(scenes.front());
+  const std::optional<std::size_t> leading = leading_output(outputs, scenes.front());
+  const bool all = leading && std::ranges::all_of(scenes, [&](const Scene& scene) {
+                     return contains(names_in(outputs_of(scene)), outputs[*leading].name);
+                   });
+  return all ? quantity_of(outputs[*leading]) : contact_quantities().front();
+}
+
+}  // namespace
+
+Overlay read_overlay(std::span<const fs::path> folders, const std::string& quantity) {
   Overlay overlay;
   const std::vector<std::string> labels = labels_of(folders);
-  const Scene first = scene_in(folders.front());
+  std::vector<Scene> scenes;
+  for (const fs::path& folder : folders) scenes.push_back(scene_in(folder));
+  const Scene& first = scenes.front();
+  overlay.quantity = overlay_quantity(folders, scenes, quantity);
+  overlay.logarithmic = std::ranges::any_of(scenes, [](const Scene& scene) { return scene.plot.log; });
   overlay.gap = common_gap(first);
   const bool over_time = std::all_of(folders.begin(), folders.end(), is_response);
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    const Scene scene = scene_in(folders[i]);
+    const Scene& scene = scenes[i];
     require_same_structure(first, scene, folders[i]);
     if (over_time)
-      overlay.curves.push_back(motion_in(folders[i], labels[i], folders.front()));
+      overlay.curves.push_back(motion_in(folders[i], labels[i], folders.front(), overlay.quantity));
     else
-      add_curves(overlay.curves, folders[i], labels[i], quantity);
+      add_curves(overlay.curves, folders[i], labels[i], overlay.quantity);
     const double gap = common_gap(scene);
     if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
     if (scene.contact.law != no_law && first.contact.law != no_law)
@@ -256,30 +312,33 @@ Overlay read_overlay(std::span<const fs::path> folders, OverlayQuantity quantity
   return overlay;
 }
 
-Figure overlay_figure(const Overlay& overlay, OverlayQuantity quantity) {
+Figure overlay_figure(const Overlay& overlay) {
+  const OverlayQuantity& quantity = overlay.quantity;
   constexpr std::array colours{Colour::blue,   Colour::orange,   Colour::green,
                                Colour::purple, Colour::sky_blue, Colour::vermillion};
   double largest = 0.0;
   for (const OverlayCurve& curve : overlay.curves)
     for (const double value : curve.displacement)
       if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const Scale scale = axis_scale(largest);
+  const Scale scale = axis_scale(largest, quantity.unit);
   Figure figure;
   figure.panel_width = 640;
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
   const bool over_time = is_over_time(overlay);
   panel.x.label = over_time ? "Time (fraction of a period)" : "Frequency (Hz)";
-  panel.y.label =
-      fmt::format("{} ({}m)", over_time ? "Displacement" : names_of(quantity).words, scale.prefix);
+  const std::string words = quantity.is_output() && over_time ? quantity.name : quantity.words;
+  panel.y.label = over_time && !quantity.is_output() ? "Displacement" : capitalised(plain(words));
+  if (!quantity.unit.empty()) panel.y.label += fmt::format(" ({}{})", scale.prefix, quantity.unit);
   std::size_t next = 0;
   for (const OverlayCurve& curve : overlay.curves) {
     const bool mode = curve.kind == "nonlinear_mode";
     draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], scale.factor);
   }
-  const bool is_largest = quantity != OverlayQuantity::rms && quantity != OverlayQuantity::min;
-  if (std::isfinite(overlay.gap) && (over_time || is_largest))
+  const bool is_largest = quantity.name == "max" || quantity.name == "max_abs";
+  if (std::isfinite(overlay.gap) && !quantity.is_output() && (over_time || is_largest))
     panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, "m"));
+  if (overlay.logarithmic && !over_time) take_logarithmic_ordinates(figure);
   return figure;
 }
 
@@ -290,6 +349,8 @@ bool is_over_time(const Overlay& overlay) {
 Table overlay_table(const Overlay& overlay) {
   std::vector<std::string> columns{"curve", "kind", "frequency_Hz", "displacement_m", "unstable"};
   const bool over_time = is_over_time(overlay);
+  if (overlay.quantity.is_output())
+    columns[3] = over_time ? overlay.quantity.motion : overlay.quantity.column;
   if (over_time) columns.insert(columns.begin() + 3, "time_fraction");
   Table table(columns);
   for (const OverlayCurve& curve : overlay.curves)

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "plot/unit_prefix.hpp"
+#include "results/quantities.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -15,6 +17,15 @@ namespace {
 int digits_of(double value, double resolution, int most) {
   if (!(resolution > 0.0)) return most;
   return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
+}
+
+/// How many digits of a peak that was solved for are true, where the error of the motion is known.
+std::string digits_sentence(double digits, bool exact) {
+  return fmt::format(
+      "This peak is solved for between the points of the curve; {}",
+      exact ? fmt::format("{:.0f} digit{} of it {} those of the nearest exact periodic solution.", digits,
+                          digits == 1.0 ? "" : "s", digits == 1.0 ? "is" : "are")
+            : fmt::format("the search resolves {:.0f} digits of it.", digits));
 }
 
 }  // namespace
@@ -35,6 +46,28 @@ std::string peak_text(double vibration, const std::string& unit, double resoluti
                       double place_resolution, const SweepAxis& axis) {
   return rounded_quantity(vibration, unit, resolution) + " (half peak to peak), " +
          place_text(place, place_resolution, axis);
+}
+
+void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
+                   const SweepAxis& axis, bool with_digits) {
+  const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
+  const double vibration = number("half_peak_to_peak"), mean = number("mean");
+  if (!std::isfinite(vibration)) return;
+  const std::string unit = cell_text(outputs.at(row, "unit")), name = cell_text(outputs.at(row, "output"));
+  const bool curve = outputs.has_column(axis.column()), solved = curve && outputs.has_column("digits");
+  double resolution = curve ? number(quantities::peak_value_resolution.name) : missing;
+  if (solved) resolution = std::fmax(resolution, number("error_at_peak"));
+  const std::string size = curve
+                               ? "at most " + peak_text(vibration, unit, resolution, number(axis.column()),
+                                                        number(quantities::peak_place_resolution.name), axis)
+                               : quantity(vibration, unit) + " (half peak to peak)";
+  constexpr double rounding = 1e-9;
+  const bool names_quantity = name.find(" of ") != std::string::npos;
+  sentences.push_back(fmt::format("The {}{} is {}, about a mean of {}.",
+                                  names_quantity ? "" : "vibration of ", name, size,
+                                  std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
+  if (with_digits && solved && std::isfinite(number("digits")))
+    sentences.push_back(digits_sentence(number("digits"), std::isfinite(number("error_at_peak"))));
 }
 
 }  // namespace wavebalance::app

@@ -1,7 +1,10 @@
 #pragma once
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
 
@@ -14,5 +17,10 @@ std::string place_text(double place, double resolution, const SweepAxis& axis);
 /// "791 µm (half peak to peak), at 10.09 Hz".
 std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
                       double place_resolution, const SweepAxis& axis);
+
+/// How the output of a row of the summary's table vibrates, in the digits that its curve and its error leave,
+/// and with `with_digits` how many of a curve these are; nothing where that is not known.
+void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
+                   const SweepAxis& axis, bool with_digits = false);
 
 }  // namespace wavebalance::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
 #include "report/other_motions.hpp"
 #include "report/peak_words.hpp"
@@ -158,9 +159,11 @@ void append_friction(std::vector<std::string>& sentences, const Summary& summary
     return std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; });
   };
   for (std::size_t i = 0; i < contacts.rows() && contacts.rows() <= few; ++i)
-    sentences.push_back(fmt::format(
-        "Contact {} sticks for {} of the period, slips for {} and is open for {}.",
-        cell_text(contacts.at(i, "contact")), percent(stick[i]), percent(slip[i]), percent(open[i])));
+    sentences.push_back(fmt::format("{} sticks for {} of the period, slips for {} and is open for {}.",
+                                    contacts.has_column("name")
+                                        ? capitalised(cell_text(contacts.at(i, "name")))
+                                        : "Contact " + cell_text(contacts.at(i, "contact")),
+                                    percent(stick[i]), percent(slip[i]), percent(open[i])));
   if (contacts.rows() > few)
     sentences.push_back(fmt::format("{} of {} contacts with friction slip within the period, and {} open.",
                                     any(slip), contacts.rows(), any(open)));
@@ -206,10 +209,12 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
   if (!std::isfinite(highest)) return;
   const std::string unit = length_unit(summary);
   const double contact = number_in(summary, quantities::leading_contact);
-  const std::string direction = text_in(summary, quantities::leading_direction);
-  const std::string name = direction.empty() || !std::isfinite(contact)
-                               ? ""
-                               : fmt::format(" of contact {}, {},", contact, direction);
+  const std::string direction = text_in(summary, quantities::leading_direction),
+                    named = text_in(summary, quantities::leading_contact_name);
+  const std::string name =
+      direction.empty() || !std::isfinite(contact)
+          ? ""
+          : fmt::format(" of {}, {},", named.empty() ? fmt::format("contact {}", contact) : named, direction);
   sentences.push_back(fmt::format("At {} the displacement{} lies between {} and {}{}.",
                                   with_unit(summary, quantities::frequency), name, quantity(lowest, unit),
                                   quantity(highest, unit), beside_gap(highest, gap, unit)));
@@ -224,7 +229,7 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
   for (std::size_t i = 0; outputs != nullptr && i < outputs->rows() && errors.size() < most; ++i) {
     const std::string name = cell_text(outputs->at(i, "output"));
     const double error = outputs->numbers(column)[i];
-    if (!std::isfinite(error) || name.starts_with("contact ")) continue;
+    if (!std::isfinite(error) || cell_text(outputs->at(i, "output")).starts_with("contact ")) continue;
     const bool leads = name == text_in(summary, quantities::leading_output);
     errors.insert(leads ? errors.begin() : errors.end(), name + " " + shown_error(error));
   }
@@ -269,31 +274,12 @@ void append_motions(std::vector<std::string>& sentences, const Summary& summary,
   append_motion(sentences, summary, gap);
 }
 
-/// How an output of this row vibrates; nothing where that is not known.
-void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
-                   const SweepAxis& axis) {
-  const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
-  const double vibration = number("half_peak_to_peak"), mean = number("mean");
-  if (!std::isfinite(vibration)) return;
-  const std::string unit = cell_text(outputs.at(row, "unit"));
-  const std::string size =
-      outputs.has_column(axis.column())
-          ? "at most " + peak_text(vibration, unit, number(quantities::peak_value_resolution.name),
-                                   number(axis.column()), number(quantities::peak_place_resolution.name),
-                                   axis)
-          : quantity(vibration, unit) + " (half peak to peak)";
-  constexpr double rounding = 1e-9;
-  sentences.push_back(fmt::format("The vibration of {} is {}, about a mean of {}.",
-                                  cell_text(outputs.at(row, "output")), size,
-                                  std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
-}
-
 void append_leading_output(std::vector<std::string>& sentences, const Summary& summary,
                            const SweepAxis& axis) {
   const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
   const std::string leading = text_in(summary, quantities::leading_output);
   for (std::size_t i = 0; outputs != nullptr && i < outputs->rows(); ++i)
-    if (cell_text(outputs->at(i, "output")) == leading) append_output(sentences, *outputs, i, axis);
+    if (cell_text(outputs->at(i, "output")) == leading) append_output(sentences, *outputs, i, axis, true);
 }
 
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap,
@@ -303,8 +289,8 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
   const double value_resolution = number_in(summary, quantities::peak_value_resolution),
                place_resolution = number_in(summary, quantities::peak_place_resolution);
   const std::string unit = length_unit(summary);
-  sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   append_leading_output(sentences, summary, axis);
+  sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   if (std::isfinite(vibration))
     sentences.push_back(fmt::format(
         "The largest vibration of a contact is {}.",

@@ -16,11 +16,19 @@ namespace wavebalance::app {
 namespace {
 
 Table table_of(const std::vector<FrictionMeasures>& contacts) {
-  Table table({"contact", "friction_work_J", "stick_fraction", "slip_fraction", "open_fraction", "slip_m",
-               "wear_m3", "history_dependent"});
-  for (const FrictionMeasures& one : contacts)
-    table.append_row({std::int64_t{one.number}, one.work, one.stick_fraction, one.slip_fraction,
-                      one.open_fraction, one.slip, one.wear, one.history_dependent});
+  const bool named = std::ranges::any_of(contacts, [](const FrictionMeasures& one) {
+    return one.name != "contact " + std::to_string(one.number);
+  });
+  std::vector<std::string> columns{"contact",       "friction_work_J", "stick_fraction", "slip_fraction",
+                                   "open_fraction", "slip_m",          "wear_m3",        "history_dependent"};
+  if (named) columns.emplace_back("name");
+  Table table(columns);
+  for (const FrictionMeasures& one : contacts) {
+    std::vector<Cell> cells{std::int64_t{one.number}, one.work, one.stick_fraction, one.slip_fraction,
+                            one.open_fraction,        one.slip, one.wear,           one.history_dependent};
+    if (named) cells.emplace_back(one.name);
+    table.append_row(std::move(cells));
+  }
   return table;
 }
 
@@ -43,11 +51,12 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
 
 // In time rigid friction begins where the structure is, whatever slider says.
 void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts, bool in_time) {
-  std::vector<int> stuck;
+  std::vector<std::string> stuck;
   bool elastic = true;
   for (const FrictionMeasures& one : contacts)
     if (one.history_dependent) {
-      stuck.push_back(one.number);
+      const std::string number = "contact " + std::to_string(one.number);
+      stuck.push_back(one.name == number ? std::to_string(one.number) : one.name);
       elastic = elastic && !one.law.rigid();
     }
   if (stuck.empty()) return;

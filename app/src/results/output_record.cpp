@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "drawing/output_figure.hpp"
 #include "files/missing.hpp"
+#include "plot/plot_text.hpp"
 #include "results/quantities.hpp"
 #include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
@@ -49,36 +51,94 @@ Table with_outputs(const Table& table, const SweepOutputs& outputs, int harmonic
 
 double relative_error(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
 
-/// Where along the curve each output vibrates most, how well its points resolve that, and the error of the
-/// vibration at the peak of the curve where the exact motion is known there.
+/// Of an output along a curve, as its points and what was solved for between them tell.
+struct PeakRow {
+  double place = missing;
+  OutputMeasures measures = {};
+  PeakResolution resolution{missing, missing};
+};
+
+PeakRow sampled_peak(const std::vector<double>& places, const std::vector<MeasuredPoint>& curve,
+                     std::size_t output) {
+  PeakRow row;
+  std::size_t peak = 0;
+  std::vector<double> values(places.size(), missing);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    if (curve[k].empty()) continue;
+    values[k] = curve[k][output].half_peak_to_peak();
+    if (values[k] <= row.measures.half_peak_to_peak()) continue;
+    row.measures = curve[k][output];
+    peak = k;
+  }
+  if (!std::isfinite(row.measures.max)) return row;
+  row.place = places[peak];
+  row.resolution = peak_resolution(places, values, peak);
+  return row;
+}
+
+/// What was solved for between the points of a curve.
+PeakRow solved_peak(const OutputPeak& peak) {
+  PeakRow row{peak.at.value, peak.measures, {peak.at.height_error, peak.at.value_error}};
+  row.measures.max = peak.measures.highest;
+  row.measures.min = peak.measures.lowest;
+  return row;
+}
+
+/// Digits of a value with this relative error; none where that is not known.
+double digits_of_error(double error) {
+  constexpr double most = 9.0;
+  if (!std::isfinite(error)) return missing;
+  return error > 0.0 ? std::clamp(std::floor(-std::log10(2.0 * error)), 0.0, most) : most;
+}
+
+/// The row of each output, with the error of its vibration at the peak of the curve where the exact motion is
+/// known there: where it vibrates most and how well that is resolved, and of analysis.outputs, for which both
+/// are solved for, where its modulus is largest, and how many digits of it are true.
 Table peaks_table(const Sweep& sweep, const SweepOutputs& outputs) {
-  Table table({"output", "unit", sweep_axis(sweep).column(), "half_peak_to_peak", "max", "min", "mean",
-               quantities::peak_value_resolution.column(), quantities::peak_place_resolution.column(),
-               "error_at_peak"});
+  const std::string place = sweep_axis(sweep).column();
+  std::vector<std::string> columns{"output",
+                                   "unit",
+                                   place,
+                                   "half_peak_to_peak",
+                                   "max",
+                                   "min",
+                                   "mean",
+                                   quantities::peak_value_resolution.column(),
+                                   quantities::peak_place_resolution.column(),
+                                   "error_at_peak"};
+  const bool solved = !outputs.peaks.empty();
+  if (solved) columns.insert(columns.end(), {"digits", "largest", "largest_" + place});
+  Table table(columns);
   std::vector<double> places;
   for (const solvers::SweepPoint& point : sweep.curve.points)
     places.push_back(parameter_of(point, sweep.curve.parameter));
   const MeasuredPoint& at_peak = outputs.curves[0][peak_of(sweep.curve)];
   for (std::size_t i = 0; i < outputs.outputs.size(); ++i) {
     const Output& output = outputs.outputs[i];
-    OutputMeasures best;
-    std::size_t peak = 0;
-    std::vector<double> values(places.size(), missing);
-    for (std::size_t k = 0; k < outputs.curves[0].size(); ++k) {
-      const MeasuredPoint& point = outputs.curves[0][k];
-      if (!point.empty()) values[k] = point[i].half_peak_to_peak();
-      if (point.empty() || point[i].half_peak_to_peak() <= best.half_peak_to_peak()) continue;
-      best = point[i];
-      peak = k;
-    }
-    const bool known = std::isfinite(best.max);
-    const PeakResolution resolution = peak_resolution(places, values, peak);
+    const bool here = i < outputs.peaks.size() && outputs.peaks[i].solved;
+    const PeakRow row = here ? solved_peak(outputs.peaks[i]) : sampled_peak(places, outputs.curves[0], i);
     const bool exact = !outputs.exact_at_peak.empty() && !at_peak.empty();
-    table.append_row(
-        {output.name, output.unit, known ? places[peak] : missing, best.half_peak_to_peak(), best.max,
-         best.min, best.mean, known ? resolution.value : missing, known ? resolution.place : missing,
-         exact ? relative_error(at_peak[i].half_peak_to_peak(), outputs.exact_at_peak[i].half_peak_to_peak())
-               : missing});
+    const double height = here ? outputs.peaks[i].at.height : row.measures.half_peak_to_peak();
+    const double error =
+        exact ? relative_error(at_peak[i].half_peak_to_peak(), outputs.exact_at_peak[i].half_peak_to_peak())
+              : missing;
+    std::vector<Cell> cells{output.name,
+                            output.unit,
+                            row.place,
+                            height,
+                            row.measures.max,
+                            row.measures.min,
+                            row.measures.mean,
+                            row.resolution.value,
+                            row.resolution.place,
+                            error};
+    if (solved) {
+      const bool also = i < outputs.largest.size();
+      cells.insert(cells.end(), {here ? digits_of_error(std::fmax(row.resolution.value, error)) : missing,
+                                 also ? outputs.largest[i].at.height : missing,
+                                 also ? outputs.largest[i].at.value : missing});
+    }
+    table.append_row(std::move(cells));
   }
   return table;
 }
@@ -114,9 +174,45 @@ Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& me
   return table;
 }
 
-void append_leading_output(Summary& summary, const Scene& scene, const std::vector<Output>& outputs) {
+/// Puts the output that leads and what is known of each of analysis.outputs right behind how the run ended.
+void insert_outputs(Summary& summary, const Scene& scene, const std::vector<Output>& outputs,
+                    Summary entries) {
+  for (Entry& one : entries) one.kind = EntryKind::result;
   if (const auto leading = leading_output(outputs, scene))
-    summary.emplace_back(quantities::leading_output, outputs[*leading].name);
+    entries.emplace(entries.begin(), quantities::leading_output, outputs[*leading].name);
+  const auto status = std::find_if(summary.begin(), summary.end(),
+                                   [](const Entry& one) { return one.name == quantities::status.name; });
+  summary.insert(status == summary.end() ? status : status + 1, entries.begin(), entries.end());
+}
+
+/// Of each of analysis.outputs along a curve.
+Summary curve_entries(const Sweep& sweep, const SweepOutputs& outputs, const Table& peaks,
+                      std::size_t count) {
+  const std::string place = sweep_axis(sweep).column();
+  const auto number = [&](std::size_t row, std::string_view column) { return peaks.numbers(column)[row]; };
+  Summary entries;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Output& output = outputs.outputs[i];
+    entries.emplace_back(output.column_of("half_peak_to_peak"), number(i, "half_peak_to_peak"));
+    entries.emplace_back(output.column + "_peak_" + place, number(i, place));
+    if (outputs.peaks.empty()) continue;
+    entries.emplace_back(output.column + "_peak_digits", number(i, "digits"));
+    entries.emplace_back(output.column_of("largest"), number(i, "largest"));
+    entries.emplace_back(output.column + "_largest_" + place, number(i, "largest_" + place));
+  }
+  return entries;
+}
+
+/// Of each of analysis.outputs in a motion.
+Summary motion_entries(const std::vector<Output>& outputs, const MeasuredPoint& measured, std::size_t count,
+                       int harmonics) {
+  Summary entries;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<std::string> columns = columns_of(outputs[i], std::min(harmonics, 1));
+    const std::vector<double> cells = cells_of(outputs[i], measured[i], std::min(harmonics, 1));
+    for (std::size_t k = 0; k < columns.size(); ++k) entries.emplace_back(columns[k], cells[k]);
+  }
+  return entries;
 }
 
 }  // namespace
@@ -125,11 +221,15 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
   if (outputs.empty()) return;
   record.sweep =
       with_outputs(record.sweep, outputs, scene.analysis.output_harmonics, scene.analysis.branches);
-  record.add(quantities::outputs, peaks_table(sweep, outputs));
-  append_leading_output(record.summary, scene, outputs.outputs);
-  if (!sweep.curve.points.empty())
-    record.output_pictures.push_back(
-        {"outputs", outputs_figure(sweep, outputs), "the vibration of each output along the curve"});
+  const Table peaks = peaks_table(sweep, outputs);
+  insert_outputs(record.summary, scene, outputs.outputs,
+                 curve_entries(sweep, outputs, peaks, scene.analysis.outputs.size()));
+  record.add(quantities::outputs, peaks);
+  if (sweep.curve.points.empty()) return;
+  Figure figure = outputs_figure(sweep, outputs, contact_places(scene));
+  if (scene.plot.log) take_logarithmic_ordinates(figure);
+  record.output_pictures.push_back(
+      {"outputs", std::move(figure), "the vibration of each output along the curve"});
 }
 
 void append_outputs(Record& record, const Scene& scene, const StructureModel& model,
@@ -137,29 +237,32 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
   const std::vector<Output> outputs = outputs_of(scene);
   if (outputs.empty() || !response.moves || response.contacts.empty()) return;
   const Eigen::MatrixXd motion =
-      motion_of_outputs(outputs, scene, model, response.contacts, response.structure.displacement);
+      values_of_outputs(outputs, scene, model, response.contacts, response.structure, response.periods);
   const int harmonics = scene.analysis.output_harmonics;
   const Eigen::MatrixXd force = response.forces_are_known() ? response.contacts.force : Eigen::MatrixXd();
   record.outputs.add_column("time_fraction", time_fractions(int(motion.cols())));
   for (std::size_t i = 0; i < outputs.size(); ++i)
-    record.outputs.add_column(outputs[i].column + "_" + outputs[i].unit,
+    record.outputs.add_column(outputs[i].column + (outputs[i].suffix.empty() ? "" : "_" + outputs[i].suffix),
                               Eigen::VectorXd(motion.row(Eigen::Index(i)).transpose()));
+  const MeasuredPoint measured = measure(outputs, motion, force, harmonics, response.periods);
+  insert_outputs(record.summary, scene, outputs,
+                 motion_entries(outputs, measured, scene.analysis.outputs.size(), harmonics));
   record.add(quantities::outputs,
-             measures_table(outputs, measure(outputs, motion, force, harmonics, response.periods),
-                            exact_outputs(scene, model, response, outputs), harmonics));
-  append_leading_output(record.summary, scene, outputs);
+             measures_table(outputs, measured, exact_outputs(scene, model, response, outputs), harmonics));
   record.output_pictures.push_back(
       {"outputs", outputs_figure(outputs, motion, PeriodWindow(response)), "the motion of each output"});
 }
 
 void lead_with_output(Record& record, const Scene& scene) {
-  const std::optional<std::size_t> leading = leading_output(outputs_of(scene), scene);
+  const std::vector<Output> outputs = outputs_of(scene);
+  const std::optional<std::size_t> leading = leading_output(outputs, scene);
   if (!leading || record.output_pictures.empty()) return;
   const std::vector<Panel>& drawn = record.output_pictures.front().figure.panels;
   if (*leading >= drawn.size()) return;
   std::vector<Panel>& panels = record.figure.panels;
   panels.insert(panels.begin(), drawn[*leading]);
-  panels.front().title = "Motion of " + panels.front().title;
+  std::string& title = panels.front().title;
+  title = outputs[*leading].names_quantity() ? capitalised(title) : "Motion of " + title;
 }
 
 }  // namespace wavebalance::app

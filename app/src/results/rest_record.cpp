@@ -22,8 +22,9 @@ std::vector<std::string> names_of(const Scene& scene) {
 /// "contact 2 (-node 18 z): 5.28 mm, 0.28 mm past its gap of 5 mm, 281 N".
 std::string contact_text(const SceneContact& contact, const std::string& name, const std::string& unit,
                          double displacement, double force) {
-  std::string text = fmt::format("{}{}: {}", name_of(contact), name.empty() ? "" : " (" + name + ")",
-                                 quantity(displacement, unit));
+  std::string text =
+      fmt::format("{}{}: {}", name_of(contact), name.empty() || name == contact.name ? "" : " (" + name + ")",
+                  quantity(displacement, unit));
   if (has_gap(contact.law)) {
     const double past = displacement - contact.gap;
     text += fmt::format(", {} {} its gap of {}", quantity(std::abs(past), unit),
@@ -58,7 +59,7 @@ void append_rest(Record& record, const Scene& scene, const StructureModel& model
     return;
   }
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  const bool directed = has_directions(contacts);
+  const bool directed = has_directions(contacts), named = !contact_labels(scene).empty();
   std::vector<Summary> rows;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Summary& row = rows.emplace_back(Summary{{"contact", contacts[i].number}});
@@ -66,6 +67,7 @@ void append_rest(Record& record, const Scene& scene, const StructureModel& model
     row.emplace_back("displacement_m", rest->displacement[Eigen::Index(i)]);
     row.emplace_back("gap_m", has_gap(contacts[i].law) ? contacts[i].gap : missing);
     row.emplace_back("contact_force_N", rest->force[Eigen::Index(i)]);
+    if (named) row.emplace_back("name", whole_name_of(contacts[i]));
   }
   record.add("at_rest", table_of(rows));
 }

@@ -82,6 +82,7 @@ void add_contacts(Record& record, const Scene& scene, const solvers::Motion& con
   if (contacts.rows() < 2) return;
   const SceneContact place = contact_places(scene).at(static_cast<std::size_t>(leading));
   record.add(quantities::leading_contact, place.number);
+  if (!place.name.empty()) record.add(quantities::leading_contact_name, place.name);
   if (place.directions > 1) record.add(quantities::leading_direction, direction_name(place));
   record.contacts = contacts_table(scene, contacts);
 }
@@ -159,18 +160,24 @@ void append_period(Record& record, int periods, int motion_periods) {
 Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion) {
   const std::vector<SceneContact> places = contact_places(scene);
   const auto number_of = [&](int row) { return std::int64_t{places.at(std::size_t(row)).number}; };
+  const bool named = !contact_labels(scene).empty();
+  std::vector<Summary> rows;
+  const auto add = [&](int contact, const std::string& state, double begin, double end) {
+    Summary& row = rows.emplace_back(Summary{{"contact", number_of(contact)}});
+    if (!state.empty()) row.emplace_back("state", state);
+    row.emplace_back("begin", begin);
+    row.emplace_back("end", end);
+    if (named) row.emplace_back("name", whole_name_of(places.at(std::size_t(contact))));
+  };
   if (motion.friction.empty()) {
-    Table phases({"contact", "begin", "end"});
     for (const solvers::ContactPhase& phase : motion.phases)
-      if (places.at(std::size_t(phase.contact)).place == 0)
-        phases.append_row({number_of(phase.contact), phase.begin, phase.end});
-    return phases;
+      if (places.at(std::size_t(phase.contact)).place == 0) add(phase.contact, "", phase.begin, phase.end);
+    return rows.empty() ? Table({"contact", "begin", "end"}) : table_of(rows);
   }
-  Table phases({"contact", "state", "begin", "end"});
   for (const solvers::FrictionAlong& contact : motion.friction)
     for (const solvers::FrictionPart& part : contact.parts)
-      phases.append_row({number_of(contact.row), state_name(part.state), part.begin, part.end});
-  return phases;
+      add(contact.row, state_name(part.state), part.begin, part.end);
+  return rows.empty() ? Table({"contact", "state", "begin", "end"}) : table_of(rows);
 }
 
 void append_start(Record& record, const StartMotion& start, bool found, double distance) {

@@ -248,7 +248,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   }
   append_structure(record.summary, scene, model);
   append_rest(record, scene, model);
-  record.sweep = sweep_table(sweep, scene.analysis.branches);
+  const bool each = scene.analysis.has_outputs() && whole_contact_count(scene) > 1;
+  record.sweep =
+      sweep_table(sweep, scene.analysis.branches, each ? contact_places(scene) : std::vector<SceneContact>());
   append_outputs(record, scene, sweep, outputs);
   append_whirls(record, scene, model);
   if (points > 0) record.figure = sweep_figure(scene, sweep, outputs);

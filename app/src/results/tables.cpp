@@ -1,5 +1,6 @@
 #include "wavebalance/app/results/tables.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -7,6 +8,7 @@
 #include "results/quantities.hpp"
 #include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -22,11 +24,11 @@ Table response_table(const solvers::Motion& contact) {
 
 Table contacts_table(const Scene& scene, const solvers::Motion& contacts) {
   const std::vector<SceneContact> places = contact_places(scene);
-  const bool directed = has_directions(places);
-  Table table(
-      directed ? std::vector<std::string>{"time_fraction", "contact", "direction", "displacement_m",
-                                          "contact_force_N"}
-               : std::vector<std::string>{"time_fraction", "contact", "displacement_m", "contact_force_N"});
+  const bool directed = has_directions(places), named = !contact_labels(scene).empty();
+  std::vector<std::string> columns{"time_fraction", "contact", "displacement_m", "contact_force_N"};
+  if (directed) columns.insert(columns.begin() + 2, "direction");
+  if (named) columns.emplace_back("name");
+  Table table(columns);
   const Eigen::VectorXd times = time_fractions(contacts.points());
   for (int l = 0; l < contacts.points(); ++l)
     for (int row = 0; row < contacts.rows(); ++row) {
@@ -34,6 +36,7 @@ Table contacts_table(const Scene& scene, const solvers::Motion& contacts) {
       std::vector<Cell> cells{times[l], std::int64_t{place.number}};
       if (directed) cells.emplace_back(direction_name(place));
       cells.insert(cells.end(), {contacts.displacement(row, l), contacts.force(row, l)});
+      if (named) cells.emplace_back(whole_name_of(place));
       table.append_row(std::move(cells));
     }
   return table;
@@ -58,7 +61,23 @@ Summary point_row(const SweepPoint& point, solvers::SweepParameter parameter, co
 /// Which columns the table of a sweep has beside those of its points.
 struct MoreColumns {
   bool stability, phases, branches, isolas;
+  /// The directions of contacts that have columns of their own, or none.
+  std::vector<SceneContact> contacts = {};
 };
+
+/// How the columns of a contact begin.
+std::string contact_column(const SceneContact& contact) { return column_of(whole_name_of(contact)); }
+
+/// The work and wear of friction at each contact.
+void append_works(Summary& row, const FrictionShares& shares, const std::vector<SceneContact>& contacts,
+                  double frequency) {
+  for (const ContactWork& one : shares.each) {
+    const std::string column =
+        contact_column(*std::ranges::find(contacts, one.number, &SceneContact::number));
+    row.emplace_back(column + "_work_J", one.work);
+    if (one.wears) row.emplace_back(column + "_wear_m3_per_s", one.wear * frequency);
+  }
+}
 
 /// The curve of a sweep, 0, or of a branch, from 1; `isola` is the number of the sweep among the isolas.
 struct CurveRows {
@@ -84,8 +103,18 @@ struct CurveRows {
       put(quantities::max_impulse, impacts.largest_impulse);
       put(quantities::impact_energy, impacts.energy_lost);
       put(quantities::max_impact_velocity, impacts.largest_speed);
+      for (std::size_t k = 0; k < more.contacts.size(); ++k)
+        if (more.contacts[k].place == 0)
+          put(contact_column(more.contacts[k]) + "_max_impact_velocity_m_per_s",
+              k < impacts.speeds.size() ? impacts.speeds[k] : 0.0);
     }
-    if (!sweep.friction.empty()) append_shares(row, at(sweep.friction[number], i));
+    if (!sweep.friction.empty()) {
+      const std::vector<FrictionShares>& along = sweep.friction[number];
+      append_shares(row, at(along, i));
+      const double frequency = i < curve.points.size() ? curve.points[i].frequency / periods : missing;
+      if (!more.contacts.empty())
+        append_works(row, at(along, std::min(i, along.size() - 1)), more.contacts, frequency);
+    }
     if (more.branches) put("branch", number);
     if (more.branches) put("period", periods);
     if (more.isolas) put(quantities::isola, isola);
@@ -118,11 +147,11 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
   return table;
 }
 
-Table sweep_table(const Sweep& sweep, bool with_branches) {
+Table sweep_table(const Sweep& sweep, bool with_branches, const std::vector<SceneContact>& contacts) {
   const SweepPhases* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
                          phases != nullptr && !phases->points.empty(), with_branches,
-                         !sweep.isola_search.frequencies.empty()};
+                         !sweep.isola_search.frequencies.empty(), contacts};
   const CurveRows first{sweep, more};
   Table table(columns_of(first(first.curve.points.size())));
   append_curve(table, first);

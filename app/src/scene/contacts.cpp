@@ -115,13 +115,33 @@ bool has_directions(const std::vector<SceneContact>& contacts) {
                      [](const SceneContact& one) { return one.directions > 1; });
 }
 
-std::string name_of(const SceneContact& contact) {
+namespace {
+
+std::string with_direction(const std::string& name, const SceneContact& contact) {
   const std::string direction = direction_name(contact);
-  return "contact " + std::to_string(contact.number) + (direction.empty() ? "" : " " + direction);
+  return name + (direction.empty() ? "" : " " + direction);
 }
 
-std::string title_of(const SceneContact& contact) {
-  return name_of(contact) + (contact.name.empty() ? "" : ", " + contact.name);
+}  // namespace
+
+std::string whole_name_of(const SceneContact& contact) {
+  return contact.name.empty() ? "contact " + std::to_string(contact.number) : contact.name;
+}
+
+std::string name_of(const SceneContact& contact) { return with_direction(whole_name_of(contact), contact); }
+
+std::string number_text_of(const SceneContact& contact) {
+  return with_direction("contact " + std::to_string(contact.number), contact);
+}
+
+std::vector<std::string> contact_labels(const Scene& scene) {
+  std::vector<std::string> labels;
+  bool named = false;
+  for (const SceneContact& one : contact_places(scene)) {
+    if (one.place == 0) labels.push_back(whole_name_of(one));
+    named = named || !one.name.empty();
+  }
+  return named ? labels : std::vector<std::string>();
 }
 
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap) {

@@ -49,6 +49,15 @@ class PairReader {
                     pair_.second_tangent_coefficients});
     take("side");
     take("name");
+    check_name();
+  }
+
+  /// Columns and legends have it, each once.
+  void check_name() const {
+    for (const ContactPair& other : scene_.contact.pairs)
+      if (&other < &pair_ && !pair_.name.empty() && other.name == pair_.name)
+        fail_at(document_, *entry("name"),
+                "another of [[contact.pairs]] has this name; expected one of its own");
   }
 
   struct PairDirection {

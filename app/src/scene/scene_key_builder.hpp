@@ -59,6 +59,8 @@ template <class Field>
 SceneValue value_of(const Field& field) {
   if constexpr (std::is_same_v<Field, MotionAt>)
     return entries_of(field);
+  else if constexpr (std::is_same_v<Field, std::vector<std::string>>)
+    return std::vector<NumberOrText>(field.begin(), field.end());
   else if constexpr (std::is_enum_v<Field>)
     return std::string(enum_name(field));
   else if constexpr (is_list_of<Field>)
@@ -73,6 +75,10 @@ template <class Field>
 void assign(Field& field, const SceneValue& value) {
   if constexpr (std::is_same_v<Field, MotionAt>) {
     field = motion_at(std::get<std::vector<NumberOrText>>(value));
+  } else if constexpr (std::is_same_v<Field, std::vector<std::string>>) {
+    field.clear();
+    for (const NumberOrText& one : std::get<std::vector<NumberOrText>>(value))
+      field.push_back(std::get<std::string>(one));
   } else if constexpr (std::is_enum_v<Field>) {
     field = enum_value<Field>(std::get<std::string>(value));
   } else if constexpr (is_list_of<Field>) {
@@ -102,6 +108,9 @@ void describe(SceneKey& key) {
   } else if constexpr (std::is_same_v<Field, MotionAt>) {
     key.form = SceneKey::Form::mixed;
     key.choices = {"peak", "special"};
+  } else if constexpr (std::is_same_v<Field, std::vector<std::string>>) {
+    key.type = SceneKey::Type::text;
+    key.form = SceneKey::Form::mixed;
   } else if constexpr (std::is_arithmetic_v<Field>) {
     describe_number<Field>(key);
   } else if constexpr (is_list_of<Field>) {

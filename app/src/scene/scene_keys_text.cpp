@@ -172,6 +172,7 @@ std::string Condition::text() const {
 }
 
 std::string SceneKey::expected() const {
+  if (form == Form::mixed && choices.empty()) return "a list of integers or texts such as \"node 1042 z\"";
   if (type == Type::text) return choices.empty() ? "a text" : alternatives(choices);
   if (type == Type::boolean) return "true or false";
   if (type == Type::path) return "the name of a file, relative to the scene's folder";

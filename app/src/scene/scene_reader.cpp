@@ -197,7 +197,7 @@ SceneValue checked_mixed(const Document& document, const DocumentEntry& entry, c
       continue;
     }
     const std::string& text = std::get<std::string>(one);
-    if (contains(key.choices, text)) continue;
+    if (key.choices.empty() || contains(key.choices, text)) continue;
     fail_at(document, entry, toml_text(text) + " is none of them; expected " + key.expected());
   }
   return entries;

@@ -10,9 +10,11 @@
 #include "files/contains.hpp"
 #include "files/missing.hpp"
 #include "plot/axis_ticks.hpp"
+#include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
+#include "wavebalance/app/scene/output_words.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study_record.hpp"
 
@@ -27,8 +29,23 @@ struct Shown {
   double factor = 1.0;
 };
 
-Shown shown_as(const std::string& column) {
+/// "row_19_half_peak_to_peak_m" as "row 19 half peak to peak (µm)", by the largest of its values.
+Shown output_shown(const std::string& column, const OutputUnit& unit, double largest) {
+  std::string words = column.substr(0, column.size() - unit.suffix.size() - 1);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (words.starts_with("minus ")) words.replace(0, 6, "-");
+  const std::string name(unit.name);
+  const Scale scale = axis_scale(largest, name);
+  return {fmt::format("{} ({}{})", capitalised(words), scale.prefix, name == "um" ? "µm" : name),
+          scale.factor};
+}
+
+Shown shown_as(const std::string& column, double largest) {
   const Quantity* known = quantities::find_in_words(column);
+  const OutputUnit* unit = known == nullptr && column.find("_half_peak_to_peak_") != std::string::npos
+                               ? unit_at_end(column)
+                               : nullptr;
+  if (unit != nullptr) return output_shown(column, *unit, largest);
   if (known == nullptr) return {plain(column), 1.0};
   constexpr double usual_length = 1e-3;  // m
   const Scale scale = known->unit == "m" ? axis_scale(usual_length) : Scale();
@@ -43,12 +60,19 @@ double number_of(const Cell& cell) {
 
 /// The quantity in rows that converged, NaN in others.
 std::vector<double> drawn_values(const Table& table, const std::string& quantity) {
-  const double factor = shown_as(quantity).factor;
   std::vector<double> values;
   for (std::size_t i = 0; i < table.rows(); ++i)
-    values.push_back(std::get<bool>(table.at(i, "converged")) ? factor * number_of(table.at(i, quantity))
-                                                              : missing);
+    values.push_back(std::get<bool>(table.at(i, "converged")) ? number_of(table.at(i, quantity)) : missing);
   return values;
+}
+
+/// How it is shown, in whose unit the values are then.
+Shown take_to_shown(const std::string& quantity, std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double value : values) largest = std::fmax(largest, std::abs(value));
+  Shown shown = shown_as(quantity, largest);
+  for (double& value : values) value *= shown.factor;
+  return shown;
 }
 
 /// What a picture says of each run beside its value.
@@ -173,14 +197,13 @@ std::size_t place_in(const std::vector<double>& ordered, double value) {
 }
 
 void add_map(Figure& figure, const Table& table, const std::vector<Varying>& varying,
-             const std::vector<double>& values, const std::vector<Outcome>& outcomes,
-             const std::string& quantity) {
+             const std::vector<double>& values, const std::vector<Outcome>& outcomes, const Shown& shown) {
   const Varying &x = varying[0], &y = varying[1];
   HeatMap map;
   map.x = places_in_map(x, x.distinct);
   map.y = places_in_map(y, y.distinct);
   map.values.assign(map.x.size() * map.y.size(), missing);
-  map.label = shown_as(quantity).label;
+  map.label = shown.label;
   map.told_heads = {"run", x.label, y.label, map.label};
   map.told_rows.resize(map.values.size());
   double least = std::numeric_limits<double>::infinity(), largest = 0.0;
@@ -230,8 +253,7 @@ std::string others_text(const Study& study, const Table& table, std::size_t row,
 }
 
 void add_curves(Figure& figure, const Study& study, const Table& table, const std::vector<Varying>& varying,
-                const std::vector<double>& values, const std::vector<Outcome>& outcomes,
-                const std::string& quantity) {
+                const std::vector<double>& values, const std::vector<Outcome>& outcomes, const Shown& shown) {
   const auto most = [](const Varying& a, const Varying& b) {
     return (a.numeric ? a.distinct.size() : 0) < (b.numeric ? b.distinct.size() : 0);
   };
@@ -240,13 +262,13 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   Panel& panel = figure.add_panel();
   panel.x.label = x.label;
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
-  panel.y.label = shown_as(quantity).label;
+  panel.y.label = shown.label;
   panel.legend = varying.size() > 1;
-  std::set<std::string> shown;
-  for (const Varying& one : varying) shown.insert(one.key);
+  std::set<std::string> keys;
+  for (const Varying& one : varying) keys.insert(one.key);
   std::map<std::string, std::map<double, double>> curves;
   for (std::size_t i = 0; i < values.size(); ++i)
-    curves[others_text(study, table, i, x.key, shown)][x.numbers[i]] = values[i];
+    curves[others_text(study, table, i, x.key, keys)][x.numbers[i]] = values[i];
   if (curves.size() > most_curves) return add_quantile_curves(panel, x, values);
   for (const auto& [text, curve] : curves) {
     Series series(plain(text), SeriesStyle::line_points);
@@ -257,7 +279,7 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   if (contains(outcomes, Outcome::unstable)) panel.legend = true;
 }
 
-void add_distribution(Figure& figure, std::vector<double> values, const std::string& quantity) {
+void add_distribution(Figure& figure, std::vector<double> values, const Shown& shown) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.size() < 2) return;
   std::sort(values.begin(), values.end());
@@ -265,7 +287,7 @@ void add_distribution(Figure& figure, std::vector<double> values, const std::str
   for (std::size_t i = 0; i < values.size(); ++i)
     shares.push_back(100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
   Panel& panel = figure.add_panel("Distribution");
-  panel.x.label = shown_as(quantity).label;
+  panel.x.label = shown.label;
   panel.y.label = "Runs with at most this value (%)";
   panel.y.lower = 0.0;
   panel.add({"", values, shares, SeriesStyle::steps});
@@ -302,7 +324,7 @@ std::vector<double> values_of(const std::vector<double>& values, const std::vect
 }
 
 void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std::vector<double>& values,
-                  const std::vector<Outcome>& outcomes, const std::string& quantity) {
+                  const std::vector<Outcome>& outcomes, const Shown& shown) {
   constexpr std::size_t most_points = 4000;
   const std::size_t step = values.size() / most_points + 1;
   std::size_t drawn = 0;
@@ -317,7 +339,7 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
     panel.x.label = one.label;
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
     set_limits(panel.x, one.distinct.front(), one.distinct.back());
-    panel.y.label = shown_as(quantity).label;
+    panel.y.label = shown.label;
     panel.add(std::move(series));
     for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
       add_marks(panel, one.numbers, values_of(values, outcomes, outcome), outcomes, outcome);
@@ -329,6 +351,15 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
   }
 }
 
+/// plot.log of the scene.
+bool draws_logarithms(const Study& study, const StudyRuns& runs) {
+  try {
+    return scene_of_run(study, runs, 0).plot.log;
+  } catch (const std::exception&) {
+    return false;  // the first run was refused, too
+  }
+}
+
 }  // namespace
 
 Figure study_figure(const Study& study, const StudyRuns& runs, const Table& table,
@@ -337,24 +368,28 @@ Figure study_figure(const Study& study, const StudyRuns& runs, const Table& tabl
   figure.panel_width = 640;
   figure.panel_height = 420;
   if (quantity.empty()) return figure;
-  const std::vector<double> values = drawn_values(table, quantity);
+  std::vector<double> values = drawn_values(table, quantity);
+  const Shown shown = take_to_shown(quantity, values);
   const std::vector<Varying> varying = varying_parameters(study, table);
   const std::vector<Outcome> outcomes = outcomes_of(table);
   if (varying.empty() ||
       std::none_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
     return figure;
   figure.title = fmt::format("{} runs", runs.size());
-  if (draws_map(study, varying)) {
-    add_map(figure, table, varying, values, outcomes, quantity);
+  const bool map = draws_map(study, varying);
+  if (map) {
+    add_map(figure, table, varying, values, outcomes, shown);
   } else if (study.sampling == Sampling::grid) {
-    add_curves(figure, study, table, varying, values, outcomes, quantity);
+    add_curves(figure, study, table, varying, values, outcomes, shown);
   } else {
-    add_distribution(figure, values, quantity);
-    add_scatters(figure, varying, values, outcomes, quantity);
+    add_distribution(figure, values, shown);
+    add_scatters(figure, varying, values, outcomes, shown);
     figure.columns = 2;  // of half the width, so that letters keep their size
     figure.panel_width = 480;
     figure.panel_height = 340;
   }
+  if (!map && study.sampling == Sampling::grid && draws_logarithms(study, runs))
+    take_logarithmic_ordinates(figure);
   return figure;
 }
 

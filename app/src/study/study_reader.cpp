@@ -215,7 +215,8 @@ Study parse_study(std::string_view text, const std::string& name, const std::str
   read_scene_of_study(table, study, scene_text);
   study.set = table.texts("set", "\"time.functions=31\"");
   study.unset = table.texts("unset", "\"contact.exponent\"");
-  study.quantity = table.text("quantity", "", "a value of summary.json, as \"max_displacement_m\"");
+  study.quantity = table.text(
+      "quantity", "", "a value of summary.json, as \"max_displacement_m\", or an output, as \"row 19\"");
   study.sampling = read_sampling(table);
   read_samples(table, study);
   read_parameters(table, study);

@@ -11,6 +11,7 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -119,9 +120,32 @@ Table statuses_table(const Table& table) {
   return statuses;
 }
 
+namespace {
+
+/// The column of the vibration of an output of this name; empty where there is none.
+std::string vibration_column(const Table& table, const std::string& output) {
+  const std::string wanted = column_of(output) + "_half_peak_to_peak";
+  for (const std::string& column : table.columns())
+    if (!output.empty() && (column == wanted || column.starts_with(wanted + "_"))) return column;
+  return "";
+}
+
+/// The output that leads in the first run that has one; empty without any.
+std::string leading_output_in(const Table& table) {
+  const std::string name = quantities::leading_output.column();
+  if (!table.has_column(name)) return "";
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    if (const std::string text = cell_text(table.at(i, name)); !text.empty()) return text;
+  return "";
+}
+
+}  // namespace
+
 std::string drawn_quantity(const Study& study, const Table& table) {
   if (table.empty()) return "";
   if (table.has_column(study.quantity)) return study.quantity;
+  for (const std::string& output : {study.quantity, leading_output_in(table)})
+    if (const std::string column = vibration_column(table, output); !column.empty()) return column;
   const std::string usual = quantities::max_displacement.column();
   if (table.has_column(usual)) return usual;
   for (std::size_t j = study.parameters.size() + 4; j + 1 < table.columns().size(); ++j)
@@ -148,7 +172,8 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
   append_outcome(record.summary, outcome, record.table);
   record.summary.emplace_back("journal_lines_unreadable", unreadable_lines);
   const std::string quantity = drawn_quantity(study, record.table);
-  if (!study.quantity.empty() && quantity != study.quantity)
+  if (!study.quantity.empty() && quantity != study.quantity &&
+      quantity != vibration_column(record.table, study.quantity))
     record.warnings.push_back(fmt::format("quantity = \"{}\": no run has such a value; pictures show {}",
                                           study.quantity, quantity));
   record.summary.emplace_back(quantities::warnings, record.warnings);

@@ -350,6 +350,11 @@ PeriodicResponse ContactProblem::response(const FrequencySweep& curve, double va
   return curve_response(condensed_, laws_, curve, value, unknown);
 }
 
+CurvePeak ContactProblem::peak(const FrequencySweep& curve, std::size_t index, const CurveHeight& height) {
+  hold(curve);
+  return curve_peak(condensed_, laws_, curve, index, height);
+}
+
 std::vector<PeriodicResponse> ContactProblem::responses_at(const FrequencySweep& curve, double value) {
   hold(curve);
   return solvers::responses_at(condensed_, laws_, curve, value);

@@ -21,15 +21,6 @@ const CurveParameter& curve_parameter(SweepParameter parameter) {
 std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter) {
   return parameter == SweepParameter::frequency ? std::string_view("Hz") : problem.load_unit();
 }
-namespace {
-
-void require_unknown(const CondensedProblem& problem, const Eigen::VectorXd& unknown) {
-  if (unknown.size() != problem.samples())
-    throw std::invalid_argument("curve_response: a point of the curve has " + std::to_string(unknown.size()) +
-                                " unknowns, but the problem has " + std::to_string(problem.samples()) +
-                                "; frequency_sweep() keeps them with keep_unknowns");
-}
-
 CurvePoint solution_of(const FrequencySweep& curve, std::size_t index) {
   CurvePoint solution;
   solution.displacement = curve.points[index].unknown;
@@ -37,14 +28,7 @@ CurvePoint solution_of(const FrequencySweep& curve, std::size_t index) {
   return solution;
 }
 
-/// A curve over the load has one frequency.
-void set_frequency_of(const FrequencySweep& curve, CondensedProblem& problem) {
-  if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
-    problem.set_load_frequency(curve.points.front().frequency);
-}
-
-/// The scaled distances in which chords are perpendicular to planes.
-ArcLengthOptions scales_of(const FrequencySweep& curve) {
+ArcLengthOptions arc_scales(const FrequencySweep& curve) {
   const auto value = [&](const SweepPoint& point) { return parameter_of(point, curve.parameter); };
   const auto [low, high] =
       std::minmax_element(curve.points.begin(), curve.points.end(),
@@ -57,6 +41,21 @@ ArcLengthOptions scales_of(const FrequencySweep& curve) {
   scales.displacement_scale = largest > 0.0 ? largest : 1.0;
   scales.parameter_scale = interval > 0.0 ? interval / 20.0 : 1.0;
   return scales;
+}
+
+namespace {
+
+void require_unknown(const CondensedProblem& problem, const Eigen::VectorXd& unknown) {
+  if (unknown.size() != problem.samples())
+    throw std::invalid_argument("curve_response: a point of the curve has " + std::to_string(unknown.size()) +
+                                " unknowns, but the problem has " + std::to_string(problem.samples()) +
+                                "; frequency_sweep() keeps them with keep_unknowns");
+}
+
+/// A curve over the load has one frequency.
+void set_frequency_of(const FrequencySweep& curve, CondensedProblem& problem) {
+  if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
+    problem.set_load_frequency(curve.points.front().frequency);
 }
 
 /// The point nearest to `wanted` that bisection between two points on either side of it finds.
@@ -108,7 +107,7 @@ class Crossings {
       : problem_(problem),
         system_(problem, laws, curve.series_flexibility),
         parameter_(curve_parameter(curve.parameter)),
-        path_(system_, parameter_, scales_of(curve)),
+        path_(system_, parameter_, arc_scales(curve)),
         wanted_(wanted) {}
 
   PeriodicResponse at(const SweepPoint& point) { return solved(point.unknown, {}); }

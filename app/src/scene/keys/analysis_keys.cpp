@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "files/number_text.hpp"
 #include "scene/keys/key_tables.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -88,16 +89,32 @@ SceneValue contact_outputs_by_default(const Scene& scene) {
   return sweep && scene.contact.law != no_law && contacts > 1 && contacts <= most;
 }
 
+/// A number is that of a row or of a bar's node.
+void set_outputs(Scene& scene, const SceneValue& value) {
+  scene.analysis.outputs.clear();
+  const std::string noun = scene.structure.type == StructureType::bar ? "node " : "row ";
+  for (const NumberOrText& one : std::get<std::vector<NumberOrText>>(value)) {
+    const auto* number = std::get_if<double>(&one);
+    scene.analysis.outputs.push_back(number == nullptr ? std::get<std::string>(one)
+                                     : *number < 0.0   ? "-" + noun + number_text(-*number)
+                                                       : noun + number_text(*number));
+  }
+}
+
+void places_of_outputs(SceneKey& key) { key.set = set_outputs; }
+
 void add_outputs(std::vector<SceneKey>& keys) {
   const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
                                        "limit_cycle", "bifurcation_diagram"});
   const Section outputs(keys, "analysis", analysis_part, moves);
   outputs(
       &Analysis::outputs, "outputs", "",
-      "degrees of freedom whose motion is written: rows of matrices, with dof_map also \"node 1052 z\", or "
-      "nodes of a bar from its clamp on; largest and least value, half the peak-to-peak value, rms, mean and "
-      "harmonics of each",
-      optional, named_dofs, only_with(structure_is({"matrices", "bar"})));
+      "places whose motion is written, which pictures and sentences begin with: \"row 7\" or 7 of matrices, with "
+      "dof_map \"node 1052 z\", \"node 3\" or 3 of a bar from its clamp on; of each also \"velocity of node 1052 "
+      "z\", \"absolute acceleration of node 1052 z in g\", \"relative displacement of row 7 in mm\" and "
+      "\"transmissibility of row 7\"; largest and least value, half the peak-to-peak value, rms, mean and harmonics "
+      "of each",
+      optional, places_of_outputs, only_with(structure_is({"matrices", "bar"})));
   outputs(&Analysis::contact_outputs, "contact_outputs", "",
           "true makes an output of each contact, with its force",
           derived("true of a sweep with 2 to 6 directions of contact", contact_outputs_by_default));
@@ -292,6 +309,14 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
   add_diagram(keys);
   add_motions(keys);
   add_mode(keys);
+}
+
+void add_plot_keys(std::vector<SceneKey>& keys) {
+  const Section plot(keys, "plot", plot_part);
+  plot(
+      &Plot::log, "log", "",
+      "true draws curves over frequency, amplitude, energy or parameters of a study with logarithmic ordinates",
+      optional);
 }
 
 }  // namespace wavebalance::app

@@ -1,6 +1,11 @@
 #include "scene/keys/key_tables.hpp"
 
 namespace wavebalance::app {
+namespace {
+
+SceneValue no_coefficients(const Scene&) { return std::vector<double>(); }
+
+}  // namespace
 
 void add_forcing_keys(std::vector<SceneKey>& keys) {
   const Section forcing(keys, "forcing", forcing_part);
@@ -20,6 +25,9 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
           "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "
           "negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; in place of load",
           optional, named_dofs, only_with(structure_is({"matrices"})));
+  forcing(&Forcing::load_coefficients, "load_coefficients", "",
+          "the part of the force on each of load_dofs; a name of several rows spreads it equally over them",
+          derived("1.0 for each", no_coefficients), only_with(structure_is({"matrices"})));
   forcing(
       &Forcing::weight, "weight", "m/s^2",
       "acceleration of gravity along x, y and z, as [0, 0, -9.81]: a static load on all masses of matrices "
@@ -68,6 +76,9 @@ std::vector<SceneKey> term_keys(std::size_t index) {
        "and with an unbalance: two rows, towards the second of which it turns from the first, or one",
        named_dofs,
        derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
+  term(&ForcingTerm::coefficients, "coefficients", "",
+       "of a force, the part of it on each of dofs; a name of several rows spreads it equally over them",
+       derived("1.0 for each", no_coefficients));
   term(&ForcingTerm::load, "load", "",
        "matrices: forces of all degrees of freedom for amplitude 1, as forcing.load; in place of dofs", path,
        none_by_default());

@@ -11,6 +11,7 @@ inline constexpr auto contact_part = [](auto& scene) -> auto& { return scene.con
 inline constexpr auto forcing_part = [](auto& scene) -> auto& { return scene.forcing; };
 inline constexpr auto time_part = [](auto& scene) -> auto& { return scene.time; };
 inline constexpr auto analysis_part = [](auto& scene) -> auto& { return scene.analysis; };
+inline constexpr auto plot_part = [](auto& scene) -> auto& { return scene.plot; };
 
 inline Condition structure_is(std::vector<std::string_view> types) {
   return {"structure.type", std::move(types)};
@@ -39,5 +40,6 @@ void add_contact_keys(std::vector<SceneKey>& keys);
 void add_forcing_keys(std::vector<SceneKey>& keys);
 void add_time_keys(std::vector<SceneKey>& keys);
 void add_analysis_keys(std::vector<SceneKey>& keys);
+void add_plot_keys(std::vector<SceneKey>& keys);
 
 }  // namespace wavebalance::app

@@ -10,6 +10,7 @@ std::vector<SceneKey> make_keys() {
   add_forcing_keys(keys);
   add_time_keys(keys);
   add_analysis_keys(keys);
+  add_plot_keys(keys);
   return keys;
 }
 

@@ -4,6 +4,7 @@
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/files/summary.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/contact/coulomb_law.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -16,6 +17,7 @@ struct FrictionMeasures {
   int row = 0;     ///< the first of its directions of contact, from 0
   int number = 1;  ///< SceneContact::number
   contact::CoulombLaw law;
+  std::string name = {};                                                  ///< whole_name_of(), "contact 2"
   std::vector<contact::FrictionState> state = {};                         ///< at the instants of the motion
   double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
   double work = 0.0;                                                      ///< J, dissipated in the period
@@ -33,10 +35,19 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 /// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
+/// What friction does at one contact in a period of its motion.
+struct ContactWork {
+  int number = 1;      ///< SceneContact::number
+  double work = 0.0;   ///< J
+  double wear = 0.0;   ///< m^3 [Archard]
+  bool wears = false;  ///< whether its law has a coefficient of wear
+};
+
 /// What all contacts with friction do in a period: their work, and the means of their shares of it.
 struct FrictionShares {
   double work = 0.0;                           ///< J
   double stick = 0.0, slip = 0.0, open = 0.0;  ///< of the period
+  std::vector<ContactWork> each = {};          ///< along curves
 
   /// One contact of so many.
   void add(const FrictionShares& contact, std::size_t count) {
@@ -48,6 +59,9 @@ struct FrictionShares {
 };
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);
+
+/// Of a contact with the normal force times its distance of slip, J.
+ContactWork contact_work(const SceneContact& contact, double work, double normal_work);
 
 /// As columns of a table.
 void append_shares(Summary& row, const FrictionShares& shares);

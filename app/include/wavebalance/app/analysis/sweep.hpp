@@ -13,6 +13,7 @@
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
+#include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/branches.hpp"
 
@@ -24,6 +25,8 @@ struct PointImpacts {
   double largest_impulse = 0.0;  ///< N s
   double largest_speed = 0.0;    ///< m/s, before an impact
   double energy_lost = 0.0;      ///< J in a period of the load
+  std::vector<double> speeds =
+      {};  ///< m/s, the largest of each direction of contact up to the last that is struck
 };
 
 /// What a sweep varies, in words, columns and units.
@@ -78,7 +81,10 @@ struct Sweep {
   std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
   std::optional<std::size_t> peak_of_output = {};  ///< of analysis.peak_of, set by measure_outputs()
-  bool outputs_cancelled = false;                  ///< the observer stopped measure_outputs()
+  /// Where that vibration is largest between the points of the curve, set by measure_outputs() where it was
+  /// solved for.
+  std::optional<solvers::CurvePeak> solved_peak = {};
+  bool outputs_cancelled = false;  ///< the observer stopped measure_outputs()
   /// Set by add_isolas() with analysis.isolas: the curves found beside this one and its branches, in the
   /// order in which they were found, and how it was sought for them.
   std::vector<Sweep> isolas;

@@ -15,6 +15,8 @@ namespace wavebalance::app {
 struct OutputMeasures {
   double max = std::numeric_limits<double>::quiet_NaN();
   double min = std::numeric_limits<double>::quiet_NaN();
+  double highest = std::numeric_limits<double>::quiet_NaN();  ///< between the samples, by parabolas
+  double lowest = std::numeric_limits<double>::quiet_NaN();
   double mean = std::numeric_limits<double>::quiet_NaN();
   double rms = std::numeric_limits<double>::quiet_NaN();        ///< of the vibration, without its mean
   Eigen::VectorXcd harmonics = {};                              ///< of the load, from 1: moduli and phases
@@ -27,22 +29,44 @@ struct OutputMeasures {
 /// All outputs at one point of a curve; empty where the point was not measured.
 using MeasuredPoint = std::vector<OutputMeasures>;
 
-/// The displacements of outputs, outputs x points, from the motion of the contacts and of the structure that
-/// is solved; the latter may be empty where all are contacts.
-Eigen::MatrixXd motion_of_outputs(const std::vector<Output>& outputs, const Scene& scene,
-                                  const StructureModel& model, const solvers::Motion& contacts,
-                                  const Eigen::MatrixXd& structure);
+/// The load at a motion.
+struct LoadAt {
+  double frequency = 0.0;  ///< Hz
+  double factor = 1.0;     ///< on that of the scene, but its static part
+  int periods = 1;         ///< of the load, in the motion
+};
 
-/// What is measured of `displacement`, outputs x points at uniform times of `periods` periods of the load,
-/// with `harmonics` harmonics of the load. Forces are those of the contacts. O(outputs harmonics points).
-MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd& displacement,
+/// The values of outputs in their units, outputs x points, from the motion of their degrees of freedom
+/// (rows_of_outputs() times the structure's) and of the contacts. Accelerations are the derivatives of the
+/// velocities, by FFT. O(outputs points log points).
+Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const solvers::Motion& rows,
+                                  const solvers::Motion& contacts, const LoadAt& load);
+
+/// The same from the motion of the structure that is solved; it may be empty where all are contacts.
+Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const Scene& scene,
+                                  const StructureModel& model, const solvers::Motion& contacts,
+                                  const solvers::Motion& structure, int periods);
+
+/// What is measured of `values`, outputs x points at uniform times of `periods` periods of the load, with
+/// `harmonics` harmonics of the load. Forces are those of the contacts. O(outputs harmonics points).
+MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd& values,
                       const Eigen::MatrixXd& forces, int harmonics, int periods);
+
+/// The motion along a curve at which an output vibrates most, or is largest.
+struct OutputPeak {
+  solvers::CurvePeak at{.value = std::numeric_limits<double>::quiet_NaN()};
+  OutputMeasures measures = {};  ///< there; of an exact curve at the nearest point
+  bool solved = false;           ///< between the points of the curve, with its errors; or one of them
+};
 
 /// The outputs along a sweep.
 struct SweepOutputs {
   std::vector<Output> outputs;
   std::vector<std::vector<MeasuredPoint>> curves;  ///< of the curve, then of each branch
   std::vector<std::vector<MeasuredPoint>> isolas;  ///< of each isola
+  /// Of each of analysis.outputs: where half its peak-to-peak value is largest on the curve, and where its
+  /// modulus is.
+  std::vector<OutputPeak> peaks = {}, largest = {};
   MeasuredPoint exact_at_peak = {};  ///< of the exact motion at the peak of the curve; empty where not known
 
   bool empty() const { return outputs.empty(); }

@@ -166,6 +166,10 @@ struct Figure {
   Panel& add_panel(std::string panel_title = "");
 };
 
+/// Gives all diagrams logarithmic ordinates, over six decades at most. Those without a positive ordinate stay
+/// linear.
+void take_logarithmic_ordinates(Figure& figure);
+
 /// A picture of a record, by the name of its file without extension.
 struct RecordPicture {
   std::string stem;

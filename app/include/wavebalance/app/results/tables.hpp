@@ -17,6 +17,7 @@ Table sweep_table(const solvers::FrequencySweep& curve);
 /// The same with the columns `unstable`, missing where it is not known, and `contacts`; with branches also
 /// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other. Of an
 /// amplitude sweep the first column is the amplitude in its unit.
-Table sweep_table(const Sweep& sweep, bool with_branches = false);
+Table sweep_table(const Sweep& sweep, bool with_branches = false,
+                  const std::vector<SceneContact>& contacts = {});
 
 }  // namespace wavebalance::app

@@ -100,8 +100,8 @@ struct Analysis {
   int max_points = 20000;     ///< frequency_sweep: the branch is given up after so many points
   MotionAt motion_at = {};    ///< frequency_sweep, amplitude_sweep
 
-  std::vector<int> outputs = {};  ///< rows of matrices or nodes of a bar, from 1; -i: row i, downwards
-  bool contact_outputs = false;   ///< whether each contact is an output, too
+  std::vector<std::string> outputs = {};  ///< output_words(), such as "velocity of row 3" or "-node 7 z"
+  bool contact_outputs = false;           ///< whether each contact is an output, too
   bool has_outputs() const { return !outputs.empty() || contact_outputs; }
   int output_harmonics = 3;  ///< of the load, whose amplitudes and phases are written of each output
   std::string peak_of = {};  ///< sweeps: the output whose vibration is largest at the peak; or empty

@@ -49,10 +49,14 @@ int whole_contact_count(const Scene& scene);
 std::string direction_name(const SceneContact& contact);
 /// Whether a contact has several.
 bool has_directions(const std::vector<SceneContact>& contacts);
-/// "contact 2", "contact 2 tangent".
+/// The name that the scene gives it, "baffle 1", else "contact 2".
+std::string whole_name_of(const SceneContact& contact);
+/// The same with its direction, "baffle 1 tangent".
 std::string name_of(const SceneContact& contact);
-/// The same with the name that the scene gives it, "contact 2 tangent, baffle 1".
-std::string title_of(const SceneContact& contact);
+/// "contact 2 tangent", whatever its name.
+std::string number_text_of(const SceneContact& contact);
+/// whole_name_of() of each contact, by its number from 1; empty where the scene names none.
+std::vector<std::string> contact_labels(const Scene& scene);
 
 /// The gap of all contacts; NaN where they differ or one has none.
 double common_gap(const Scene& scene);

@@ -26,7 +26,8 @@ struct ForcingTerm {
   double phase = 0.0;          ///< degrees ahead of a cosine
   std::string samples = {};    ///< CSV file, its last column one period at uniform times; or empty
   std::vector<int> dofs = {};  ///< matrices: as Forcing::load_dofs; empty: where Forcing::amplitude acts
-  std::string load = {};       ///< matrices: of a force, as Forcing::load; or empty
+  std::vector<double> coefficients = {};  ///< as Forcing::load_coefficients
+  std::string load = {};                  ///< matrices: of a force, as Forcing::load; or empty
   /// Matrices with a dof map: along which a base_acceleration moves all nodes, "x" or "-z"; empty: dofs.
   std::string direction = {};
 
@@ -36,12 +37,13 @@ struct ForcingTerm {
 /// The force amplitude * cos(2 pi frequency t), at a bar's tip; along load (1/1) of matrices; at one place of
 /// a blade's tip; and the terms. Nonlinear modes do not use it.
 struct Forcing {
-  double amplitude = 0.0;                   ///< N
-  double frequency = 0.0;                   ///< Hz, > 0; a frequency sweep does not use it
-  std::string load = {};                    ///< matrices: Matrix Market file of n values, or empty
-  std::vector<int> load_dofs = {};          ///< matrices: from 1, each with value 1; -i: dof i with -1
-  TipPlace place = TipPlace::leading_edge;  ///< blade
-  Direction direction = Direction::y;       ///< blade
+  double amplitude = 0.0;                      ///< N
+  double frequency = 0.0;                      ///< Hz, > 0; a frequency sweep does not use it
+  std::string load = {};                       ///< matrices: Matrix Market file of n values, or empty
+  std::vector<int> load_dofs = {};             ///< matrices: from 1, each with value 1; -i: dof i with -1
+  std::vector<double> load_coefficients = {};  ///< of each of load_dofs, the part of the force; empty: 1
+  TipPlace place = TipPlace::leading_edge;     ///< blade
+  Direction direction = Direction::y;          ///< blade
   /// Matrices with a dof map: m/s^2 along x, y and z, the static acceleration that all masses feel; or empty.
   std::vector<double> weight = {};
   std::vector<ForcingTerm> terms = {};  ///< beside it

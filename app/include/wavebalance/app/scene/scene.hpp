@@ -43,6 +43,13 @@ struct Time {
   bool operator==(const Time&) const = default;
 };
 
+/// How results are drawn.
+struct Plot {
+  bool log = false;  ///< ordinates of curves over frequency, amplitude or energy are logarithmic
+
+  bool operator==(const Plot&) const = default;
+};
+
 /// Everything that defines one computation. SI units. Read from a TOML file by load_scene(), written by
 /// write_scene(); scene_keys() describes each entry.
 struct Scene {
@@ -51,6 +58,7 @@ struct Scene {
   Forcing forcing;
   Time time;
   Analysis analysis;
+  Plot plot;
 
   bool operator==(const Scene&) const = default;
 };

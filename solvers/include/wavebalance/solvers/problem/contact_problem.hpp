@@ -13,6 +13,7 @@
 #include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/problem/motion_stability.hpp"
 #include "wavebalance/solvers/problem/structure_dynamics.hpp"
+#include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 #include "wavebalance/solvers/stability/branches.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
@@ -140,6 +141,8 @@ class ContactProblem {
                                const PairOfPeriods& pairs, BranchOptions options);
   /// The response at a value of the curve's parameter and an unknown there, as of one of its points.
   PeriodicResponse response(const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown);
+  /// curve_peak() of a curve of the problem.
+  CurvePeak peak(const FrequencySweep& curve, std::size_t index, const CurveHeight& height);
   /// All responses of a curve at a value of its parameter, responses_at().
   std::vector<PeriodicResponse> responses_at(const FrequencySweep& curve, double value);
 

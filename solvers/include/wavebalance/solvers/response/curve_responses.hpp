@@ -6,6 +6,11 @@
 
 namespace wavebalance::solvers {
 
+/// The solution of a point of a curve, without a tangent.
+CurvePoint solution_of(const FrequencySweep& curve, std::size_t index);
+/// The scaled distances in which chords between points of a curve are perpendicular to planes.
+ArcLengthOptions arc_scales(const FrequencySweep& curve);
+
 /// The response of a curve's solution `unknown` (samples() values, m) at `value`, the frequency (Hz) or load
 /// scale: a point of a curve that frequency_sweep() or amplitude_sweep() traced on `problem` with
 /// keep_unknowns, or one of its special points. The problem is left at that value in the displacement form.

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace wavebalance::app {
+
+/// What is written of a place of the structure.
+enum class OutputQuantity { displacement, velocity, acceleration, transmissibility };
+/// In which frame where supports move; `given`: in that in which it is solved for.
+enum class OutputFrame { given, absolute, relative };
+
+/// What an entry of analysis.outputs asks for: "absolute acceleration of node 5 y in g".
+struct OutputWords {
+  OutputQuantity quantity = OutputQuantity::displacement;
+  OutputFrame frame = OutputFrame::given;
+  std::string place;  ///< "-node 5 y", "row 3"
+  std::string unit;   ///< one of output_units(); empty: the SI unit
+};
+
+/// A unit that an output may be asked in.
+struct OutputUnit {
+  std::string_view name;    ///< "m/s^2"
+  std::string_view suffix;  ///< at the end of names of columns: "m_per_s2"
+  double size = 1.0;        ///< in the SI unit, or in rad
+};
+
+/// The unit of an output; the SI unit, or that with rad, where the words name none. Throws
+/// std::invalid_argument with what is expected for one of another quantity.
+const OutputUnit& output_unit(const OutputWords& words, bool rotation);
+
+/// The unit at the end of a column's name, after an underscore; null for columns that end with none.
+const OutputUnit* unit_at_end(std::string_view column);
+
+/// Throws std::invalid_argument that says what is expected.
+OutputWords output_words(std::string_view text);
+
+/// The words without their unit as they name an output: a displacement by its place alone, "node 5 y", others
+/// as "absolute acceleration of node 5 y".
+std::string output_name(const OutputWords& words);
+
+/// How often the displacement is differentiated.
+int derivative_of(OutputQuantity quantity);
+
+}  // namespace wavebalance::app
