@@ -171,6 +171,7 @@ void append_shares(Summary& row, const FrictionShares& shares) {
 std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::FrequencySweep& curve) {
   if (!has_friction(scene)) return {};
   std::vector<FrictionShares> along;
+  const std::vector<SceneContact> places = contacts_of(scene);
   std::vector<LawAtRow> laws = laws_of_rows(contacts_of(scene), curve.series_flexibility);
   for (const solvers::SweepPoint& point : curve.points) {
     if (has_growing_normal_load(scene.contact))

@@ -43,11 +43,8 @@ std::vector<OrbitPlane> planes_of(const Scene& scene, bool with_unbalance) {
                       {}});
   }
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (acts_in_plane(contacts[i].law) && contacts[i].place == 0) {
-      SceneContact whole = contacts[i];
-      whole.directions = 1;
-      planes.push_back({title_of(whole), contacts[i].gap, {}});
-    }
+    if (acts_in_plane(contacts[i].law) && contacts[i].place == 0)
+      planes.push_back({whole_name_of(contacts[i]), contacts[i].gap, {}});
   return planes;
 }
 
