@@ -54,6 +54,18 @@ def test_teeth_of_two_free_gears_move_as_one_mass_does(frequency):
         assert both.summary[key] == pytest.approx(one.summary[key], abs=1e-7)
 
 
+def test_outputs_have_the_motion_with_which_a_support_carries_its_contacts():
+    """Momentum: m1 x1'' + m2 x2'' = 0 apart from the dampers' share, which is inner; the teeth have x1 - x2 - e."""
+    record = wb.run({**gears(5200.0), "analysis": {"type": "forced_response", "outputs": ["row 1", "row 2"]}})
+    first, second = record.outputs["row_1_m"], record.outputs["row_2_m"]
+    time = record.outputs["time_fraction"]
+    teeth = record.response["displacement_m"]
+    moved = first - second - ERROR * np.cos(2 * np.pi * time)
+    np.testing.assert_allclose(moved - moved.mean(), teeth - teeth.mean(), rtol=0, atol=1e-12)
+    both = M1 * first + M2 * second
+    np.testing.assert_allclose(both - both.mean(), 0.0, rtol=0, atol=1e-9 * M1 * np.ptp(first))
+
+
 def test_curves_of_two_free_gears_know_their_stability_and_the_folds_of_the_structure():
     sweep = {"type": "frequency_sweep", "frequency_from": 3300.0, "frequency_to": 4600.0}
     curve = wb.run({**gears(), "analysis": sweep}).summary

@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 #include "wavebalance/app/scene/contacts.hpp"
@@ -42,6 +43,16 @@ Eigen::MatrixXd carried_rows(const Scene& scene, const StructureFiles& files) {
   Eigen::MatrixXd carried = Eigen::MatrixXd::Zero(std::ssize(files.rows), std::ssize(files.moving));
   carried(touched, Eigen::all) = least;
   return carried;
+}
+
+Eigen::VectorXd carried_by(const ForcingTerm& term, const Eigen::MatrixXd& carried,
+                           const StructureFiles& files) {
+  Eigen::VectorXd displacement = Eigen::VectorXd::Zero(carried.rows());
+  for (const int dof : term.dofs) {
+    const auto place = std::ranges::lower_bound(files.moving, std::abs(dof) - 1) - files.moving.begin();
+    displacement += (dof > 0 ? 1.0 : -1.0) * carried.col(place);
+  }
+  return displacement;
 }
 
 void check_carried(const Scene& scene, const StructureFiles& files) {

@@ -12,6 +12,10 @@ namespace wavebalance::app {
 /// StructureFault of a contact between rows of the base alone.
 Eigen::MatrixXd carried_rows(const Scene& scene, const StructureFiles& files);
 
+/// S times the base's displacement of a term, n values, for an amplitude of 1.
+Eigen::VectorXd carried_by(const ForcingTerm& term, const Eigen::MatrixXd& carried,
+                           const StructureFiles& files);
+
 /// Refuses what would have to know of S: modal damping, loss factors, matrices that turn, and motions of the
 /// whole structure. Throws StructureFault.
 void check_carried(const Scene& scene, const StructureFiles& files);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "compose/carried_rows.hpp"
 #include "compose/dof_names.hpp"
 #include "compose/loads.hpp"
 #include "compose/scene_rules.hpp"
@@ -84,6 +85,25 @@ void set_place(Output& output, OutputWords& words, const Scene& scene, bool& rot
   words.place = (negative ? "-" : "") + place;
 }
 
+/// Adds how far a base carries the rows of an output, which the unknowns do not have.
+void add_carried(Output& output, const Scene& scene) {
+  if (scene.structure.type != StructureType::matrices) return;
+  const auto files = structure_files(scene);
+  const Eigen::MatrixXd carried = carried_rows(scene, *files);
+  if (carried.size() == 0) return;
+  for (const ForcingTerm& term : scene.forcing.terms) {
+    if (term.kind != LoadKind::base_displacement) continue;
+    const Eigen::VectorXd moved = carried_by(term, carried, *files);
+    double share = 0.0;
+    for (const int row : output.rows) {
+      const auto place = std::ranges::lower_bound(files->rows, row);
+      if (place != files->rows.end() && *place == row)
+        share += output.weight * moved[place - files->rows.begin()];
+    }
+    if (share != 0.0) output.added.push_back({share * harmonics_of(term), 0});
+  }
+}
+
 Output output_of(const Scene& scene, const std::string& text) {
   OutputWords words = output_words(text);
   Output output;
@@ -98,6 +118,7 @@ Output output_of(const Scene& scene, const std::string& text) {
   output.size = unit.size;
   output.derivative = derivative_of(words.quantity);
   set_frame(output, words, scene);
+  add_carried(output, scene);
   return output;
 }
 

@@ -40,6 +40,16 @@ LinearStructure held_by_springs(const LinearStructure& structure, double holding
   return held;
 }
 
+std::optional<LinearStructure> held_at_rest(const LinearStructure& structure, double holding) {
+  const std::vector<Eigen::Index> rows = hold(structure).drift_rows;
+  if (rows.empty()) return std::nullopt;
+  LinearStructure held = held_by_springs(structure, holding);
+  const double size = std::max(holding, structure.stiffness.diagonal().cwiseAbs().maxCoeff());
+  for (const Eigen::Index row : rows) held.stiffness.coeffRef(row, row) += size > 0.0 ? size : 1.0;
+  held.rigid_modes = {};
+  return held;
+}
+
 namespace {
 
 // Modes are exact to rounding beside a resonance, where an LU of the dynamic stiffness loses as many digits
@@ -61,12 +71,7 @@ FreeContacts::FreeContacts(const LinearStructure& structure, Eigen::VectorXcd ha
       harmonics_(std::move(harmonics)),
       repeats_(repeats_within_period(harmonics_)),
       condensation_(condensation_of(held_by_springs(structure, holding))) {
-  const std::vector<Eigen::Index> rows = hold(structure).drift_rows;
-  if (rows.empty()) return;
-  LinearStructure held = held_by_springs(structure, holding);
-  const double size = std::max(holding, structure.stiffness.diagonal().cwiseAbs().maxCoeff());
-  for (const Eigen::Index row : rows) held.stiffness.coeffRef(row, row) += size > 0.0 ? size : 1.0;
-  at_rest_ = condensation_of(held);
+  if (const auto held = held_at_rest(structure, holding)) at_rest_ = condensation_of(*held);
 }
 
 Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
@@ -79,8 +84,8 @@ Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
     if (loads.col(n).isZero(0.0)) continue;
     const std::complex<double> rate(0.0, 2.0 * std::numbers::pi * repeats_ * frequency * double(n));
     Condensation& used = n == 0 && at_rest_ ? *at_rest_ : condensation_;
-    const CondensedPoint point = used.dynamic_compliance(
-        {rate * rate, rate, 1.0, rate * beyond, beyond * (speed + base)}, {});
+    const CondensedPoint point =
+        used.dynamic_compliance({rate * rate, rate, 1.0, rate * beyond, beyond * (speed + base)}, {});
     amplitudes.col(repeats_ * n) = point.load_response.reshaped(contacts, loads.rows()) * loads.col(n);
   }
   return amplitudes;

@@ -19,6 +19,10 @@ Eigen::MatrixXcd loads_of(const LinearStructure& structure, const Eigen::VectorX
 /// contacts.
 LinearStructure held_by_springs(const LinearStructure& structure, double holding);
 
+/// The same at rest, where motions that no contact resists are held, too: a load that balances leaves their
+/// position open. Nothing for a structure without such motions.
+std::optional<LinearStructure> held_at_rest(const LinearStructure& structure, double holding);
+
 /// How the contacts move without contact forces, with the springs ContactDynamics::holding(), over frequency
 /// and size of the load. One object per thread.
 class FreeContacts {
@@ -36,9 +40,7 @@ class FreeContacts {
   Eigen::VectorXcd harmonics_;
   int repeats_;
   Condensation condensation_;
-  /// At rest, of a structure with motions that no contact resists: these are held, since a load that balances
-  /// leaves their position open.
-  std::optional<Condensation> at_rest_;
+  std::optional<Condensation> at_rest_;  // of held_at_rest()
 };
 
 }  // namespace wavebalance::solvers::detail

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -68,7 +69,9 @@ class Harmonics {
         repeats_(load_periods(problem)),
         loads_(detail::loads_of(problem, repeats_)),
         structure_(detail::held_by_springs(problem.structure(), source.holding)),
-        condensation_(structure_) {}
+        condensation_(structure_) {
+    if (const auto held = detail::held_at_rest(problem.structure(), source.holding)) at_rest_.emplace(*held);
+  }
 
   const LinearStructure& structure() const { return structure_; }
   std::complex<double> rate(int harmonic) const { return rate_ * double(harmonic); }
@@ -79,7 +82,8 @@ class Harmonics {
     const Eigen::MatrixXcd forces = source_.force_harmonics(count);
     for (; taken_ < count; ++taken_) {
       const std::complex<double> s = rate(taken_);
-      take(taken_, condensation_.recover({s * s, s, 1.0}, loads_at(taken_), forces.col(taken_)));
+      Condensation& used = taken_ == 0 && at_rest_ ? *at_rest_ : condensation_;
+      take(taken_, used.recover({s * s, s, 1.0}, loads_at(taken_), forces.col(taken_)));
     }
   }
 
@@ -96,6 +100,7 @@ class Harmonics {
   Eigen::MatrixXcd loads_;
   LinearStructure structure_;
   Condensation condensation_;
+  std::optional<Condensation> at_rest_;
 };
 
 }  // namespace
