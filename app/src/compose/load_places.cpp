@@ -7,6 +7,7 @@
 #include <string>
 
 #include "files/contains.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
@@ -198,6 +199,21 @@ std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
     if (loads[row] != 0.0) rows.push_back(static_cast<int>(row));
   if (rows.size() > most_loaded_dofs) rows.clear();
   return rows;
+}
+
+Eigen::MatrixXd rotor_plane(const Scene& scene, const StructureFiles& files,
+                            const solvers::ContactDirections& directions) {
+  for (const ForcingTerm& term : scene.forcing.terms) {
+    if (term.kind != LoadKind::unbalance || term.dofs.size() != 2) continue;
+    Eigen::MatrixXd plane(2, directions.cols());
+    plane.row(0) = forces_at_dofs({term.dofs[0]}, files);
+    plane.row(1) = forces_at_dofs({term.dofs[1]}, files);
+    return plane;
+  }
+  const std::vector<SceneContact> contacts = contact_places(scene);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (acts_in_plane(contacts[i].law)) return Eigen::MatrixXd(directions.middleRows(Eigen::Index(i), 2));
+  return {};
 }
 
 }  // namespace wavebalance::app

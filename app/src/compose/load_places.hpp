@@ -42,4 +42,9 @@ Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const Structu
 Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files,
                                const std::vector<double>& coefficients = {});
 
+/// The plane in which a rotor turns, 2 x n: how displacements move along the two rows of the first unbalance
+/// that has two, or else along those of the first ring; 0 x 0 without.
+Eigen::MatrixXd rotor_plane(const Scene& scene, const StructureFiles& files,
+                            const solvers::ContactDirections& directions);
+
 }  // namespace wavebalance::app

@@ -252,22 +252,6 @@ Sparse proportional_damping(const StructureFiles& files, double beta) {
   return beta * (files.matrices.stiffness - files.spin_speed * files.spin_speed * files.spin_stiffness);
 }
 
-/// Two rows of n: those of the first unbalance that has two, or else of the first ring; none without.
-Eigen::MatrixXd plane_of(const Scene& scene, const StructureFiles& files,
-                         const solvers::ContactDirections& directions) {
-  for (const ForcingTerm& term : scene.forcing.terms) {
-    if (term.kind != LoadKind::unbalance || term.dofs.size() != 2) continue;
-    Eigen::MatrixXd plane(2, directions.cols());
-    plane.row(0) = forces_at_dofs({term.dofs[0]}, files);
-    plane.row(1) = forces_at_dofs({term.dofs[1]}, files);
-    return plane;
-  }
-  const std::vector<SceneContact> contacts = contact_places(scene);
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (acts_in_plane(contacts[i].law)) return Eigen::MatrixXd(directions.middleRows(Eigen::Index(i), 2));
-  return {};
-}
-
 StructureModel matrices_model(const Scene& scene, const solvers::Observer& observer) {
   const auto files = structure_files(scene);
   check_against_files(scene, *files);
@@ -297,12 +281,12 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
     set_structure(model, std::move(matrices), loads);
     model.structure.contact_directions = directions;
     model.structure.turning = turning;
-    model.plane = plane_of(scene, *files, directions);
+    model.plane = rotor_plane(scene, *files, directions);
     return model;
   }
   reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer,
          turning);
-  const Eigen::MatrixXd plane = plane_of(scene, *files, directions);
+  const Eigen::MatrixXd plane = rotor_plane(scene, *files, directions);
   if (plane.size() > 0) model.plane = plane * model.recovery;
   return model;
 }

@@ -112,8 +112,8 @@ void append_orbits(Record& record, const Scene& scene, const std::vector<CurveMo
   std::vector<OrbitPlane> planes = planes_of(scene, with_unbalance);
   if (planes.empty()) return;
   for (const CurveMotion& motion : motions)
-    add_orbits(planes, scene, name_of(motion, record.axis),
-               with_unbalance ? motion.plane : Eigen::MatrixXd(), motion.contacts.displacement);
+    add_orbits(planes, scene, name_of(motion, record.axis), with_unbalance ? motion.plane : Eigen::MatrixXd(),
+               motion.contacts.displacement);
   append_planes(record, planes);
 }
 
