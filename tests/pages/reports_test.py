@@ -24,6 +24,8 @@ REPORTS = {
     "coexisting motions": ("run", "laws/duffing.toml"),
     "motions": ("run", "impacts/between_stops.toml", "--analysis", "motions", "--set", "forcing.frequency=0.26"),
     "time stepping": ("run", "jones_legrand_2014/stepping_case1.toml"),
+    "aperiodic motion": ("run", "impacts/hammer_diagram.toml", "--analysis", "time_stepping", "--set", "analysis.max_periods=100"),
+    "bifurcation diagram": ("run", "impacts/hammer_diagram.toml", "--set", "analysis.values=9"),
     "tolerance": ("run", "tolerance/case1.toml"),
     "blade with a mesh": ("run", "blade/rotating_mode.toml", "--set", "analysis.harmonics=3"),
     "comparison": ("compare", "jones_legrand_2014/case1.toml", *FEW),

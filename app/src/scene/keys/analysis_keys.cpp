@@ -135,13 +135,9 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
   stepping(&Analysis::recorded_periods, "recorded_periods", "",
            "periods of the load that are recorded behind max_periods where the motion has not repeated, for "
            "statistics, a Poincare section and a spectrum; 0 for none",
-           within(0, 10'000'000), optional);
-  const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
-  settling(
-      &Analysis::max_periods, "max_periods", "",
-      "given up after so many periods of the load; of a limit cycle so many of the slowest mode from each "
-      "start",
-      within(1, 100'000'000), optional);
+           within(0, 100'000), optional);
+  stepping(&Analysis::max_periods, "max_periods", "", "given up after so many periods",
+           within(1, 100'000'000), optional);
 }
 
 void add_diagram(std::vector<SceneKey>& keys) {
