@@ -48,15 +48,19 @@ def special_points(ax: Any, points: list[dict[str, Any]], place: str) -> None:
         ax.legend()
 
 
-def record_response(columns: dict[str, Any], ax: Any = None) -> Any:
+def record_response(columns: dict[str, Any], ax: Any = None, column: str = "displacement_m", unit: str = "m") -> Any:
     ax = axes(ax)
-    ax.plot(columns["time_fraction"], columns["displacement_m"])
+    ax.plot(columns["time_fraction"], columns[column])
     ax.set_xlabel("Time (fraction of a period)")
-    ax.set_ylabel("Displacement (m)")
+    ax.set_ylabel(_labelled("Displacement" if column == "displacement_m" else column.replace("_", " "), unit))
     return ax
 
 
-def record_sweep(columns: dict[str, Any], ax: Any = None) -> Any:
+def _labelled(words: str, unit: str) -> str:
+    return f"{words} ({unit})" if unit else words
+
+
+def record_sweep(columns: dict[str, Any], ax: Any = None, column: str = "max_displacement_m", unit: str = "m") -> Any:
     ax = axes(ax)
     name = next(iter(columns))
     none = np.zeros(len(columns[name]))
@@ -65,9 +69,12 @@ def record_sweep(columns: dict[str, Any], ax: Any = None) -> Any:
     unstable = np.asarray(columns.get("unstable", np.zeros(len(columns[name]))))
     for branch in np.unique(branches):
         of = branches == branch
-        curve(ax, columns[name][of], columns["max_displacement_m"][of], unstable[of])
+        curve(ax, columns[name][of], columns[column][of], unstable[of])
     ax.set_xlabel("Frequency (Hz)" if name == "frequency_Hz" else name.replace("_", " "))
-    ax.set_ylabel("Largest displacement (m)")
+    if column == "max_displacement_m":
+        ax.set_ylabel("Largest displacement (m)")
+    else:
+        ax.set_ylabel(_labelled(column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit))
     return ax
 
 

@@ -97,14 +97,29 @@ class Record:
         return _plots.frame(self.sweep or self.backbone or self.response or self.section)
 
     def plot(self, ax: Any = None) -> Any:
-        """Draws the motion, the curve (unstable parts dashed) the mode or the dots of a diagram with Matplotlib, and returns the axes."""
+        """Draws the motion, the curve (unstable parts dashed), the mode or the dots of a diagram with Matplotlib, and returns the axes.
+
+        With ``analysis.outputs`` the motion and the curve are those of the output that leads, otherwise of contacts.
+        """
+        leading, unit = self._leading_output()
         if self.sweep:
-            return _plots.record_sweep(self.sweep, ax)
+            column = next((name for name in self.sweep if name.startswith(f"{leading}_half_peak_to_peak")), None)
+            return _plots.record_sweep(self.sweep, ax, column, unit) if leading and column else _plots.record_sweep(self.sweep, ax)
         if self.section and not self.response:
             return _plots.record_diagram(self.section, ax)
         if self.backbone:
             return _plots.record_backbone(self.backbone, ax)
-        return _plots.record_response(self.response, ax)
+        column = next((name for name in self.outputs if name in (leading, f"{leading}_{_suffix(unit)}")), None)
+        return _plots.record_response(self.outputs, ax, column, unit) if leading and column else _plots.record_response(self.response, ax)
+
+    def _leading_output(self) -> tuple[str, str]:
+        """How its columns begin, and its unit; empty without analysis.outputs."""
+        name = str(self.summary.get("leading_output", ""))
+        table = self.summary.get("outputs")
+        if not name or not table:
+            return "", ""
+        unit = dict(zip(table["output"], table["unit"])).get(name, "")
+        return name.replace("-", "minus_").replace("#", "").replace(" ", "_"), unit
 
     def _solved_here(self) -> _core.Run:
         if self._run is None:
@@ -131,6 +146,11 @@ class Record:
         except OSError:
             return ""
         return drawn[drawn.find("<svg") :] if "<svg" in drawn else ""
+
+
+def _suffix(unit: str) -> str:
+    """A unit as it ends the name of a column."""
+    return unit.replace("µ", "u").replace("/", "_per_").replace("^", "")
 
 
 def _shown(value: Any) -> str:

@@ -132,3 +132,32 @@ def test_logarithmic_ordinates_change_the_picture_alone(tmp_path):
         axes.append('"logarithmic":true' in (tmp_path / name / "sweep.figure.js").read_text())
         assert ("log = true" in (tmp_path / name / "scene.toml").read_text()) == axes[-1]
     assert axes == [False, True]
+
+
+class Axes:
+    """What is drawn, without Matplotlib."""
+
+    def plot(self, _, ordinates, *more, **how):
+        self.drawn = np.asarray(ordinates)
+        return (self,)
+
+    def get_color(self):
+        return "black"
+
+    def __getattr__(self, name):
+        return lambda label=None, *more, **how: setattr(self, "label", label) if name == "set_ylabel" else None
+
+
+def test_a_record_plots_the_output_that_leads():
+    axes = Axes()
+    curve = wb.run(scene(outputs=["velocity of row 1 in mm/s"]))
+    curve.plot(axes)
+    np.testing.assert_array_equal(axes.drawn, curve.sweep["velocity_of_row_1_half_peak_to_peak_mm_per_s"])
+    assert axes.label == "velocity of row 1, half peak to peak (mm/s)"
+    values = scene()
+    values["analysis"] = {"type": "forced_response", "outputs": ["absolute displacement of row 1"]}
+    motion = wb.run(values)
+    motion.plot(axes)
+    np.testing.assert_array_equal(axes.drawn, motion.outputs["absolute_displacement_of_row_1_m"])
+    wb.run(values, unset=["analysis.outputs"]).plot(axes)
+    assert axes.label == "Displacement (m)"

@@ -13,8 +13,8 @@ namespace wavebalance::app {
 /// has a place. Throws StructureFault.
 void check_loads(const Scene& scene, const StructureFiles& files);
 
-/// Rows counted from 1 with a sign are in 1..size, none twice; none of them moves with a base displacement or is held.
-/// Throw StructureFault of `key`.
+/// Rows counted from 1 with a sign are in 1..size, none twice; none of them moves with a base displacement or
+/// is held. Throw StructureFault of `key`.
 void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key);
 void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key);
 

@@ -36,12 +36,15 @@ std::optional<PolynomialPeak> polynomial_peak(std::span<const double> places, st
   for (std::size_t i = 1; i < x.size(); ++i)
     lengths.push_back(lengths.back() +
                       std::hypot((x[i] - x[i - 1]) / extent(x), (y[i] - y[i - 1]) / extent(y)));
-  constexpr double tolerance = 1e-8;
+  // Heights above that of the point, in their range: whole heights near a peak differ by rounding alone.
+  std::vector<double> above;
+  for (const double one : y) above.push_back((one - heights[index]) / extent(y));
+  constexpr double tolerance = 1e-6;
   const solvers::Maximum best = solvers::maximum_between(
-      [&](double at) { return interpolated(lengths, y, at); }, lengths[neighbours - 1], lengths[neighbours],
-      lengths[neighbours + 1], tolerance);
+      [&](double at) { return interpolated(lengths, above, at); }, lengths[neighbours - 1],
+      lengths[neighbours], lengths[neighbours + 1], tolerance);
   if (!best.complete) return std::nullopt;
-  return PolynomialPeak{interpolated(lengths, x, best.at), best.value};
+  return PolynomialPeak{interpolated(lengths, x, best.at), heights[index] + extent(y) * best.value};
 }
 
 }  // namespace wavebalance::app

@@ -104,8 +104,8 @@ void set_outputs(Scene& scene, const SceneValue& value) {
 void places_of_outputs(SceneKey& key) { key.set = set_outputs; }
 
 void add_outputs(std::vector<SceneKey>& keys) {
-  const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping",
-                                       "limit_cycle", "bifurcation_diagram"});
+  const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep",
+                                       "time_stepping", "limit_cycle", "bifurcation_diagram"});
   const Section outputs(keys, "analysis", analysis_part, moves);
   outputs(
       &Analysis::outputs, "outputs", "",
@@ -136,8 +136,12 @@ void add_time_stepping(std::vector<SceneKey>& keys) {
            "periods of the load that are recorded behind max_periods where the motion has not repeated, for "
            "statistics, a Poincare section and a spectrum; 0 for none",
            within(0, 100'000), optional);
-  stepping(&Analysis::max_periods, "max_periods", "", "given up after so many periods",
-           within(1, 100'000'000), optional);
+  const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
+  settling(
+      &Analysis::max_periods, "max_periods", "",
+      "given up after so many periods of the load; of a limit cycle so many of the slowest mode from each "
+      "start",
+      within(1, 100'000'000), optional);
 }
 
 void add_diagram(std::vector<SceneKey>& keys) {
