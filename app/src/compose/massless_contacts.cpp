@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "compose/symmetric_part.hpp"
+#include "matrices/symmetric_part.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/solvers/structure/massless_contacts.hpp"
 

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compose/carried_rows.hpp"
-#include "compose/dof_names.hpp"
-#include "compose/loads.hpp"
 #include "compose/scene_rules.hpp"
-#include "compose/structure_facts.hpp"
-#include "compose/structure_files.hpp"
 #include "compose/support_motion.hpp"
 #include "files/contains.hpp"
+#include "matrices/carried_rows.hpp"
+#include "matrices/dof_names.hpp"
+#include "matrices/loads.hpp"
+#include "matrices/structure_facts.hpp"
+#include "matrices/structure_files.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "compose/load_places.hpp"
-#include "compose/loads.hpp"
-#include "compose/structure_files.hpp"
+#include "matrices/load_places.hpp"
+#include "matrices/loads.hpp"
+#include "matrices/structure_files.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"

@@ -1,7 +1,7 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 
-#include "compose/dof_names.hpp"
 #include "compose/scene_rules.hpp"
+#include "matrices/dof_names.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/toml_text.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "compose/loads.hpp"
+#include "matrices/loads.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -5,11 +5,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "compose/carried_rows.hpp"
-#include "compose/load_places.hpp"
-#include "compose/loads.hpp"
-#include "compose/structure_files.hpp"
-#include "compose/symmetric_part.hpp"
+#include "matrices/carried_rows.hpp"
+#include "matrices/load_places.hpp"
+#include "matrices/loads.hpp"
+#include "matrices/structure_files.hpp"
+#include "matrices/symmetric_part.hpp"
 #include "wavebalance/app/compose/massless_contacts.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/bar.hpp"

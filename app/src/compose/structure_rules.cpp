@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "compose/scene_rules.hpp"
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "compose/load_places.hpp"
-#include "compose/loads.hpp"
-#include "compose/structure_files.hpp"
+#include "matrices/load_places.hpp"
+#include "matrices/loads.hpp"
+#include "matrices/structure_files.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-#include "wavebalance/app/analysis/bifurcation.hpp"
+#include "wavebalance/app/attractors/bifurcation.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::app {

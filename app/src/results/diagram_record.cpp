@@ -10,7 +10,7 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
-#include "wavebalance/app/analysis/bifurcation.hpp"
+#include "wavebalance/app/attractors/bifurcation.hpp"
 
 namespace wavebalance::app {
 namespace {

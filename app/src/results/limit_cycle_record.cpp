@@ -2,7 +2,7 @@
 
 #include <complex>
 
-#include "analysis/limit_cycle.hpp"
+#include "attractors/limit_cycle.hpp"
 #include "results/response_record.hpp"
 
 namespace wavebalance::app {

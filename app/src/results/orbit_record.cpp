@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "compose/structure_files.hpp"
 #include "drawing/orbit_figure.hpp"
 #include "files/missing.hpp"
+#include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

@@ -1,5 +1,5 @@
 #pragma once
-#include "wavebalance/app/analysis/recorded_motion.hpp"
+#include "wavebalance/app/attractors/recorded_motion.hpp"
 #include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "compose/structure_facts.hpp"
 #include "files/missing.hpp"
+#include "matrices/structure_facts.hpp"
 #include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"

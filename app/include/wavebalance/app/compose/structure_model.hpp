@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/matrices/moved_mesh.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/blade.hpp"
@@ -17,13 +18,6 @@
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
-
-/// The mesh of a structure of matrices and how it moves.
-struct MovedMesh {
-  fem::Mesh mesh;
-  /// 3 nodes x unknowns: displacements of the nodes, x, y and z of each, from those of the structure.
-  Eigen::SparseMatrix<double> displacements;
-};
 
 /// A scene's structure, composed once: the structure that is solved, and the way back to the whole structure.
 /// Immutable once it is used.

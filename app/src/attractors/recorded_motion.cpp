@@ -1,4 +1,4 @@
-#include "wavebalance/app/analysis/recorded_motion.hpp"
+#include "wavebalance/app/attractors/recorded_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
-#include "analysis/flow_rows.hpp"
-#include "wavebalance/solvers/flow/long_motion.hpp"
+#include "attractors/flow_rows.hpp"
+#include "wavebalance/solvers/attractors/long_motion.hpp"
 
 namespace wavebalance::app {
 namespace {

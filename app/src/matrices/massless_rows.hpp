@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 
 namespace wavebalance::app {
 

@@ -1,4 +1,4 @@
-#include "compose/massless_rows.hpp"
+#include "matrices/massless_rows.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
-#include "compose/structure_inputs.hpp"
+#include "matrices/structure_inputs.hpp"
 
 #include <fmt/format.h>
 
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 
 namespace wavebalance::app {
 namespace {

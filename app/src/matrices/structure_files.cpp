@@ -1,4 +1,4 @@
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 
 #include <fmt/format.h>
 
@@ -6,13 +6,13 @@
 #include <array>
 #include <cstdlib>
 
-#include "compose/carried_rows.hpp"
-#include "compose/load_places.hpp"
-#include "compose/massless_rows.hpp"
-#include "compose/moved_mesh.hpp"
-#include "compose/structure_inputs.hpp"
-#include "compose/symmetric_part.hpp"
 #include "files/contains.hpp"
+#include "matrices/carried_rows.hpp"
+#include "matrices/load_places.hpp"
+#include "matrices/massless_rows.hpp"
+#include "matrices/moved_mesh.hpp"
+#include "matrices/structure_inputs.hpp"
+#include "matrices/symmetric_part.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/fem/check_structure.hpp"

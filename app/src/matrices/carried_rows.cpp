@@ -1,4 +1,4 @@
-#include "compose/carried_rows.hpp"
+#include "matrices/carried_rows.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "analysis/flow_rows.hpp"
+#include "attractors/flow_rows.hpp"
 
 #include <utility>
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/recorded_motion.hpp"
+#include "wavebalance/app/attractors/recorded_motion.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"

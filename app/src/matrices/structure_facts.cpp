@@ -1,4 +1,4 @@
-#include "compose/structure_facts.hpp"
+#include "matrices/structure_facts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "compose/structure_files.hpp"
-#include "compose/symmetric_part.hpp"
+#include "matrices/structure_files.hpp"
+#include "matrices/symmetric_part.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"
 #include "wavebalance/fem/static_displacements.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/limit_cycle.hpp"
+#include "attractors/limit_cycle.hpp"
 
 #include <chrono>
 #include <utility>

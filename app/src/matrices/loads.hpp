@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/structure/periodic_force.hpp"
 

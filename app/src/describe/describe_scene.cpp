@@ -6,11 +6,11 @@
 #include <numbers>
 #include <vector>
 
-#include "compose/load_places.hpp"
-#include "compose/structure_facts.hpp"
-#include "compose/structure_files.hpp"
+#include "describe/contact_line.hpp"
 #include "files/number_text.hpp"
-#include "results/contact_line.hpp"
+#include "matrices/load_places.hpp"
+#include "matrices/structure_facts.hpp"
+#include "matrices/structure_files.hpp"
 #include "results/rest_record.hpp"
 #include "results/whirl_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"

@@ -1,4 +1,4 @@
-#include "compose/moved_mesh.hpp"
+#include "matrices/moved_mesh.hpp"
 
 #include <fmt/format.h>
 

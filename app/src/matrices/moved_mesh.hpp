@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
-#include "compose/structure_files.hpp"
-#include "wavebalance/app/compose/structure_model.hpp"
+#include "matrices/structure_files.hpp"
+#include "wavebalance/app/matrices/moved_mesh.hpp"
 
 namespace wavebalance::app {
 

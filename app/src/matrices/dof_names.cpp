@@ -1,4 +1,4 @@
-#include "compose/dof_names.hpp"
+#include "matrices/dof_names.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <sstream>
 
-#include "compose/structure_inputs.hpp"
+#include "matrices/structure_inputs.hpp"
 #include "scene/pair_reader.hpp"
 #include "scene/scene_reader.hpp"
 #include "scene/term_reader.hpp"

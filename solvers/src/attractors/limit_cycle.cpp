@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/flow/limit_cycle.hpp"
+#include "wavebalance/solvers/attractors/limit_cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "compose/loads.hpp"
+#include "matrices/loads.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "compose/load_places.hpp"
+#include "matrices/load_places.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/spectral/fft.hpp"

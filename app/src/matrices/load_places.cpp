@@ -1,4 +1,4 @@
-#include "compose/load_places.hpp"
+#include "matrices/load_places.hpp"
 
 #include <fmt/format.h>
 

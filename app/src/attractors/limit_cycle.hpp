@@ -1,6 +1,6 @@
 #pragma once
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/solvers/flow/limit_cycle.hpp"
+#include "wavebalance/solvers/attractors/limit_cycle.hpp"
 
 namespace wavebalance::app {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "wavebalance/app/analysis/recorded_motion.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
+#include "wavebalance/app/attractors/recorded_motion.hpp"
 
 namespace wavebalance::app {
 

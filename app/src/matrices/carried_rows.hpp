@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "compose/structure_files.hpp"
+#include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {

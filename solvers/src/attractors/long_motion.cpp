@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/flow/long_motion.hpp"
+#include "wavebalance/solvers/attractors/long_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

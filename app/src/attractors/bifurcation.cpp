@@ -1,13 +1,13 @@
-#include "wavebalance/app/analysis/bifurcation.hpp"
+#include "wavebalance/app/attractors/bifurcation.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
 
-#include "analysis/flow_rows.hpp"
+#include "attractors/flow_rows.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
-#include "wavebalance/solvers/flow/long_motion.hpp"
+#include "wavebalance/solvers/attractors/long_motion.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "results/contact_line.hpp"
+#include "describe/contact_line.hpp"
 
 #include <fmt/format.h>
 
