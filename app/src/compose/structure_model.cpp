@@ -96,17 +96,6 @@ fem::Observer reduction_observer(const solvers::Observer& observer) {
   };
 }
 
-/// The matrices with the symmetric parts of C and K; nothing where those are symmetric, since a copy of a
-/// large structure takes as much memory as the structure.
-std::optional<fem::Matrices> symmetric_parts(const fem::Matrices& matrices) {
-  const bool no_damping = matrices.damping.size() == 0;
-  if (solvers::is_symmetric(matrices.stiffness) && (no_damping || solvers::is_symmetric(matrices.damping)))
-    return std::nullopt;
-  return fem::Matrices{.mass = matrices.mass,
-                       .damping = no_damping ? matrices.damping : symmetric_part(matrices.damping),
-                       .stiffness = symmetric_part(matrices.stiffness)};
-}
-
 [[noreturn]] void fail_too_many_modes(int kept_modes) {
   throw std::invalid_argument("structure.kept_modes = " + std::to_string(kept_modes) +
                               ": the mass is semidefinite, and not all of these modes have mass beside the "

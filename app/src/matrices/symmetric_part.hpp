@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/SparseCore>
+#include <optional>
 
+#include "wavebalance/fem/matrices.hpp"
 #include "wavebalance/solvers/structure/linear_structure.hpp"
 
 namespace wavebalance::app {
@@ -27,6 +29,17 @@ inline double shift_of(bool free, const Eigen::SparseMatrix<double>& stiffness,
   if (!free) return 0.0;
   const double largest = (stiffness.diagonal().array() / mass.diagonal().array()).maxCoeff();
   return largest > 0.0 ? -1e-8 * largest : -1.0;
+}
+
+/// The matrices with the symmetric parts of C and K; nothing where those are symmetric, since a copy of a
+/// large structure takes as much memory as the structure.
+inline std::optional<fem::Matrices> symmetric_parts(const fem::Matrices& matrices) {
+  const bool no_damping = matrices.damping.size() == 0;
+  if (solvers::is_symmetric(matrices.stiffness) && (no_damping || solvers::is_symmetric(matrices.damping)))
+    return std::nullopt;
+  return fem::Matrices{.mass = matrices.mass,
+                       .damping = no_damping ? matrices.damping : symmetric_part(matrices.damping),
+                       .stiffness = symmetric_part(matrices.stiffness)};
 }
 
 }  // namespace wavebalance::app
