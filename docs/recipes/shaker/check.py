@@ -12,6 +12,10 @@ w = 2 * np.pi * f[free]
 linear = m * base / abs(k - m * w**2 + 1j * w * c)
 print(f"{sum(free)} points below the clearance: amplitude within {np.max(abs(stroke[free] / linear - 1)):.1e} of the closed form")
 assert np.allclose(stroke[free], linear, rtol=1e-8)
+ratio = abs((k + 1j * w * c) / (k - m * w**2 + 1j * w * c))
+error = np.max(abs(curve["transmissibility_of_row_1_amplitude_1"][free] / ratio - 1))
+print(f"transmissibility within {error:.1e} of the closed form")
+assert error < 1e-8
 
 
 def settled(frequency, start, periods=40):
