@@ -41,6 +41,7 @@ LinearStructure held_by_springs(const LinearStructure& structure, double holding
 }
 
 std::optional<LinearStructure> held_at_rest(const LinearStructure& structure, double holding) {
+  if (!structure.is_free()) return std::nullopt;
   const std::vector<Eigen::Index> rows = hold(structure).drift_rows;
   if (rows.empty()) return std::nullopt;
   LinearStructure held = held_by_springs(structure, holding);
