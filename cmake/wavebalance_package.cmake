@@ -113,7 +113,7 @@ function(wavebalance_install_package)
   endif()
 endfunction()
 
-# wavebalance_install_pages(): README.md with the pages that it leads to, and the example scenes, as the component doc. They
+# wavebalance_install_pages(): README.md with the pages that it leads to, example scenes and recipes, as the component doc. They
 # have the places of the sources, so that links between them hold.
 function(wavebalance_install_pages)
   file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/*/*.md
@@ -123,6 +123,7 @@ function(wavebalance_install_pages)
     install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/reproduce/scenes DESTINATION ${CMAKE_INSTALL_DOCDIR}/reproduce COMPONENT doc)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/recipes DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 endfunction()
 
 # wavebalance_add_other_packages(): the target wavebalance_packages makes what stands beside the Debian package: a package of
