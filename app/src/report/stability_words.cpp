@@ -95,8 +95,9 @@ std::string too_many_states_sentence(const Summary& summary) {
   const bool curve = find_entry(summary, quantities::points.name) != nullptr;
   const double states = 2.0 * number_in(summary, quantities::reduced_degrees_of_freedom);
   return fmt::format(
-      "Stability is not known: with {} it takes all {}states of the structure, of which at most {:.0f} are "
+      "Stability is not known{}: with {} it takes all {}states of the structure, of which at most {:.0f} are "
       "followed. structure.kept_modes leaves fewer.",
+      friction && curve ? " where a multiplier is near the unit circle" : "",
       friction ? "friction" : "a contact law that depends on the velocity",
       std::isfinite(states) ? fmt::format("{:.0f} ", states) : "",
       friction && curve ? most_along_friction : most);

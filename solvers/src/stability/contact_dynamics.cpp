@@ -156,6 +156,15 @@ Parts decoupled_parts(const LinearStructure& structure, const ModalForm& modes) 
   return parts;
 }
 
+ContactDynamics::Section section_of(const ContactPole& pole) {
+  const Eigen::MatrixXcd matrix = pole.residue * pole.shape * pole.left.transpose();
+  const Complex exponent = pole.exponent;
+  if (exponent.imag() == 0.0) return {{0.0, 1.0, -exponent.real()}, matrix.real(), {}};
+  return {{1.0, -2.0 * exponent.real(), std::norm(exponent)},
+          -2.0 * (matrix * std::conj(exponent)).real(),
+          2.0 * matrix.real()};
+}
+
 // An exponent lambda of the shape x has the residue 1 / x^T (2 lambda M + C) x; left modes include it.
 Parts complex_parts(const LinearStructure& structure) {
   StaticCondensation condensed = without_massless(structure);
@@ -174,13 +183,7 @@ Parts complex_parts(const LinearStructure& structure) {
       residue = 1.0 / (mode.transpose() * momentum).value();
     }
     parts.poles.push_back({exponent, residue, shape, left});
-    const Eigen::MatrixXcd matrix = residue * shape * left.transpose();
-    if (exponent.imag() == 0.0)
-      parts.sections.push_back({{0.0, 1.0, -exponent.real()}, matrix.real(), {}});
-    else
-      parts.sections.push_back({{1.0, -2.0 * exponent.real(), std::norm(exponent)},
-                                -2.0 * (matrix * std::conj(exponent)).real(),
-                                2.0 * matrix.real()});
+    parts.sections.push_back(section_of(parts.poles.back()));
   }
   return parts;
 }
@@ -260,6 +263,36 @@ ContactDynamics ContactDynamics::undamped(const Eigen::VectorXd& omega_squared, 
     add_poles(1.0, 0.0, omega_squared[j], shape, result.poles_);
   }
   result.set_sections(sections);
+  return result;
+}
+
+ContactDynamics ContactDynamics::with_springs_beyond(double modulus) const {
+  ContactDynamics result = *this;
+  result.poles_.clear();
+  std::vector<Section> sections;
+  std::vector<const ContactPole*> springs;
+  for (const ContactPole& pole : poles_) {
+    if (std::abs(pole.exponent) > modulus) {
+      springs.push_back(&pole);
+      continue;
+    }
+    result.poles_.push_back(pole);
+    sections.push_back(section_of(pole));
+  }
+  result.set_sections(sections);
+  const auto count = Index(springs.size());
+  Eigen::MatrixXd scaled(contacts(), 2 * count),
+      left(contacts(), 2 * count);  // real parts, then imaginary ones
+  for (Index l = 0; l < count; ++l) {
+    const ContactPole& pole = *springs[std::size_t(l)];
+    const Complex weight = (pole.exponent.imag() == 0.0 ? -1.0 : -2.0) * pole.residue / pole.exponent;
+    const Eigen::VectorXcd shape = weight * pole.shape;
+    scaled.col(l) = shape.real();
+    scaled.col(count + l) = -shape.imag();
+    left.col(l) = pole.left.real();
+    left.col(count + l) = pole.left.imag();
+  }
+  result.constant_ += detail::product_transposed(scaled, left);
   return result;
 }
 

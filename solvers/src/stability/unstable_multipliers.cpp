@@ -11,9 +11,9 @@
 #include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
-#include "stability/friction_monodromy.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/stability_checks.hpp"
+#include "stability/switching_monodromy.hpp"
 #include "stability/winding.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -41,6 +41,39 @@ bool is_costly(const FloquetDeterminant& determinant, const PeriodicStiffness& s
 int affordable_evaluations(const FloquetDeterminant& determinant, const StabilityOptions& options) {
   const double affordable = options.max_operations / std::max(1.0, operations_of(determinant));
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
+}
+
+// Whether multipliers show on which side of the circle they lie, though known to what lies between them and
+// `others`.
+bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
+  constexpr double least_margin = 1e-3;
+  if (!multipliers.allFinite() || !others.allFinite()) return false;
+  for (Index i = 0; i < multipliers.size(); ++i) {
+    const double size = std::abs(multipliers[i]), other = i < others.size() ? std::abs(others[i]) : 0.0;
+    if (std::abs(size - 1.0) < std::max(least_margin, 3.0 * std::abs(size - other))) return false;
+  }
+  return detail::count_outside(multipliers) == detail::count_outside(others);
+}
+
+// The multipliers by modes up to four times the highest harmonic, the others being springs at the contacts.
+// Nothing where half as many harmonics show that this does not tell on which side of the circle they lie, or
+// where a period leaves much of the other modes.
+std::optional<Eigen::VectorXcd> by_slow_modes(const ContactDynamics& dynamics,
+                                              const PeriodicStiffness& stiffness, double frequency,
+                                              const StabilityOptions& options) {
+  constexpr double much = 0.9, settled = 1e-6;
+  constexpr std::size_t most_poles = 40;
+  const double modulus = 4.0 * 2.0 * pi * frequency * options.harmonics;
+  const auto lasts = [&](const ContactPole& pole) {
+    return std::abs(pole.exponent) > modulus && std::exp(pole.exponent.real() / frequency) > much;
+  };
+  const ContactDynamics slow = dynamics.with_springs_beyond(modulus);
+  if (slow.poles().size() > most_poles || std::ranges::any_of(dynamics.poles(), lasts)) return std::nullopt;
+  const ContactDynamics slower = slow.with_springs_beyond(0.5 * modulus);
+  Eigen::VectorXcd multipliers = switching_monodromy(slow, stiffness, frequency, settled);
+  if (!are_decided(multipliers, switching_monodromy(slower, stiffness, frequency, settled)))
+    return std::nullopt;
+  return multipliers;
 }
 
 bool has_monodromy(const ContactDynamics& dynamics, int max_states) {
@@ -120,14 +153,18 @@ struct Way {
   std::optional<Eigen::VectorXcd> multipliers = std::nullopt;  // with friction and of rigid contact
 };
 
+// Of the leading multiplier more digits are asked than slow modes have.
 Way way_of_friction(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
                     const StabilityOptions& options) {
-  Way way{stiffness.status};
-  if (dynamics.structurally_damped()) way.status = StabilityStatus::structural_damping;
-  if (!has_monodromy(dynamics, options.max_states_with_friction))
-    way.status = StabilityStatus::too_many_states;
+  constexpr int few_states = 40;
+  Way way{dynamics.structurally_damped() ? StabilityStatus::structural_damping : stiffness.status};
   if (way.status != StabilityStatus::converged) return way;
-  way.multipliers = friction_monodromy(dynamics, stiffness, frequency);
+  const bool all_known = has_monodromy(dynamics, options.max_states_with_friction);
+  if (!all_known || !(options.leading || has_monodromy(dynamics, few_states)))
+    way.multipliers = by_slow_modes(dynamics, stiffness, frequency, options);
+  if (way.multipliers) return way;
+  if (!all_known) return {StabilityStatus::too_many_states};
+  way.multipliers = switching_monodromy(dynamics, stiffness, frequency);
   if (!way.multipliers->allFinite()) way.status = StabilityStatus::too_few_harmonics;
   return way;
 }

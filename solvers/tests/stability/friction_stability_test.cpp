@@ -1,6 +1,6 @@
 // Floquet multipliers of motions with elastic friction against those of event-driven exact motions.
 
-#include "stability/friction_monodromy.hpp"
+#include "stability/switching_monodromy.hpp"
 #include "support/friction_table.hpp"
 #include "support/small_problems.hpp"
 #include "testing.hpp"
@@ -28,7 +28,7 @@ Solved solve(const FrictionScene& scene, int functions, int points) {
   const ContactDynamics dynamics(scene.structure);
   solved.stiffness = contact_stiffness(problem, scene.contact_laws(), solved.response);
   if (solved.stiffness.status != StabilityStatus::converged) return solved;
-  solved.multipliers = friction_monodromy(dynamics, solved.stiffness, scene.frequency());
+  solved.multipliers = switching_monodromy(dynamics, solved.stiffness, scene.frequency());
   solved.count = unstable_multipliers(dynamics, problem, scene.contact_laws(), solved.response);
   return solved;
 }
