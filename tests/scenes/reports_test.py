@@ -172,7 +172,9 @@ def test_one_point_of_unknown_stability_does_not_name_the_whole_curve(run, scene
 
 
 def test_friction_beyond_the_states_that_are_followed_says_so(run, scenes):
-    page = sentences(run(scenes / "friction" / "bolted_beam.toml").page)
+    scene = scenes / "friction" / "bolted_beam.toml"
+    assert run(scene).summary["points_stability_not_known"] == 0  # by its slow modes
+    page = sentences(run(scene, set=("structure.stiffness_damping=1e-10",)).page)  # fast modes ring on
     assert "with friction it takes all 246 states of the structure, of which at most 120 are followed" in page
 
 

@@ -46,7 +46,7 @@ int affordable_evaluations(const FloquetDeterminant& determinant, const Stabilit
 // Whether multipliers show on which side of the circle they lie, though known to what lies between them and
 // `others`.
 bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
-  constexpr double least_margin = 1e-3;
+  constexpr double least_margin = 1e-5;
   if (!multipliers.allFinite() || !others.allFinite()) return false;
   for (Index i = 0; i < multipliers.size(); ++i) {
     const double size = std::abs(multipliers[i]), other = i < others.size() ? std::abs(others[i]) : 0.0;
@@ -55,25 +55,29 @@ bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& ot
   return detail::count_outside(multipliers) == detail::count_outside(others);
 }
 
-// The multipliers by modes up to four times the highest harmonic, the others being springs at the contacts.
-// Nothing where half as many harmonics show that this does not tell on which side of the circle they lie, or
-// where a period leaves much of the other modes.
+// The multipliers by modes up to four times the highest harmonic, or twice as far up to 16 times, the others
+// being springs at the contacts. Nothing where half as many harmonics never show that this tells on which
+// side of the circle they lie, or where a period leaves much of the other modes.
 std::optional<Eigen::VectorXcd> by_slow_modes(const ContactDynamics& dynamics,
                                               const PeriodicStiffness& stiffness, double frequency,
                                               const StabilityOptions& options) {
   constexpr double much = 0.9, settled = 1e-6;
   constexpr std::size_t most_poles = 40;
-  const double modulus = 4.0 * 2.0 * pi * frequency * options.harmonics;
-  const auto lasts = [&](const ContactPole& pole) {
-    return std::abs(pole.exponent) > modulus && std::exp(pole.exponent.real() / frequency) > much;
-  };
-  const ContactDynamics slow = dynamics.with_springs_beyond(modulus);
-  if (slow.poles().size() > most_poles || std::ranges::any_of(dynamics.poles(), lasts)) return std::nullopt;
-  const ContactDynamics slower = slow.with_springs_beyond(0.5 * modulus);
-  Eigen::VectorXcd multipliers = switching_monodromy(slow, stiffness, frequency, settled);
-  if (!are_decided(multipliers, switching_monodromy(slower, stiffness, frequency, settled)))
-    return std::nullopt;
-  return multipliers;
+  Eigen::VectorXcd before;
+  for (const double within : {2.0, 4.0, 8.0, 16.0}) {
+    const double modulus = within * 2.0 * pi * frequency * options.harmonics;
+    const auto lasts = [&](const ContactPole& pole) {
+      return std::abs(pole.exponent) > modulus && std::exp(pole.exponent.real() / frequency) > much;
+    };
+    const ContactDynamics slow = dynamics.with_springs_beyond(modulus);
+    if (slow.poles().size() > most_poles) return std::nullopt;
+    Eigen::VectorXcd multipliers = switching_monodromy(slow, stiffness, frequency, settled);
+    if (before.size() > 0 && are_decided(multipliers, before) &&
+        std::ranges::none_of(dynamics.poles(), lasts))
+      return multipliers;
+    before = std::move(multipliers);
+  }
+  return std::nullopt;
 }
 
 bool has_monodromy(const ContactDynamics& dynamics, int max_states) {
