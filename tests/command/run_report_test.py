@@ -34,7 +34,7 @@ def test_the_report_tells_what_was_asked_and_what_came_out(command, bar):
     assert "<h2>Warnings" not in record.page
 
 
-@pytest.mark.parametrize("analysis", ["forced_response", "time_stepping", "shooting"])
+@pytest.mark.parametrize("analysis", ["forced_response", "time_stepping"])
 def test_the_moving_bar_of_the_report_is_the_motion_of_the_response(run, analysis):
     folder = run(BAR, "--quiet", set=[f"analysis.type={analysis}"]).folder
     tip = curves_of((folder / "response.motion.js").read_text())["reference"]["tip"]

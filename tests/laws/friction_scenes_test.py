@@ -94,7 +94,7 @@ def test_a_response_says_how_far_it_is_from_the_motion_of_the_structure_and_its_
         assert phases["begin"][phases["state"].index(state)] == pytest.approx(begin, abs=1e-9)
 
 
-@pytest.mark.parametrize("how", ["time.method=exact", "time.tolerance=1e-9", "analysis.type=shooting"])
+@pytest.mark.parametrize("how", ["time.method=exact", "time.tolerance=1e-9"])
 def test_by_phases_a_contact_has_the_work_and_the_shares_of_the_exact_motion(solve, how):
     summary = solve("lift_off.toml", how, unset=BASES).summary
     assert summary["solved_by"] == "exact" and summary["stability"] == "stable"

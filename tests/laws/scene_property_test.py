@@ -60,8 +60,9 @@ class Draw:
         return {"first_step": first, "largest_step": 2.0 * first}
 
     def analysis(self):
-        kind = self.of("forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "shooting")
-        analysis = {"type": kind, "output_points": 1 << self.integer(1, 14)}
+        kind = self.of("forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "exact")
+        self.exact = kind == "exact"
+        analysis = {"type": "forced_response" if self.exact else kind, "output_points": 1 << self.integer(1, 14)}
         begin = self.positive()
         if kind == "frequency_sweep":
             analysis |= {"frequency_from": begin, "frequency_to": 3.0 * begin, **self.steps(),
@@ -112,8 +113,8 @@ class Draw:
         bases, tolerance = scene["time"], {"tolerance": self.integer(1, 1000) / 1e6}
         if kind == "time_stepping":
             del scene["time"]
-        elif kind == "shooting":
-            scene["time"] = tolerance
+        elif self.exact:
+            scene["time"] = {"method": "exact", **tolerance}
         elif kind == "forced_response" and self.quarter():
             scene["time"] = {"method": "exact", **tolerance}
         elif kind == "forced_response" and self.quarter():

@@ -53,7 +53,7 @@ def reference(motion):
     """The tip by contact phases, whose own error is below 1e-10; a tip without mass by 511 Fourier functions and eight
     times as many points."""
     if not motion[1].get("structure.massless_tip"):
-        return solved(motion, {"analysis.type": "shooting", "time.tolerance": 1e-11}).response["displacement_m"]
+        return solved(motion, {"time.method": "exact", "time.tolerance": 1e-11}).response["displacement_m"]
     fine = {"trial": "fourier", "weight": "fourier", "functions": 511, "quadrature_points": 4096}
     changes = {**ALONE, **{f"time.{key}": value for key, value in fine.items()}}
     return solved(motion, changes, unset=["time.tolerance"]).response["displacement_m"]

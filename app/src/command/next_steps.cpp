@@ -110,18 +110,6 @@ const Remedies& of_diagrams() {
   return all;
 }
 
-const Remedies& of_shooting() {
-  static const Remedies all{{"no_start", {response, integrate}},
-                            {"not_found", {response, integrate}},
-                            {"tolerance_missed", {larger_tolerance}},
-                            {"rigid_contact", {response}},
-                            {"velocity_and_no_mass", {response}},
-                            {"structural_damping", {response}},
-                            {"no_modes", {response}},
-                            {"resonant", {other_frequency, more_damping}}};
-  return all;
-}
-
 const Remedies& of_motions() {
   static const Remedies all{{"not_settled", {longer_period, more_starts, recorded, more_damping, response}},
                             {"not_solved", {response}},
@@ -134,7 +122,6 @@ const Remedies& of_analysis(const Analysis& analysis) {
   if (analysis.type == AnalysisType::nonlinear_mode) return of_modes();
   if (analysis.type == AnalysisType::time_stepping) return of_time_stepping();
   if (analysis.type == AnalysisType::bifurcation_diagram) return of_diagrams();
-  if (analysis.type == AnalysisType::shooting) return of_shooting();
   return analysis.type == AnalysisType::motions ? of_motions() : of_responses();
 }
 

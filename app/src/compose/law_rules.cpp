@@ -107,8 +107,7 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
     fail_rule(document, {"time.trial", "contact.law"},
               "not with friction of surface_speed, static_friction, tangential_damping or normal_damping, "
               "whose motions are solved for from event to event; expected none");
-  if (integrates_in_time(type) || type == AnalysisType::shooting || type == AnalysisType::motions ||
-      type == AnalysisType::limit_cycle)
+  if (kind_of(type).motions_by != MotionsBy::equations)
     check_elastic_planes(document, scene, "analysis.type", "\"forced_response\"");
   if (solves_by_phases(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
   if (scene.analysis.exact) check_elastic_planes(document, scene, "analysis.exact", "false");

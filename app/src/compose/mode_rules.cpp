@@ -133,9 +133,9 @@ void check_mode(const Document& document, const Scene& scene) {
   if (!damped && !is_elastic_mode(scene)) check_no_bases(document, scene);
 }
 
-void check_limit_cycle(const Document& document, const Scene& scene) {
-  const std::string none =
-      "not with analysis.type = \"limit_cycle\", a motion without periodic load; expected ";
+void check_without_load(const Document& document, const Scene& scene) {
+  const std::string not_with = "not with analysis.type = \"" + name_of(scene.analysis.type) + "\"",
+                    none = not_with + ", a motion without periodic load; expected ";
   if (scene.forcing.amplitude != 0.0)
     fail_rule(document, {"forcing.amplitude", "analysis.type"}, none + "0 or none");
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
@@ -153,12 +153,13 @@ void check_limit_cycle(const Document& document, const Scene& scene) {
   if (scene.structure.loss_factor > 0.0)
     fail_rule(
         document, {"structure.loss_factor", "analysis.type"},
-        "not with analysis.type = \"limit_cycle\", since a loss factor has no equation in time; expected "
-        "0, or modal_damping = loss_factor / 2 in its place");
+        not_with +
+            ", since a loss factor has no equation in time; expected 0, or modal_damping = loss_factor / 2 in its place");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
-    fail_rule(document, {"contact.law", "analysis.type"},
-              "not with analysis.type = \"limit_cycle\": a rigid obstacle needs a law of impact; expected "
-              "contact.restitution, or a stiff \"linear\" law");
+    fail_rule(
+        document, {"contact.law", "analysis.type"},
+        not_with +
+            ": a rigid obstacle needs a law of impact; expected contact.restitution, or a stiff \"linear\" law");
 }
 
 }  // namespace wavebalance::app

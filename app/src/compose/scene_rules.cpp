@@ -366,7 +366,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (phases && (!events || scene.time.tolerance > 0.0)) check_least_tolerance(document, scene);
   if (balanced) check_time(document, scene);
   if (mode) check_mode(document, scene);
-  if (type == AnalysisType::limit_cycle) check_limit_cycle(document, scene);
+  if (!mode && !kind_of(type).under_load) check_without_load(document, scene);
   check_rigid(document, scene);
   if (scene.structure.type == StructureType::bar) check_products(document, scene);
   if (sweep) check_sweep(document, scene);

@@ -28,7 +28,7 @@ void check_time(const Document& document, const Scene& scene);
 void check_mode(const Document& document, const Scene& scene);
 
 /// Checks what a limit cycle asks for. Throws SceneError.
-void check_limit_cycle(const Document& document, const Scene& scene);
+void check_without_load(const Document& document, const Scene& scene);
 
 /// Checks the rules between the keys of a scene, each of which is valid by itself: sizes of wavelet bases,
 /// quadrature, admissible pairs, sweeps, sizes of time stepping, the structure's rules. Throws SceneError at

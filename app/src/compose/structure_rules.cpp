@@ -73,7 +73,7 @@ void check_turning(const Document& document, const Scene& scene) {
   if (redistributes_mass(scene))
     fail_rule(document, {"contact.mass", "contact.law"},
               "not with modes that vary" + instead + "contact.mass = \"keep\" and a law that is not rigid");
-  if (turns && structure.spin_speed == 0.0 && scene.analysis.type == AnalysisType::bifurcation_diagram &&
+  if (turns && structure.spin_speed == 0.0 && integrates_in_time(scene.analysis.type) &&
       varies_frequency(scene.analysis))
     fail_missing(document, "structure", "spin_speed",
                  "a number in rad/s, at which the structure turns along the whole diagram");

@@ -11,6 +11,7 @@
 #include "matrices/load_places.hpp"
 #include "matrices/structure_facts.hpp"
 #include "matrices/structure_files.hpp"
+#include "results/analyses.hpp"
 #include "results/rest_record.hpp"
 #include "results/whirl_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
@@ -168,7 +169,7 @@ std::string forcing_line(const Scene& scene) {
     terms += fmt::format("           the amplitude varies from {} to {} {}\n",
                          number_text(analysis.amplitude_from), number_text(analysis.amplitude_to),
                          reference_load(scene.forcing).value().unit);
-  if (analysis.type == AnalysisType::limit_cycle) return "forcing    nothing periodic\n" + terms;
+  if (!kind_of(analysis.type).under_load) return "forcing    nothing periodic\n" + terms;
   const std::string periods =
       analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
   const bool terms_alone = scene.forcing.amplitude == 0.0 && !terms.empty();
@@ -208,17 +209,6 @@ std::string time_lines(const Time& time) {
       products == time.inner_products ? "" : " (connection coefficients)");
 }
 
-std::string starts_line(const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  return fmt::format(
-      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
-      analysis.longest_period, analysis.random_starts, analysis.seed,
-      solves_by_impacts(scene) ? "instants and impulses of impacts"
-      : seeks_by_events(scene)
-          ? "the map of a period from event to event"
-          : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
-}
-
 std::string exact_line(const Scene& scene) {
   const Time& time = scene.time;
   return fmt::format(
@@ -228,45 +218,20 @@ std::string exact_line(const Scene& scene) {
 }
 
 std::string impacts_line(const Scene& scene) {
-  const bool sweep =
-      scene.analysis.type != AnalysisType::forced_response && scene.analysis.type != AnalysisType::shooting;
+  const bool sweep = scene.analysis.type != AnalysisType::forced_response;
   return fmt::format("time       instants and impulses of impacts{}\n",
                      sweep ? ", followed by arc length" : ", from the motion that the structure settles to");
 }
 
 std::string method_lines(const Scene& scene) {
-  if (integrates_in_time(scene.analysis.type)) return "";
-  if (scene.analysis.type == AnalysisType::motions) return starts_line(scene);
   if (solves_by_impacts(scene)) return impacts_line(scene);
-  if (scene.analysis.type == AnalysisType::limit_cycle)
-    return fmt::format(
-        "time       from event to event, from rest, carried contacts and up to {} random states\n",
-        scene.analysis.random_starts);
   if (moves_by_events(scene))
     return "time       exact motions, from what the structure settles to from event to event\n";
   if (scene.analysis.exact) return exact_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
 
-std::string advice_line(const std::string& advice) {
-  return advice.empty() ? "" : "advice     " + advice + "\n";
-}
-
-std::string diagram_line(const Scene& scene) {
-  const Analysis& analysis = scene.analysis;
-  return fmt::format(
-      "diagram    {} values{}, {} periods of the load at each, of which the last {} are recorded{}\n",
-      analysis.values, analysis.both_ways ? " there and back" : "",
-      analysis.transient_periods + analysis.section_points, analysis.section_points,
-      analysis.exact_curve ? ", and the exact curve" : "");
-}
-
 std::string size_line(const Scene& scene) {
-  if (scene.analysis.type == AnalysisType::bifurcation_diagram)
-    return diagram_line(scene) + fmt::format("size       {} states\n", 2 * reduced_size(scene));
-  if (scene.analysis.type == AnalysisType::time_stepping)
-    return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
-                       number_text(scene.analysis.tolerance), advice_line(slow_stepping_advice(scene)));
   const bool has_no_functions = solves_by_phases(scene) || solves_by_impacts(scene) || scene.analysis.exact;
   if (has_no_functions || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
@@ -380,8 +345,10 @@ std::string describe_scene(const Scene& scene) {
                                   structure_line(scene) + matrices_lines(scene) + contact_line(scene);
   if (scene.analysis.type == AnalysisType::nonlinear_mode)
     return first_lines + mode_lines(scene) + cost_line(scene);
-  return first_lines + forcing_line(scene) + outputs_line(scene) + method_lines(scene) + size_line(scene) +
-         cost_line(scene) + warning_lines(scene);
+  const auto plan = part_of(scene.analysis.type).plan;
+  return first_lines + forcing_line(scene) + outputs_line(scene) +
+         (plan != nullptr ? plan(scene) : method_lines(scene) + size_line(scene)) + cost_line(scene) +
+         warning_lines(scene);
 }
 
 }  // namespace wavebalance::app

@@ -80,9 +80,8 @@ void check_terms(const Scene& scene, const StructureFiles& files) {
 
 /// Terms and a weight with places of their own stand in place of a load of amplitude 0.
 bool needs_place(const Scene& scene) {
-  const AnalysisType type = scene.analysis.type;
-  if (type == AnalysisType::nonlinear_mode || type == AnalysisType::limit_cycle) return false;
-  return scene.forcing.amplitude != 0.0 || (scene.forcing.terms.empty() && scene.forcing.weight.empty());
+  return kind_of(scene.analysis.type).under_load &&
+         (scene.forcing.amplitude != 0.0 || (scene.forcing.terms.empty() && scene.forcing.weight.empty()));
 }
 
 void check_place(const Scene& scene) {

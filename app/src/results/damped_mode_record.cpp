@@ -1,4 +1,4 @@
-#include "results/damped_mode_record.hpp"
+#include "results/analyses.hpp"
 
 #include <fmt/format.h>
 
@@ -114,7 +114,8 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
 
 }  // namespace
 
-Record damped_mode_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+Record damped_mode_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const Observer& observer = how.observer;
   goes_on(observer, {"linear modes"});
   const DampedStudy study(scene, model);
   goes_on(observer, {"backbone"});

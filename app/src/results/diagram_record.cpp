@@ -1,4 +1,4 @@
-#include "results/diagram_record.hpp"
+#include "results/analyses.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/attractors/bifurcation.hpp"
+#include "wavebalance/app/compose/compose.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -155,8 +156,18 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
 
 }  // namespace
 
-Record diagram_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const Diagram diagram = bifurcation_diagram(scene, model, observer);
+std::string diagram_plan(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  return fmt::format(
+      "diagram    {} values{}, {} periods of the load at each, of which the last {} are recorded{}\n"
+      "size       {} states\n",
+      analysis.values, analysis.both_ways ? " there and back" : "",
+      analysis.transient_periods + analysis.section_points, analysis.section_points,
+      analysis.exact_curve ? ", and the exact curve" : "", 2 * reduced_size(scene));
+}
+
+Record diagram_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const Diagram diagram = bifurcation_diagram(scene, model, how.observer);
   Record record;
   record.warnings = model.warnings;
   record.converged = diagram.status == "converged";

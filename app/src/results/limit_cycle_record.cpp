@@ -1,4 +1,4 @@
-#include "results/limit_cycle_record.hpp"
+#include "results/analyses.hpp"
 
 #include <complex>
 
@@ -19,7 +19,14 @@ Table multipliers_table(const Response& response) {
 
 }  // namespace
 
-Record limit_cycle_record(const Scene& scene, const StructureModel& model, ResponseOptions options) {
+std::string limit_cycle_plan(const Scene& scene) {
+  return fmt::format(
+      "time       from event to event, from rest, carried contacts and up to {} random states\n",
+      scene.analysis.random_starts);
+}
+
+Record limit_cycle_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  ResponseOptions options = response_options(scene, how.observer);
   options.stability = true;
   const LimitCycleResponse solved = limit_cycle_response(scene, model, options);
   Scene moving = scene;

@@ -1,4 +1,4 @@
-#include "results/mode_record.hpp"
+#include "results/analyses.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
@@ -331,7 +332,9 @@ Record record_of(const ModeStudy& study, const Observer& observer) {
 
 }  // namespace
 
-Record mode_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
+Record mode_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  if (is_damped_mode(scene)) return damped_mode_record(scene, model, how);
+  const Observer& observer = how.observer;
   goes_on(observer, {"linear modes"});
   const ModeStudy study(scene, model);
   goes_on(observer, {"backbone"});

@@ -1,4 +1,4 @@
-#include "results/motions_record.hpp"
+#include "results/analyses.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 
 #include "drawing/motions_figure.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
 #include "results/contact_record.hpp"
 #include "results/extremes.hpp"
 #include "results/motion_files.hpp"
@@ -98,8 +99,19 @@ void append_box(Record& record, const Motions& all) {
 
 }  // namespace
 
-Record motions_record(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const Motions all = coexisting_motions(scene, model, observer);
+std::string motions_plan(const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  return fmt::format(
+      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
+      analysis.longest_period, analysis.random_starts, analysis.seed,
+      solves_by_impacts(scene) ? "instants and impulses of impacts"
+      : seeks_by_events(scene)
+          ? "the map of a period from event to event"
+          : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
+}
+
+Record motions_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const Motions all = coexisting_motions(scene, model, how.observer);
   int iterations = 0, unknowns = 0;
   for (const FoundMotion& one : all.motions) {
     iterations += one.found.motion.iterations;

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <chrono>
 
-#include "results/damped_mode_record.hpp"
-#include "results/diagram_record.hpp"
-#include "results/limit_cycle_record.hpp"
-#include "results/mode_record.hpp"
-#include "results/motions_record.hpp"
+#include "files/number_text.hpp"
+#include "results/analyses.hpp"
 #include "results/recorded_record.hpp"
 #include "results/response_record.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_record.hpp"
+#include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -35,8 +32,11 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
   return sweep;
 }
 
-Record stable_sweep_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
-                           const Observer& observer) {
+}  // namespace
+
+Record curve_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const StartMotion& start = how.start;
+  const Observer& observer = how.observer;
   Sweep sweep = stable_sweep(scene, model, observer, start);
   leave_out_contact_fractions(scene, sweep);
   const SweepOutputs outputs = measure_outputs(scene, model, sweep, observer);
@@ -51,14 +51,13 @@ Record stable_sweep_record(const Scene& scene, const StructureModel& model, cons
   return record;
 }
 
-Record forced_record(const Scene& scene, const StructureModel& model, const StartMotion& start,
-                     ResponseOptions options) {
-  const bool shooting = scene.analysis.type == AnalysisType::shooting;
-  options.stability = scene.analysis.stability || shooting;
+Record forced_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const StartMotion& start = how.start;
+  ResponseOptions options = response_options(scene, how.observer);
+  options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases;
   if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
-  if (solves_by_phases(scene) || shooting)
-    return response_record(scene, model, phases_response(scene, model, options));
+  if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);
     options.guess = std::move(samples.displacement);
@@ -71,7 +70,15 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Star
   return record;
 }
 
-Record stepping_record(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
+std::string stepping_plan(const Scene& scene) {
+  const std::string advice = slow_stepping_advice(scene);
+  return fmt::format("size       {} states, periods until they differ by {}\n{}", 2 * reduced_size(scene),
+                     number_text(scene.analysis.tolerance),
+                     advice.empty() ? "" : "advice     " + advice + "\n");
+}
+
+Record stepping_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
+  const ResponseOptions options = response_options(scene, how.observer);
   Response response = integrates_by_events(scene) ? flow_response(scene, model, options)
                                                   : time_stepping_response(scene, model, options);
   const auto recorded = recorded_motion(scene, model, response, options.observer);
@@ -81,37 +88,18 @@ Record stepping_record(const Scene& scene, const StructureModel& model, const Re
   return record;
 }
 
-Record record_of(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
-  ResponseOptions options;
-  options.observer = how.observer;
-  options.structure_points = structure_points(scene);
-  switch (scene.analysis.type) {
-    case AnalysisType::frequency_sweep:
-    case AnalysisType::amplitude_sweep:
-      return stable_sweep_record(scene, model, how.start, how.observer);
-    case AnalysisType::nonlinear_mode:
-      if (is_damped_mode(scene)) return damped_mode_record(scene, model, how.observer);
-      return mode_record(scene, model, how.observer);
-    case AnalysisType::time_stepping:
-      return stepping_record(scene, model, options);
-    case AnalysisType::bifurcation_diagram:
-      return diagram_record(scene, model, how.observer);
-    case AnalysisType::motions:
-      return motions_record(scene, model, how.observer);
-    case AnalysisType::limit_cycle:
-      return limit_cycle_record(scene, model, std::move(options));
-    case AnalysisType::forced_response:
-    case AnalysisType::shooting:
-      break;
-  }
-  return forced_record(scene, model, how.start, std::move(options));
+const AnalysisPart& part_of(AnalysisType type) {
+  return *std::find_if(analysis_parts.begin(), analysis_parts.end(),
+                       [type](const AnalysisPart& part) { return part.type == type; });
 }
+
+namespace {
 
 Record composed_record(const Scene& scene, const AnalysisOptions& how) {
   if (scene.structure.kept_modes >= 0) goes_on(how.observer, {"reduction of the structure"});
   StructureModel model = make_model(scene, how.observer);
   model.threads = how.threads;
-  return record_of(scene, model, how);
+  return part_of(scene.analysis.type).record(scene, model, how);
 }
 
 }  // namespace
@@ -123,7 +111,8 @@ Record analyse(const Scene& scene, const Observer& observer) {
 Record analyse(const Scene& scene, const AnalysisOptions& how) {
   const auto start = std::chrono::steady_clock::now();
   require_start_fits(how.start, scene);
-  Record record = how.model != nullptr ? record_of(scene, *how.model, how) : composed_record(scene, how);
+  Record record = how.model != nullptr ? part_of(scene.analysis.type).record(scene, *how.model, how)
+                                       : composed_record(scene, how);
   set_warnings(record);
   insert_wall_seconds(record.summary,
                       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

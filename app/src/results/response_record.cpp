@@ -132,8 +132,7 @@ void append_settled(Record& record, const Scene& scene, const Response& response
 }
 
 void append_other_motions(Record& record, const Scene& scene, const Response& response) {
-  if (!response.moves || scene.contact.law == no_law || scene.analysis.type == AnalysisType::limit_cycle)
-    return;
+  if (!response.moves || scene.contact.law == no_law || !kind_of(scene.analysis.type).under_load) return;
   const bool integrated = integrates_in_time(scene.analysis.type) && !is_by_phases(response);
   const bool from_rest = response.settled || (response.attractor_periods >= 0 && !integrated);
   record.add(quantities::other_motions, from_rest ? "settled_from_rest" : "not_sought");
@@ -183,14 +182,21 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
       "alone. Whether there is one is not known. More functions may lead to it.");
 }
 
-}  // namespace
-
 int structure_points(const Scene& scene) {
   const int written = std::max(0, scene.analysis.motion_points);
   if (!scene.analysis.outputs.empty() || has_unbalance_orbit(scene) || (has_friction(scene) && written == 0))
     return scene.analysis.output_points;
   if (written > 0 || scene.structure.type != StructureType::bar) return written;
   return integrates_in_time(scene.analysis.type) ? scene.analysis.output_points : bar_instants;
+}
+
+}  // namespace
+
+ResponseOptions response_options(const Scene& scene, const Observer& observer) {
+  ResponseOptions options;
+  options.observer = observer;
+  options.structure_points = structure_points(scene);
+  return options;
 }
 
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response) {

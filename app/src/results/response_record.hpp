@@ -4,9 +4,9 @@
 
 namespace wavebalance::app {
 
-/// The instants at which the motion of the whole structure is computed: those that the scene writes, those of
-/// its outputs or its energy beside friction, or those of a bar's report.
-int structure_points(const Scene& scene);
+/// With the instants at which the motion of the whole structure is computed: those that the scene writes,
+/// those of its outputs or its energy beside friction, or those of a bar's report.
+ResponseOptions response_options(const Scene& scene, const Observer& observer);
 
 /// The record of one response, whatever it was solved by.
 Record response_record(const Scene& scene, const StructureModel& model, const Response& response);

@@ -89,8 +89,7 @@ void add_contacts(Record& record, const Scene& scene, const solvers::Motion& con
 
 void warn_of_scene(Record& record, const Scene& scene) {
   if (scene.forcing.amplitude == 0.0 && scene.forcing.terms.empty() && scene.forcing.weight.empty() &&
-      scene.analysis.type != AnalysisType::amplitude_sweep &&
-      scene.analysis.type != AnalysisType::limit_cycle)
+      scene.analysis.type != AnalysisType::amplitude_sweep && kind_of(scene.analysis.type).under_load)
     record.warnings.emplace_back("No load acts: forcing.amplitude is 0, and there are no [[forcing.terms]].");
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];

@@ -116,7 +116,7 @@ bool has_impacts(const Contact& contact) {
 bool moves_by_events(const Scene& scene) {
   const Contact& contact = scene.contact;
   const bool free = scene.structure.matrices.free;
-  if (scene.analysis.type == AnalysisType::limit_cycle) return true;
+  if (kind_of(scene.analysis.type).motions_by == MotionsBy::events) return true;
   if (has_impacts(contact))
     return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
                                [](const ContactPair& pair) { return !is_rigid(pair.law); });
@@ -150,9 +150,7 @@ const AnalysisKind& kind_of(AnalysisType type) {
                        [type](const AnalysisKind& kind) { return kind.type == type; });
 }
 
-bool integrates_in_time(AnalysisType type) {
-  return type == AnalysisType::time_stepping || type == AnalysisType::bifurcation_diagram;
-}
+bool integrates_in_time(AnalysisType type) { return kind_of(type).motions_by == MotionsBy::time; }
 
 bool is_sweep(AnalysisType type) {
   return type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
@@ -176,16 +174,14 @@ std::pair<double, double> sweep_interval(const Analysis& analysis) {
 bool names_exact_method(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   return !has_impacts(scene.contact) &&
-         (type == AnalysisType::shooting || type == AnalysisType::motions ||
-          type == AnalysisType::limit_cycle ||
+         (kind_of(type).is_exact() ||
           (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact));
 }
 
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (moves_by_events(scene))
-    return type == AnalysisType::shooting || type == AnalysisType::forced_response ||
-           type == AnalysisType::limit_cycle;
+    return type == AnalysisType::forced_response || kind_of(type).motions_by == MotionsBy::events;
   return names_exact_method(scene);
 }
 

@@ -41,7 +41,7 @@ std::vector<std::string> scenes_of_laws_and_analyses() {
   std::vector<std::string> scenes, parts{"[analysis]\ntype = \"nonlinear_mode\"\n"};
   for (const std::string& time : {bases, std::string(), phases, tolerance})
     for (const std::string& one : analyses(time)) parts.push_back(one);
-  for (const char* type : {"time_stepping", "shooting", "motions"})
+  for (const char* type : {"time_stepping", "motions"})
     parts.push_back(load + amplitude + frequency + "[analysis]\ntype = \"" + type + "\"\n");
   for (const std::string& law : laws)
     for (const std::string& part : parts)

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "scene/scene_key_builder.hpp"
 
 /// The tables of keys, one per section of a scene file, each in a file of its own.
@@ -20,11 +22,12 @@ inline Condition law_is(std::vector<std::string_view> laws) { return {"contact.l
 inline Condition analysis_is(std::vector<std::string_view> types) {
   return {"analysis.type", std::move(types)};
 }
-/// One of the analyses with this flag.
-inline Condition analysis_where(bool AnalysisKind::*flag) {
+/// One of the analyses with this property, a member or a function.
+template <class Property>
+Condition analysis_where(const Property& property) {
   std::vector<std::string_view> names;
   for (const AnalysisKind& kind : analysis_kinds)
-    if (kind.*flag) names.push_back(kind.name);
+    if (std::invoke(property, kind)) names.push_back(kind.name);
   return analysis_is(std::move(names));
 }
 inline Condition of_sweeps() { return analysis_is({"frequency_sweep", "amplitude_sweep"}); }

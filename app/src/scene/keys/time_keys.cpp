@@ -32,8 +32,9 @@ void add_time_keys(std::vector<SceneKey>& keys) {
        "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
        "these too; with method = \"exact\" that of the phases",
        within(0, 1), derived("none; 1e-9 with method = \"exact\" and of motions", default_tolerance),
-       only_with(analysis_is({"forced_response", "shooting", "motions", "limit_cycle"})
-                     .unless("contact.restitution")));
+       only_with(analysis_where([](const AnalysisKind& kind) {
+                   return kind.is_exact() || kind.type == AnalysisType::forced_response;
+                 }).unless("contact.restitution")));
   time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
        required_with(balance), only_with(of_bases));
   time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),

@@ -13,40 +13,48 @@ enum class AnalysisType {
   frequency_sweep,
   amplitude_sweep,
   time_stepping,
-  shooting,
   motions,
   nonlinear_mode,
   limit_cycle,
   bifurcation_diagram
 };
 
+/// By what an analysis finds motions: equations of functions or modes, integration in time alone, or exactly,
+/// by phases of contact, or from event to event whatever the contacts are.
+enum class MotionsBy { equations, time, phases, events };
+
 /// What is said of an analysis wherever analyses differ by a word or a flag alone.
 struct AnalysisKind {
   AnalysisType type;
   std::string_view name;     ///< analysis.type
   std::string_view heading;  ///< of its page
-  bool under_load;           ///< a load drives it
-  bool at_one_frequency;     ///< it needs forcing.frequency
-  bool keeps_part;           ///< an interruption leaves what was found so far
-  bool any_matrices;         ///< damping and stiffness need no symmetry
+  MotionsBy motions_by;
+  bool under_load;        ///< a load drives it
+  bool at_one_frequency;  ///< it needs forcing.frequency
+  bool keeps_part;        ///< an interruption leaves what was found so far
+  bool any_matrices;      ///< damping and stiffness need no symmetry
+
+  bool is_exact() const { return motions_by == MotionsBy::phases || motions_by == MotionsBy::events; }
 };
-inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
-    {AnalysisType::forced_response, "forced_response", "Forced response", true, true, false, true},
-    {AnalysisType::frequency_sweep, "frequency_sweep", "Frequency response", true, false, true, true},
-    {AnalysisType::amplitude_sweep, "amplitude_sweep", "Response over the amplitude of the load", true, true,
-     true, true},
-    {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", true, true, false, true},
-    {AnalysisType::shooting, "shooting", "Response by contact phases", true, true, false, true},
-    {AnalysisType::motions, "motions", "Coexisting motions", true, true, true, true},
-    {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", false, false, false, false},
-    {AnalysisType::limit_cycle, "limit_cycle", "Limit cycle", false, false, false, true},
-    {AnalysisType::bifurcation_diagram, "bifurcation_diagram", "Bifurcation diagram", true, false, true,
-     true},
+inline constexpr std::array<AnalysisKind, 8> analysis_kinds{{
+    {AnalysisType::forced_response, "forced_response", "Forced response", MotionsBy::equations, true, true,
+     false, true},
+    {AnalysisType::frequency_sweep, "frequency_sweep", "Frequency response", MotionsBy::equations, true,
+     false, true, true},
+    {AnalysisType::amplitude_sweep, "amplitude_sweep", "Response over the amplitude of the load",
+     MotionsBy::equations, true, true, true, true},
+    {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", MotionsBy::time, true, true,
+     false, true},
+    {AnalysisType::motions, "motions", "Coexisting motions", MotionsBy::phases, true, true, true, true},
+    {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", MotionsBy::equations, false, false,
+     false, false},
+    {AnalysisType::limit_cycle, "limit_cycle", "Limit cycle", MotionsBy::events, false, false, false, true},
+    {AnalysisType::bifurcation_diagram, "bifurcation_diagram", "Bifurcation diagram", MotionsBy::time, true,
+     false, true, true},
 }};
 const AnalysisKind& kind_of(AnalysisType type);
 
-/// Whether the equation of motion is integrated in time, so that there are no functions: time stepping, and
-/// the diagrams that are made of it.
+/// Whether the equation of motion is integrated in time, so that there are no functions.
 bool integrates_in_time(AnalysisType type);
 /// Whether motions are followed over the frequency or the amplitude of the load.
 bool is_sweep(AnalysisType type);
