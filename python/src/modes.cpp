@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -35,13 +34,6 @@ struct Backbone {
   std::vector<solvers::ModeStability> stability;
 };
 
-struct BackboneArguments {
-  int mode;
-  double largest_energy, largest_frequency_ratio;
-  int points, harmonics, samples;
-  bool cosine_only, stability;
-};
-
 app::StructureModes modes_of(const solvers::LinearStructure& structure, const solvers::ContactLaws& laws,
                              const std::vector<double>& gaps) {
   app::StructureModel model;
@@ -53,7 +45,7 @@ app::StructureModes modes_of(const solvers::LinearStructure& structure, const so
   return app::make_modes(model);
 }
 
-Backbone rigid_backbone(const solvers::ModalModel& model, const BackboneArguments& of,
+Backbone rigid_backbone(const solvers::ModalModel& model, const app::Analysis& of,
                         const solvers::Observer& observer) {
   solvers::NonlinearModeOptions options;
   options.mode = of.mode;
@@ -62,8 +54,7 @@ Backbone rigid_backbone(const solvers::ModalModel& model, const BackboneArgument
   options.cosine_only = of.cosine_only;
   const solvers::NonlinearMode mode(model, options);
   Backbone result{"no_contact", mode.linear_omega() / (2.0 * std::numbers::pi), {}, {}};
-  result.points =
-      app::rigid_backbone(mode, of.points, of.largest_energy, of.largest_frequency_ratio, observer);
+  result.points = app::rigid_backbone(mode, of.points, of.largest_energy, of.last_frequency_ratio, observer);
   if (std::any_of(result.points.begin(), result.points.end(),
                   [](const ModePoint& point) { return point.status == solvers::ModeStatus::converged; }))
     result.status =
@@ -71,22 +62,14 @@ Backbone rigid_backbone(const solvers::ModalModel& model, const BackboneArgument
   return result;
 }
 
-/// Steps of about the length of the points asked for.
 Backbone elastic_backbone(const solvers::ModalModel& model, const solvers::TimePair& pair,
-                          const solvers::ContactLaws& laws, const BackboneArguments& of,
+                          const solvers::ContactLaws& laws, const app::Analysis& of,
                           const solvers::Observer& observer) {
   solvers::ElasticModeOptions options;
   options.mode = of.mode;
   options.cosine_only = of.cosine_only;
   const solvers::ElasticMode mode(model, pair, laws, options);
-  solvers::ElasticBackboneOptions curve;
-  curve.max_energy = of.largest_energy;
-  const bool ends = of.largest_frequency_ratio > 0.0;
-  const double last = ends ? of.largest_frequency_ratio : app::usual_frequency_ratio;
-  curve.max_frequency_ratio = ends ? last : std::numeric_limits<double>::infinity();
-  curve.max_step = std::min(curve.max_step, 0.5 * (last - 1.0) / curve.frequency_scale / of.points);
-  curve.initial_step = std::min(curve.initial_step, curve.max_step);
-  curve.max_points = 1000 + 20 * of.points;
+  solvers::ElasticBackboneOptions curve = app::elastic_options(of, of.largest_energy);
   curve.observer = observer;
   const solvers::ElasticBackbone found = mode.backbone(curve);
   Backbone result{
@@ -99,7 +82,7 @@ Backbone elastic_backbone(const solvers::ModalModel& model, const solvers::TimeP
 }
 
 Backbone backbone(const Structure& structure, const py::object& laws, const solvers::TimePair& pair,
-                  const std::vector<double>& gaps, const BackboneArguments& of) {
+                  const std::vector<double>& gaps, const app::Analysis& of) {
   const solvers::ContactLaws all = laws_of(laws);
   all.require(structure.contacts());
   return unlocked([&](const solvers::Observer& observer) {
@@ -189,10 +172,17 @@ void add_modes(py::module_& module) {
       .def("amplitudes", [](const Backbone& one, int index) {
         return one.points.at(static_cast<std::size_t>(index)).amplitudes;
       });
-  py::class_<BackboneArguments>(module, "BackboneArguments")
+  py::class_<app::Analysis>(module, "BackboneArguments")
       .def(py::init([](int mode, double energy, double ratio, int points, int harmonics, int samples,
                        bool cosine_only, bool stability) {
-        return BackboneArguments{mode, energy, ratio, points, harmonics, samples, cosine_only, stability};
+        return app::Analysis{.stability = stability,
+                             .mode = mode,
+                             .harmonics = harmonics,
+                             .samples = samples,
+                             .cosine_only = cosine_only,
+                             .largest_energy = energy,
+                             .last_frequency_ratio = ratio,
+                             .points = points};
       }));
   module.def("backbone", &backbone);
   py::class_<DampedCurve>(module, "DampedCurve")

@@ -28,21 +28,6 @@ bool has_motion(const ModePoint& point) { return is_solution(point) && point.amp
 
 bool ends_at_frequency(const Analysis& analysis) { return analysis.last_frequency_ratio > 0.0; }
 
-/// Steps of about the length of the points asked for.
-solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy) {
-  solvers::ElasticBackboneOptions options;
-  options.max_energy = largest_energy;
-  const bool ends = ends_at_frequency(analysis);
-  options.max_frequency_ratio =
-      ends ? analysis.last_frequency_ratio : std::numeric_limits<double>::infinity();
-  const double length =
-      ((ends ? analysis.last_frequency_ratio : usual_frequency_ratio) - 1.0) / options.frequency_scale;
-  options.max_step = std::min(options.max_step, 0.5 * length / analysis.points);
-  options.initial_step = std::min(options.initial_step, options.max_step);
-  options.max_points = 1000 + 20 * analysis.points;
-  return options;
-}
-
 /// "ended at frequency ratio ..." with what was asked for; the last accepted point is given.
 std::string early_end_text(const ModePoint& last, double linear_omega, double largest_energy,
                            const Analysis& analysis) {
@@ -156,6 +141,20 @@ solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const ModeP
 }
 
 }  // namespace
+
+solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy) {
+  solvers::ElasticBackboneOptions options;
+  options.max_energy = largest_energy;
+  const bool ends = ends_at_frequency(analysis);
+  options.max_frequency_ratio =
+      ends ? analysis.last_frequency_ratio : std::numeric_limits<double>::infinity();
+  const double length =
+      ((ends ? analysis.last_frequency_ratio : usual_frequency_ratio) - 1.0) / options.frequency_scale;
+  options.max_step = std::min(options.max_step, 0.5 * length / analysis.points);
+  options.initial_step = std::min(options.initial_step, options.max_step);
+  options.max_points = 1000 + 20 * analysis.points;
+  return options;
+}
 
 std::vector<ModePoint> rigid_backbone(const solvers::NonlinearMode& mode, int points, double largest_energy,
                                       double last_ratio, const solvers::Observer& observer) {

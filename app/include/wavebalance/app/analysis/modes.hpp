@@ -43,6 +43,9 @@ struct Backbone {
 /// Frequency over the linear one up to which points of a curve are spread where no last one is given.
 inline constexpr double usual_frequency_ratio = 1.3;
 
+/// How the curve of an elastic mode is followed, in steps of about the length of analysis.points.
+solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy);
+
 /// The curve of a rigid mode, solvers::backbone(), with uniform frequencies up to `last_ratio`. Where this is
 /// 0 it goes on beyond usual_frequency_ratio, in intervals twice as long each of so many points, until its
 /// motions have the energy or there are none.
