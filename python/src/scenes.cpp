@@ -90,12 +90,13 @@ void add_scenes(py::module_& module) {
       .def_property_readonly("warnings", [](const Run& run) { return run.record.warnings; })
       .def_property_readonly("bar_motion", [](const Run& run) { return run.record.bar_motion; })
       .def_property_readonly("summary", [](const Run& run) { return dictionary_of(run.record.summary); })
-      .def_property_readonly("response", [](const Run& run) { return columns_of(run.record.response); })
-      .def_property_readonly("contacts", [](const Run& run) { return columns_of(run.record.contacts); })
-      .def_property_readonly("outputs", [](const Run& run) { return columns_of(run.record.outputs); })
-      .def_property_readonly("sweep", [](const Run& run) { return columns_of(run.record.sweep); })
-      .def_property_readonly("backbone", [](const Run& run) { return columns_of(run.record.backbone); })
-      .def_property_readonly("section", [](const Run& run) { return columns_of(run.record.section); })
+      .def_property_readonly("tables",
+                             [](const Run& run) {
+                               py::dict tables;
+                               for (const app::RecordTable& one : app::record_tables)
+                                 tables[one.name] = columns_of(run.record.*one.table);
+                               return tables;
+                             })
       .def_property_readonly("scene", [](const Run& run) { return app::write_scene(run.scene); })
       .def("svg",
            [](const Run& run) {

@@ -37,12 +37,7 @@ class Run:
     warnings: list[str]
     bar_motion: Numbers
     summary: dict[str, Any]
-    response: dict[str, Any]
-    contacts: dict[str, Any]
-    outputs: dict[str, Any]
-    sweep: dict[str, Any]
-    section: dict[str, Any]
-    backbone: dict[str, Any]
+    tables: dict[str, dict[str, Any]]
     scene: str
     def svg(self) -> str: ...
     def write(self, output: str) -> None: ...

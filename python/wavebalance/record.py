@@ -68,12 +68,13 @@ class Record:
         self.status: str = run.status
         self.warnings: list[str] = run.warnings
         self.summary: dict[str, Any] = run.summary
-        self.response: Columns = Columns(run.response)
-        self.contacts: Columns = Columns(run.contacts)
-        self.outputs: Columns = Columns(run.outputs)
-        self.sweep: Columns = Columns(run.sweep)
-        self.section: Columns = Columns(run.section)
-        self.backbone: Columns = Columns(run.backbone)
+        tables = run.tables
+        self.response: Columns = Columns(tables["response"])
+        self.contacts: Columns = Columns(tables["contacts"])
+        self.outputs: Columns = Columns(tables["outputs"])
+        self.sweep: Columns = Columns(tables["sweep"])
+        self.section: Columns = Columns(tables["section"])
+        self.backbone: Columns = Columns(tables["backbone"])
         self.bar_motion: npt.NDArray[np.float64] = run.bar_motion
         self.scene: str = run.scene
 

@@ -14,7 +14,7 @@ namespace wavebalance::app {
 /// Throws std::invalid_argument where no folder of results is named.
 void require_output(const std::filesystem::path& output);
 /// "summary.json, report.html", what a command has written, but for the frames of a motion.
-std::string names_of(const std::vector<ResultFile>& files);
+std::string names_of(const std::vector<RecordFile>& files);
 /// Says on the standard error what warnings a record has, and why it has no picture, if it has none.
 void say_warnings(const std::vector<std::string>& warnings);
 void say_no_picture(const std::string& reason);

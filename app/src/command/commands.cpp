@@ -54,7 +54,7 @@ void say_not_converged(const Scene& scene, const std::string& status) {
 }
 
 void report(const RunArguments& arguments, const Scene& scene, const Record& record,
-            const std::vector<ResultFile>& files) {
+            const std::vector<RecordFile>& files) {
   if (!arguments.quiet) {
     std::fputs(summary_text(record.summary).c_str(), stdout);
     std::printf("written to %s: %s\n", arguments.output.c_str(), names_of(files).c_str());
@@ -133,9 +133,9 @@ void require_output(const std::filesystem::path& output) {
         "--output is \"\"; expected the name of a folder, which is made if it is missing");
 }
 
-std::string names_of(const std::vector<ResultFile>& files) {
+std::string names_of(const std::vector<RecordFile>& files) {
   std::string list = "summary.json";
-  for (const ResultFile& file : files)
+  for (const RecordFile& file : files)
     if (!file.name.ends_with(".vtu")) list += ", " + file.name;
   return list;
 }

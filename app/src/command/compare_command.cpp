@@ -29,15 +29,15 @@ ComparisonOptions options_of(const CompareArguments& arguments) {
 }
 
 /// All files but the summary; with a report first this, still without contents.
-std::vector<ResultFile> files_of(const RunArguments& arguments, const Scene& scene,
+std::vector<RecordFile> files_of(const RunArguments& arguments, const Scene& scene,
                                  const ComparisonRecord& record) {
   const bool report = arguments.report;
-  std::vector<ResultFile> files, inputs;
+  std::vector<RecordFile> files, inputs;
   if (report)
     files.push_back({"report.html", "", "what to take and how each pair did, to read in a browser"});
   const Scene written = scene_of_record(arguments, scene, inputs);
   files.push_back({"scene.toml", write_scene(written), "the scene that was compared"});
-  for (ResultFile& input : inputs) files.push_back(std::move(input));
+  for (RecordFile& input : inputs) files.push_back(std::move(input));
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
   files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
@@ -57,7 +57,7 @@ bool may_write(const RunArguments& arguments, const std::string& name) {
 }
 
 Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord& record,
-                      const std::vector<ResultFile>& files) {
+                      const std::vector<RecordFile>& files) {
   Summary summary = record.summary;
   summary.emplace_back("budget_seconds", arguments.budget);
   summary.emplace_back("threads", std::int64_t{solvers::thread_count(arguments.run.threads)});
@@ -71,7 +71,7 @@ Summary whole_summary(const CompareArguments& arguments, const ComparisonRecord&
 }
 
 void say(const CompareArguments& arguments, const ComparisonRecord& record,
-         const std::vector<ResultFile>& files) {
+         const std::vector<RecordFile>& files) {
   if (!arguments.run.quiet) {
     std::fputs(record.text.c_str(), stdout);
     std::printf("\nwritten to %s: %s\n", arguments.run.output.c_str(), names_of(files).c_str());
@@ -100,7 +100,7 @@ int compare_scene(const CompareArguments& arguments) {
     return compare_bases(scene, options, observer);
   });
   if (record.interrupted && record.table.empty()) guard.end_program();
-  std::vector<ResultFile> files = files_of(arguments.run, scene, record);
+  std::vector<RecordFile> files = files_of(arguments.run, scene, record);
   const Summary summary = whole_summary(arguments, record, files);
   if (arguments.run.report)
     files.front().contents = comparison_report(arguments, scene, record, summary, files);

@@ -70,7 +70,7 @@ void require_new(const std::filesystem::path& file) {
 }
 
 /// A commented scene of this kind, or a study, first, and the files that it reads.
-std::vector<ResultFile> starter_scene(const std::string& kind, const std::string& stem) {
+std::vector<RecordFile> starter_scene(const std::string& kind, const std::string& stem) {
   const auto text_of = [](const std::string& wanted) {
     const auto found =
         std::ranges::find(starter_texts(), wanted, &std::pair<std::string, std::string>::first);
@@ -78,7 +78,7 @@ std::vector<ResultFile> starter_scene(const std::string& kind, const std::string
     throw std::invalid_argument("init " + wanted + ": there are " + joined(starter_kinds()) +
                                 suggestion(wanted, starter_kinds()));
   };
-  std::vector<ResultFile> files{{stem + ".toml", with_stem(text_of(kind), stem), ""}};
+  std::vector<RecordFile> files{{stem + ".toml", with_stem(text_of(kind), stem), ""}};
   if (kind == "study") files.push_back({stem + "_scene.toml", text_of("bar"), ""});
   if (kind == "matrices") {
     const Cantilever beam = cantilever();
@@ -102,12 +102,12 @@ int init_scene(const InitArguments& arguments) {
   if (scene.extension() != ".toml" || scene.filename().string().find_first_of("\"\\\n") != std::string::npos)
     throw std::invalid_argument("--output is \"" + scene.string() +
                                 "\"; expected the name of a file that ends in .toml");
-  std::vector<ResultFile> written = starter_scene(arguments.kind, scene.stem().string());
+  std::vector<RecordFile> written = starter_scene(arguments.kind, scene.stem().string());
   const auto folder = scene.parent_path();
-  for (const ResultFile& file : written) require_new(folder / file.name);
+  for (const RecordFile& file : written) require_new(folder / file.name);
   OutputFiles files(folder.empty() ? "." : folder);
   std::string list;
-  for (const ResultFile& file : written) {
+  for (const RecordFile& file : written) {
     files.add(file.name, file.contents);
     list += (list.empty() ? "" : ", ") + (folder / file.name).string();
   }

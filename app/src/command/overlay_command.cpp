@@ -31,7 +31,7 @@ void check(const OverlayArguments& arguments) {
 }
 
 std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
-                      const std::vector<ResultFile>& files) {
+                      const std::vector<RecordFile>& files) {
   std::string list;
   for (const fs::path& folder : arguments.folders) list += "<li>" + escaped(folder.string()) + "</li>\n";
   std::string warnings;
@@ -61,9 +61,9 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   return page_html(page);
 }
 
-std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overlay& overlay) {
+std::vector<RecordFile> files_of(const OverlayArguments& arguments, const Overlay& overlay) {
   const Figure figure = overlay_figure(overlay);
-  std::vector<ResultFile> files;
+  std::vector<RecordFile> files;
   try {
     files.push_back({"overlay.svg", render(figure, PictureFormat::svg), "the picture"});
     files.push_back({"overlay.png", render(figure, PictureFormat::png), "the picture"});
@@ -78,7 +78,7 @@ std::vector<ResultFile> files_of(const OverlayArguments& arguments, const Overla
 }
 
 std::string summary_of(const OverlayArguments& arguments, const Overlay& overlay,
-                       const std::vector<ResultFile>& files) {
+                       const std::vector<RecordFile>& files) {
   std::vector<std::string> folders;
   for (const fs::path& folder : arguments.folders) folders.push_back(folder.string());
   Summary summary{{"folders", folders},
@@ -98,9 +98,9 @@ int overlay_results(const OverlayArguments& arguments) {
       arguments.output,
       [](const std::string& name) { return name == "summary.json" || name.starts_with("overlay."); }, {});
   OutputFiles output(arguments.output);
-  const std::vector<ResultFile> files = files_of(arguments, overlay);
+  const std::vector<RecordFile> files = files_of(arguments, overlay);
   output.replace(files_of_record(output.directory() / "summary.json"));
-  for (const ResultFile& file : files) output.add(file.name, file.contents);
+  for (const RecordFile& file : files) output.add(file.name, file.contents);
   output.add("summary.json", summary_of(arguments, overlay, files));
   output.commit();
   say_warnings(overlay.warnings);

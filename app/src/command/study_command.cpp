@@ -20,7 +20,7 @@ namespace wavebalance::app {
 namespace {
 
 void say_outcome(const StudyArguments& arguments, const StudyRecord& record, const StudyOutcome& outcome,
-                 const std::vector<ResultFile>& files) {
+                 const std::vector<RecordFile>& files) {
   if (!arguments.quiet) {
     std::fputs(study_outcome(record).c_str(), stdout);
     std::printf("written to %s: %s\n", arguments.output.c_str(), names_of(files).c_str());

@@ -103,8 +103,6 @@ std::string term_place(const Scene& scene, const ForcingTerm& term) {
 
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
-  std::string kind = name_of(term.kind);
-  std::replace(kind.begin(), kind.end(), '_', ' ');
   const std::string size = number_text(term.amplitude);
   const std::string series = !term.samples.empty() ? size + " times samples"
                              : term.harmonic == 0  ? "static, " + size
@@ -114,8 +112,8 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
   const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term)) : "";
   const std::string table = term.amplitude_table.empty() ? "" : " times a table over the frequency";
-  return fmt::format("           {}: {}{}{}{}{}\n", kind, series, unit, table, phase,
-                     place.empty() ? "" : " " + place);
+  return fmt::format("           {}: {}{}{}{}{}\n", spaced_words(name_of(term.kind)), series, unit, table,
+                     phase, place.empty() ? "" : " " + place);
 }
 
 /// The weight, and what it amounts to.

@@ -1,6 +1,7 @@
 #include "files/number_text.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <array>
 #include <charconv>
@@ -22,6 +23,11 @@ std::string number_text(double value) {
   const auto digits = exponent + (text[exponent + 1] == '-' ? 2 : 1);
   if (text[digits] == '0') text.erase(digits, 1);
   return text;
+}
+
+std::string spaced_words(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 double rounded(double value, int digits) {

@@ -147,7 +147,7 @@ std::string reference_html(const Reference& reference) {
 
 std::string comparison_report(const CompareArguments& arguments, const Scene& scene,
                               const ComparisonRecord& record, const Summary& summary,
-                              const std::vector<ResultFile>& files) {
+                              const std::vector<RecordFile>& files) {
   const bool sweep = table_of(summary, "curves") != nullptr;
   std::string outcome = record.converged
                             ? recommendations(record, summary)

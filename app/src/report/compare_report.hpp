@@ -13,6 +13,6 @@ namespace wavebalance::app {
 /// values and files. Like that of a run it holds all that it shows.
 std::string comparison_report(const CompareArguments& arguments, const Scene& scene,
                               const ComparisonRecord& record, const Summary& summary,
-                              const std::vector<ResultFile>& files);
+                              const std::vector<RecordFile>& files);
 
 }  // namespace wavebalance::app

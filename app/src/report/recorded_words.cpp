@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "files/number_text.hpp"
 #include "plot/unit_prefix.hpp"
 #include "report/run_words.hpp"
 #include "results/quantities.hpp"

@@ -110,7 +110,7 @@ const Table* table_of(const Summary& summary, const std::string& name) {
   return table == nullptr || table->empty() ? nullptr : table;
 }
 
-std::string files_list(const std::vector<ResultFile>& files) {
+std::string files_list(const std::vector<RecordFile>& files) {
   std::string text = "<ul>\n<li><a href=\"summary.json\">summary.json</a>: all values</li>\n";
   for (const auto& file : files)
     if (!file.name.ends_with(".vtu"))
@@ -118,8 +118,8 @@ std::string files_list(const std::vector<ResultFile>& files) {
   return text + "</ul>\n";
 }
 
-bool holds_file(const std::vector<ResultFile>& files, const std::string& name) {
-  return std::any_of(files.begin(), files.end(), [&](const ResultFile& file) { return file.name == name; });
+bool holds_file(const std::vector<RecordFile>& files, const std::string& name) {
+  return std::any_of(files.begin(), files.end(), [&](const RecordFile& file) { return file.name == name; });
 }
 
 std::string sentence(std::string about) {
@@ -139,18 +139,18 @@ std::string columns_html(const Table& table,
   return table_html(rows, true);
 }
 
-std::string picture_html(const std::vector<ResultFile>& files, const std::string& stem,
+std::string picture_html(const std::vector<RecordFile>& files, const std::string& stem,
                          const std::string& alternative, const std::string& caption) {
   FigureBlock block{stem};
   block.alternative = alternative;
   block.caption = escaped(caption);
   block.curves = holds_file(files, stem + ".figure.js");
-  for (const ResultFile& file : files)
+  for (const RecordFile& file : files)
     if (file.name == stem + ".svg") block.size = picture_size(file.contents);
   return figure_html(block);
 }
 
-std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files) {
+std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<RecordFile>& files) {
   std::string html;
   for (const RecordPicture& picture : pictures) {
     if (holds_file(files, picture.stem + ".svg"))
@@ -161,7 +161,7 @@ std::string pictures_html(const std::vector<RecordPicture>& pictures, const std:
 }
 
 std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
-                          const std::vector<ResultFile>& files, const Summary& summary) {
+                          const std::vector<RecordFile>& files, const Summary& summary) {
   return section_html("Warnings", warnings.empty() ? "" : list_html(warnings)) +
          section_html("What was asked", asked) +
          section_html("Files",
@@ -176,10 +176,10 @@ std::string report_page(PageParts page, const std::string& heading) {
   return page_html(page);
 }
 
-void append_files(Summary& summary, const std::vector<ResultFile>& files) {
+void append_files(Summary& summary, const std::vector<RecordFile>& files) {
   summary.emplace_back("version", version());
   Table list({"name", "about"});
-  for (const ResultFile& file : files) list.append_row({file.name, file.about});
+  for (const RecordFile& file : files) list.append_row({file.name, file.about});
   summary.emplace_back("files", std::move(list));
 }
 

@@ -43,21 +43,21 @@ std::string columns_html(const Table& table, const std::vector<std::pair<std::st
 std::string sentence(std::string about);
 /// The picture of that stem, of which the files hold the SVG, with curves that zoom where its data are among
 /// them; `caption` is a sentence.
-std::string picture_html(const std::vector<ResultFile>& files, const std::string& stem,
+std::string picture_html(const std::vector<RecordFile>& files, const std::string& stem,
                          const std::string& alternative, const std::string& caption = "");
 /// The pictures whose files there are, with what they show; a sentence if there should be some.
-std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<ResultFile>& files);
+std::string pictures_html(const std::vector<RecordPicture>& pictures, const std::vector<RecordFile>& files);
 /// Links to summary.json and to the files, each with its sentence.
-std::string files_list(const std::vector<ResultFile>& files);
+std::string files_list(const std::vector<RecordFile>& files);
 /// Whether one of the files has this name.
-bool holds_file(const std::vector<ResultFile>& files, const std::string& name);
+bool holds_file(const std::vector<RecordFile>& files, const std::string& name);
 
 /// The sections with which all reports end; `asked` is HTML.
 std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
-                          const std::vector<ResultFile>& files, const Summary& summary);
+                          const std::vector<RecordFile>& files, const Summary& summary);
 /// A report of its own, with the heading, the sections of page.body and the version.
 std::string report_page(PageParts page, const std::string& heading);
 /// The version and the list of the files of a record, as its summary ends.
-void append_files(Summary& summary, const std::vector<ResultFile>& files);
+void append_files(Summary& summary, const std::vector<RecordFile>& files);
 
 }  // namespace wavebalance::app

@@ -18,11 +18,6 @@ namespace {
 
 constexpr const char* report_name = "report.html";
 
-void append_table(std::vector<ResultFile>& files, const std::string& name, const Table& table,
-                  const std::string& about) {
-  if (!table.empty()) files.push_back({name, csv_text(table), about});
-}
-
 void append_record_pictures(RunFiles& run, const Record& record, bool report) {
   if (record.figure.panels.empty()) return;
   const std::string stem = !record.sweep.empty()                                ? "sweep"
@@ -31,7 +26,7 @@ void append_record_pictures(RunFiles& run, const Record& record, bool report) {
                                                                                 : "response";
   std::vector<RecordPicture> pictures{{stem, record.figure, "the picture"}};
   for (const auto* more : {&record.output_pictures, &record.motion_pictures})
-    for (const RecordFigure& one : *more) pictures.push_back({one.stem, one.figure, one.about});
+    pictures.insert(pictures.end(), more->begin(), more->end());
   run.no_picture = append_pictures(run.files, pictures, report);
 }
 
@@ -40,23 +35,17 @@ constexpr std::string_view copied = "input_";  // how the names of copies begin
 /// All files but the summary; with arguments.report first the report, still without contents. `scene` is that
 /// of the record, of which `inputs` are copies.
 RunFiles result_files(const RunArguments& arguments, const Scene& scene, const Record& record,
-                      std::vector<ResultFile> inputs) {
+                      std::vector<RecordFile> inputs) {
   const bool report = arguments.report;
   RunFiles run;
-  std::vector<ResultFile>& files = run.files;
+  std::vector<RecordFile>& files = run.files;
   if (report) files.push_back({report_name, "", "what was asked and what came out, to read in a browser"});
   files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
-  for (ResultFile& input : inputs) files.push_back(std::move(input));
-  append_table(files, "response.csv", record.response,
-               "motion of the leading contact degree of freedom over one period");
-  append_table(files, "contacts.csv", record.contacts,
-               "every contact degree of freedom over one period; displacements towards the obstacles");
-  append_table(files, "section.csv", record.section,
-               "Poincare section: points at the beginning of periods of the load");
-  append_table(files, "outputs.csv", record.outputs, "every output over one period");
-  for (const RecordFile& file : record.files) files.push_back({file.name, file.contents, file.about});
-  append_table(files, "sweep.csv", record.sweep, "periodic responses along the curve");
-  append_table(files, "backbone.csv", record.backbone, "a nonlinear mode over its energy");
+  for (RecordFile& input : inputs) files.push_back(std::move(input));
+  for (const auto& [name, table, about] : record_tables)
+    if (!(record.*table).empty())
+      files.push_back({std::string(name) + ".csv", csv_text(record.*table), about});
+  files.insert(files.end(), record.files.begin(), record.files.end());
   append_record_pictures(run, record, report);
   if (report && has_bar_motion(scene, record))
     files.push_back({"response.motion.js", bar_motion_script(scene, record, "response"),
@@ -88,7 +77,7 @@ bool may_write(const RunArguments& arguments, const Scene& scene, const std::str
 
 /// The record's summary, with its scene and the list of its files.
 Summary whole_summary(const RunArguments& arguments, const Record& record,
-                      const std::vector<ResultFile>& files) {
+                      const std::vector<RecordFile>& files) {
   Summary summary = record.summary;
   summary.emplace_back("scene", arguments.scene.string());
   summary.emplace_back("set", arguments.overrides);
@@ -101,7 +90,7 @@ Summary whole_summary(const RunArguments& arguments, const Record& record,
 
 bool is_copy(std::string_view name) { return name.starts_with(copied); }
 
-Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files) {
+Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<RecordFile>& files) {
   if (!arguments.copy_inputs)
     return relative_to(scene, arguments.output, std::filesystem::absolute(arguments.scene).parent_path());
   std::map<std::string, std::string> names;
@@ -112,7 +101,7 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
     const std::string base = std::filesystem::path(file).filename().string();
     const auto taken = [&](const std::string& one) {
       return std::any_of(files.begin(), files.end(),
-                         [&](const ResultFile& other) { return other.name == one; });
+                         [&](const RecordFile& other) { return other.name == one; });
     };
     name = std::string(copied) + base;
     for (int number = 2; taken(name); ++number) name = fmt::format("{}{}_{}", copied, number, base);
@@ -122,7 +111,7 @@ Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::ve
 }
 
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record) {
-  std::vector<ResultFile> inputs;
+  std::vector<RecordFile> inputs;
   const Scene written = scene_of_record(arguments, scene, inputs);
   RunFiles run = result_files(arguments, written, record, std::move(inputs));
   const Summary summary = whole_summary(arguments, record, run.files);
@@ -133,7 +122,7 @@ RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Reco
   return run;
 }
 
-std::string append_pictures(std::vector<ResultFile>& files, const std::vector<RecordPicture>& pictures,
+std::string append_pictures(std::vector<RecordFile>& files, const std::vector<RecordPicture>& pictures,
                             bool curves) {
   try {
     for (const RecordPicture& picture : pictures) {
@@ -173,7 +162,7 @@ void write_run_files(OutputFiles& output, const RunFiles& files, const InputFile
   };
   require_replaceable(output.directory(), writes, inputs);
   output.replace(files_of_record(output.directory() / "summary.json"));
-  for (const ResultFile& file : files.files) output.add(file.name, file.contents);
+  for (const RecordFile& file : files.files) output.add(file.name, file.contents);
   output.add("summary.json", files.summary);
   output.commit();
 }

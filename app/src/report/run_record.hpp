@@ -12,7 +12,7 @@ namespace wavebalance::app {
 
 /// The files of a run, ready to be written.
 struct RunFiles {
-  std::vector<ResultFile> files;  ///< all but the summary; with arguments.report the report first
+  std::vector<RecordFile> files;  ///< all but the summary; with arguments.report the report first
   std::string summary;            ///< contents of summary.json
   std::string no_picture;         ///< why there is no picture; empty where one is drawn or none is due
 };
@@ -26,11 +26,11 @@ bool is_copy(std::string_view name);
 /// The scene as a record in arguments.output holds it: its files are copies, which are appended to `files`,
 /// or have names relative to the record where they lie beside or below the scene that was given. Throws
 /// IoError where a file cannot be read.
-Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<ResultFile>& files);
+Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<RecordFile>& files);
 
 /// Appends pictures as SVG and, with `curves`, the data of those that a page can zoom. Returns why there are
 /// none, if gnuplot was not found; else an empty text.
-std::string append_pictures(std::vector<ResultFile>& files, const std::vector<RecordPicture>& pictures,
+std::string append_pictures(std::vector<RecordFile>& files, const std::vector<RecordPicture>& pictures,
                             bool curves);
 
 /// The files that a command reads, none of which it replaces.

@@ -43,14 +43,14 @@ std::string folded_table(const Summary& summary, const std::string& name, const 
 }
 
 /// The picture of this name, with curves that zoom where its data are among the files.
-std::string picture(const std::vector<ResultFile>& files, const std::string& svg,
+std::string picture(const std::vector<RecordFile>& files, const std::string& svg,
                     const std::string& alternative) {
   const std::string stem = svg.substr(0, svg.size() - std::string_view(".svg").size());
   return picture_html(files, stem, alternative);
 }
 
 /// The picture of the record.
-std::string record_picture(const std::vector<ResultFile>& files, const std::string& heading) {
+std::string record_picture(const std::vector<RecordFile>& files, const std::string& heading) {
   const auto drawn =
       std::find_if(files.begin(), files.end(), [](const auto& file) { return file.name.ends_with(".svg"); });
   return drawn == files.end() ? "<p>There is no picture: gnuplot was not found.</p>\n"
@@ -73,11 +73,11 @@ std::vector<std::string> rest_sentences(const Scene& scene, const Summary& summa
 }
 
 /// The pictures of the outputs, with what was measured of them; empty without any.
-std::string outputs_of_record(const Record& record, const std::vector<ResultFile>& files,
+std::string outputs_of_record(const Record& record, const std::vector<RecordFile>& files,
                               const Summary& summary) {
   std::string pictures = paragraph(output_sentences(summary, record.axis));
-  for (const RecordFigure& one : record.output_pictures)
-    for (const ResultFile& file : files)
+  for (const RecordPicture& one : record.output_pictures)
+    for (const RecordFile& file : files)
       if (file.name == one.stem + ".svg") pictures += picture(files, file.name, one.figure.title);
   return pictures + folded_table(summary, "outputs", "Outputs") +
          folded_table(summary, "critical_speeds", "Critical speeds");
@@ -94,11 +94,11 @@ std::string motions_of_record(const Scene& scene, const Summary& summary) {
 }
 
 /// The pictures of single motions, and when each is in contact; empty without any.
-std::string motions_of_points(const Record& record, const std::vector<ResultFile>& files,
+std::string motions_of_points(const Record& record, const std::vector<RecordFile>& files,
                               const Summary& summary) {
   std::string pictures;
-  for (const RecordFigure& motion : record.motion_pictures)
-    for (const ResultFile& file : files)
+  for (const RecordPicture& motion : record.motion_pictures)
+    for (const RecordFile& file : files)
       if (file.name == motion.stem + ".svg")
         pictures += "<h3>" + escaped(motion.figure.title) + "</h3>\n" +
                     picture(files, file.name, motion.figure.title);
@@ -106,7 +106,7 @@ std::string motions_of_points(const Record& record, const std::vector<ResultFile
 }
 
 /// The box in which motion.js moves the bar, where its data are among the files.
-std::string motion(const std::vector<ResultFile>& files) {
+std::string motion(const std::vector<RecordFile>& files) {
   const auto found = std::find_if(files.begin(), files.end(),
                                   [](const auto& file) { return file.name.ends_with(".motion.js"); });
   return found == files.end()
@@ -115,9 +115,9 @@ std::string motion(const std::vector<ResultFile>& files) {
 }
 
 /// The box in which body.js moves the structure in space, where its data are among the files.
-std::string motion_in_space(const std::vector<ResultFile>& files) {
+std::string motion_in_space(const std::vector<RecordFile>& files) {
   std::string scripts;
-  for (const ResultFile& file : files)
+  for (const RecordFile& file : files)
     if (file.name.ends_with(".body.js")) scripts += (scripts.empty() ? "" : " ") + file.name;
   return scripts.empty()
              ? ""
@@ -149,7 +149,7 @@ std::string asked(const RunArguments& arguments, const Scene& scene, const std::
 }  // namespace
 
 std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
-                        const Record& record, const Summary& summary, const std::vector<ResultFile>& files) {
+                        const Record& record, const Summary& summary, const std::vector<RecordFile>& files) {
   const std::string heading = heading_of(arguments, scene);
   PageParts page{.title = heading + ", Wavebalance", .scripts = {"motion.js"}};
   const std::string in_space = motion_in_space(files);

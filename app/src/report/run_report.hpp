@@ -8,17 +8,10 @@
 
 namespace wavebalance::app {
 
-/// A file of the results and one sentence about it.
-struct ResultFile {
-  std::string name;
-  std::string contents;
-  std::string about;
-};
-
 /// report.html: what was asked, what came out in sentences, warnings, stability, the picture with curves that
 /// zoom, the motion of a bar, all values and files. It holds all that it shows; without scripts the pictures
 /// stay. `scene_text` is the scene as the record has it.
 std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
-                        const Record& record, const Summary& summary, const std::vector<ResultFile>& files);
+                        const Record& record, const Summary& summary, const std::vector<RecordFile>& files);
 
 }  // namespace wavebalance::app

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "files/number_text.hpp"
 #include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
 #include "report/other_motions.hpp"

@@ -17,7 +17,4 @@ std::vector<std::string> output_sentences(const Summary& summary, const SweepAxi
 /// What the record says of stability, and where it changes.
 std::vector<std::string> stability_sentences(const Summary& summary, const SweepAxis& axis = {});
 
-/// A name of a status or type with spaces.
-std::string spaced_words(std::string name);
-
 }  // namespace wavebalance::app

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "files/number_text.hpp"
 #include "report/run_words.hpp"
 #include "results/quantities.hpp"
 
@@ -149,11 +150,6 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
 }
 
 }  // namespace
-
-std::string spaced_words(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 std::vector<std::string> stability_sentences(const Summary& summary, const SweepAxis& axis) {
   const std::string status = text_in(summary, quantities::stability);

@@ -173,7 +173,7 @@ std::string heading_of(const Study& study) {
 }
 
 std::string study_report(const StudyArguments& arguments, const Study& study, const StudyRecord& record,
-                         const Summary& summary, const std::vector<ResultFile>& files) {
+                         const Summary& summary, const std::vector<RecordFile>& files) {
   const std::string heading = heading_of(study);
   PageParts page{.title = heading + ", Wavebalance"};
   page.body = section_html("What came out", list_html(lines_of(study_outcome(record)))) +
@@ -218,7 +218,7 @@ void check_study_output(const StudyArguments& arguments, const InputFiles& input
 
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record) {
   RunFiles run;
-  std::vector<ResultFile>& files = run.files;
+  std::vector<RecordFile>& files = run.files;
   if (arguments.report)
     files.push_back({"report.html", "", "what came out of the runs, to read in a browser"});
   files.push_back({"study.csv", csv_text(record.table), "a row per run"});

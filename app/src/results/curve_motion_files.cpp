@@ -7,6 +7,7 @@
 
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
 #include "results/motion_files.hpp"
 #include "results/orbit_record.hpp"
 #include "results/quantities.hpp"
@@ -30,9 +31,7 @@ Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxi
 
 std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
   if (motion.at == axis.quantity) return fmt::format("at {} {}", cell_text(motion.place), axis.unit);
-  std::string type = motion.at;
-  std::replace(type.begin(), type.end(), '_', ' ');
-  return fmt::format("at the {}, {:.7g} {}", type, motion.place, axis.unit);
+  return fmt::format("at the {}, {:.7g} {}", spaced_words(motion.at), motion.place, axis.unit);
 }
 
 /// The motion as that of a single response, with the instants of contact where these are known.
@@ -45,8 +44,8 @@ void append_motion_picture(Record& record, const Scene& scene, const Sweep& swee
   response.periods = sweep.periods;
   if (sweep.curve.parameter == solvers::SweepParameter::frequency) response.load_frequency = motion.place;
   response.phases = motion.near;
-  RecordFigure picture{motion.name, motion_figure(scene, response, motion.place),
-                       "the motion of the curve " + place};
+  RecordPicture picture{motion.name, motion_figure(scene, response, motion.place),
+                        "the motion of the curve " + place};
   picture.figure.title = "Motion " + place + (motion.converged ? "" : " (NOT CONVERGED)");
   record.motion_pictures.push_back(std::move(picture));
 }

@@ -7,6 +7,7 @@
 
 #include "drawing/orbit_figure.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -79,10 +80,7 @@ void append_planes(Record& record, const std::vector<OrbitPlane>& planes) {
 /// "45 Hz", "peak, 48.32 Hz"
 std::string name_of(const CurveMotion& motion, const SweepAxis& axis) {
   const std::string place = fmt::format("{:.6g} {}", motion.place, axis.unit);
-  if (motion.at == axis.quantity) return place;
-  std::string type = motion.at;
-  std::replace(type.begin(), type.end(), '_', ' ');
-  return type + ", " + place;
+  return motion.at == axis.quantity ? place : spaced_words(motion.at) + ", " + place;
 }
 
 }  // namespace

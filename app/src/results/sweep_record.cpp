@@ -5,6 +5,7 @@
 
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
 #include "results/curve_motion_files.hpp"
 #include "results/extremes.hpp"
 #include "results/output_record.hpp"
@@ -56,10 +57,9 @@ void append_places(std::vector<std::string>& places, const std::vector<solvers::
                    const SweepPhases& phases, const Sweep& sweep) {
   for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
     if (!was_not_found(phases.special_points[i])) continue;
-    std::string type(to_string(points[i].type));
-    std::replace(type.begin(), type.end(), '_', ' ');
-    places.push_back(fmt::format("the {} at {:.7g} {}", type, parameter_of(points[i], sweep.curve.parameter),
-                                 sweep_axis(sweep).unit));
+    const std::string type(to_string(points[i].type));
+    places.push_back(fmt::format("the {} at {:.7g} {}", spaced_words(type),
+                                 parameter_of(points[i], sweep.curve.parameter), sweep_axis(sweep).unit));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "files/contains.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
 #include "plot/axis_ticks.hpp"
 #include "plot/plot_text.hpp"
 #include "plot/unit_prefix.hpp"
@@ -31,8 +32,7 @@ struct Shown {
 
 /// "row_19_half_peak_to_peak_m" as "row 19 half peak to peak (µm)", by the largest of its values.
 Shown output_shown(const std::string& column, const OutputUnit& unit, double largest) {
-  std::string words = column.substr(0, column.size() - unit.suffix.size() - 1);
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::string words = spaced_words(column.substr(0, column.size() - unit.suffix.size() - 1));
   if (words.starts_with("minus ")) words.replace(0, 6, "-");
   const std::string name(unit.name);
   const Scale scale = axis_scale(largest, name);

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,18 +15,11 @@
 
 namespace wavebalance::app {
 
-/// A further file of a record, ready to be written.
+/// A file of a record, ready to be written.
 struct RecordFile {
   std::string name;
   std::string contents;
   std::string about;  ///< one sentence without its full stop
-};
-
-/// A further picture of a record.
-struct RecordFigure {
-  std::string stem;  ///< its name without the ending
-  Figure figure;
-  std::string about;  ///< as of RecordFile
 };
 
 /// The results of an analysis: summary.json, response.csv, sweep.csv or backbone.csv, and a picture.
@@ -51,9 +45,9 @@ struct Record {
   /// Displacements of the nodes of a bar from its clamp on (rows) at uniform instants of the period, m; empty
   /// for other structures and after a curve.
   Eigen::MatrixXd bar_motion;
-  Figure figure;                              ///< without panels when there is nothing to draw
-  std::vector<RecordFigure> motion_pictures;  ///< of the motions of points of a curve
-  std::vector<RecordFigure> output_pictures;  ///< of analysis.outputs and of contacts, each for itself
+  Figure figure;                               ///< without panels when there is nothing to draw
+  std::vector<RecordPicture> motion_pictures;  ///< of the motions of points of a curve
+  std::vector<RecordPicture> output_pictures;  ///< of analysis.outputs and of contacts, each for itself
 
   /// At the end of the summary, by a Quantity or by its name alone.
   template <class Name, class Value>
@@ -61,6 +55,22 @@ struct Record {
     summary.emplace_back(name, std::forward<Value>(value));
   }
 };
+
+/// A table of a record by its name in files and in Python.
+struct RecordTable {
+  const char* name;
+  Table Record::*table;
+  const char* about;  ///< as of RecordFile
+};
+inline constexpr std::array<RecordTable, 6> record_tables{{
+    {"response", &Record::response, "motion of the leading contact degree of freedom over one period"},
+    {"contacts", &Record::contacts,
+     "every contact degree of freedom over one period; displacements towards the obstacles"},
+    {"section", &Record::section, "Poincare section: points at the beginning of periods of the load"},
+    {"outputs", &Record::outputs, "every output over one period"},
+    {"sweep", &Record::sweep, "periodic responses along the curve"},
+    {"backbone", &Record::backbone, "a nonlinear mode over its energy"},
+}};
 
 /// Where a solution starts, what watches it, and on how many threads it runs.
 struct AnalysisOptions {
