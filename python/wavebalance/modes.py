@@ -17,7 +17,22 @@ __all__ = ["Backbone", "DampedMode", "backbone", "damped_mode"]
 Numbers = npt.NDArray[np.float64]
 
 
-class Backbone:
+class _Points:
+    """A curve whose points are told by their index, from 0; negative ones count from the end."""
+
+    frequency: Numbers
+
+    def __len__(self) -> int:
+        return len(self.frequency)
+
+    def _place(self, index: int) -> int:
+        count = len(self)
+        if not -count <= index < count:
+            raise IndexError(f"point {index} of a curve of {count}")
+        return index % count
+
+
+class Backbone(_Points):
     """A nonlinear mode: P free periodic motions of the undamped structure over their energy.
 
     Attributes
@@ -45,7 +60,7 @@ class Backbone:
         self._core = core
         self.status: str = core.status
         self.linear_frequency: float = core.linear_frequency
-        self.frequency: Numbers = core.omega / (2.0 * np.pi)
+        self.frequency = core.omega / (2.0 * np.pi)
         self.frequency_ratio: Numbers = self.frequency / core.linear_frequency
         self.energy_ratio: Numbers = core.energy_ratio
         self.contact_fraction: Numbers = core.contact_fraction
@@ -55,15 +70,9 @@ class Backbone:
         known = len(core.unstable) == len(core)
         self.unstable: npt.NDArray[np.int32] = core.unstable if known else np.full(len(core), -1, np.int32)
 
-    def __len__(self) -> int:
-        return len(self.frequency)
-
     def amplitudes(self, index: int) -> npt.NDArray[np.complex128]:
         """Complex amplitudes of the motion at a point in the linear modes, r × (N + 1), m sqrt(kg)."""
-        count = len(self)
-        if not -count <= index < count:
-            raise IndexError(f"point {index} of a curve of {count}")
-        return self._core.amplitudes(index % count)
+        return self._core.amplitudes(self._place(index))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the frequency over the energy with Matplotlib, and returns the axes."""
@@ -133,7 +142,7 @@ def backbone(
     return Backbone(_core.backbone(structure, given, functions, [float(one) for one in gaps], arguments))
 
 
-class DampedMode:
+class DampedMode(_Points):
     """A nonlinear mode of a structure that loses energy: P motions over their amplitude.
 
     Attributes
@@ -157,17 +166,8 @@ class DampedMode:
         self.linear_damping_ratio: float = core.linear_damping_ratio
         self.slip_amplitude: float = core.linear_amplitude
         self.amplitude: Numbers = core.amplitude
-        self.frequency: Numbers = core.omega / (2.0 * np.pi)
+        self.frequency = core.omega / (2.0 * np.pi)
         self.damping_ratio: Numbers = core.damping_ratio
-
-    def __len__(self) -> int:
-        return len(self.frequency)
-
-    def _place(self, index: int) -> int:
-        count = len(self)
-        if not -count <= index < count:
-            raise IndexError(f"point {index} of a curve of {count}")
-        return index % count
 
     def displacement(self, index: int) -> Numbers:
         """Displacements of the contacts over a period at a point, contacts × samples, m."""

@@ -94,19 +94,15 @@ const Remedies& of_modes() {
   return all;
 }
 
-const Remedies& of_time_stepping() {
+const Remedies& of_integration() {
   static const Remedies all{
+      {"incomplete", {elastic_friction, no_rebound, stiff_law, softer_contact}},
       {"aperiodic", {longer_record, all_motions, more_damping}},
       {"iteration_limit", {more_periods, larger_step_tolerance, all_motions, more_damping, fewer_modes}},
       {"subharmonic", {response_of_periods, all_motions}},
       {"tolerance_missed", {larger_step_tolerance}},
       {"step_failure", {softer_contact}},
       {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}}};
-  return all;
-}
-
-const Remedies& of_diagrams() {
-  static const Remedies all{{"incomplete", {elastic_friction, no_rebound, stiff_law, softer_contact}}};
   return all;
 }
 
@@ -120,8 +116,7 @@ const Remedies& of_motions() {
 const Remedies& of_analysis(const Analysis& analysis) {
   if (is_sweep(analysis.type)) return analysis.exact ? of_exact_sweeps() : of_sweeps();
   if (analysis.type == AnalysisType::nonlinear_mode) return of_modes();
-  if (analysis.type == AnalysisType::time_stepping) return of_time_stepping();
-  if (analysis.type == AnalysisType::bifurcation_diagram) return of_diagrams();
+  if (integrates_in_time(analysis.type)) return of_integration();
   return analysis.type == AnalysisType::motions ? of_motions() : of_responses();
 }
 
