@@ -158,14 +158,16 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
     page.scripts.push_back("body.js");
   }
   page.body =
-      section_html("What came out", paragraph(outcome_sentences(summary, common_gap(scene), record.axis)) +
-                                        (record.figure.panels.empty() ? "" : record_picture(files, heading)) +
-                                        motion(files) + in_space + paragraph(rest_sentences(scene, summary)) +
-                                        folded_table(summary, "at_rest", "At rest under the static loads") +
-                                        folded_table(summary, "statistics", "Statistics") +
-                                        folded_table(summary, "period_intervals", "Intervals of one period") +
-                                        folded_table(summary, "hysteresis", "Hysteresis") +
-                                        motions_of_record(scene, summary)) +
+      section_html(
+          "What came out",
+          paragraph(record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
+                                             : record.sentences) +
+              (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
+              in_space + paragraph(rest_sentences(scene, summary)) +
+              folded_table(summary, "at_rest", "At rest under the static loads") +
+              folded_table(summary, "statistics", "Statistics") +
+              folded_table(summary, "period_intervals", "Intervals of one period") +
+              folded_table(summary, "hysteresis", "Hysteresis") + motions_of_record(scene, summary)) +
       section_html("Stability",
                    sentences_html(stability_sentences(summary, record.axis)) +
                        folded_table(summary, "structure_special_points", "Special points of the structure") +

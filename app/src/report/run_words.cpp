@@ -11,7 +11,6 @@
 #include "plot/unit_prefix.hpp"
 #include "report/other_motions.hpp"
 #include "report/peak_words.hpp"
-#include "report/recorded_words.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
@@ -367,8 +366,6 @@ std::vector<std::string> output_sentences(const Summary& summary, const SweepAxi
 }
 
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
-  for (std::vector<std::string> own : {recorded_sentences(summary), diagram_sentences(summary, axis)})
-    if (!own.empty()) return own;
   std::vector<std::string> sentences{solution_sentence(summary)};
   const std::string analysis = text_in(summary, quantities::analysis);
   const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";

@@ -87,7 +87,7 @@ double energy_error(const std::vector<FrictionMeasures>& contacts, const solvers
 
 void append_energy_error(Record& record, double error) {
   constexpr double large = 1e-3;
-  record.add(quantities::friction_energy_error, error);
+  record.add("friction_energy_error", error);
   if (error > large)
     warn(record,
          "The friction work and the work of the load less that of the damping differ by {:.2g} of it: more "

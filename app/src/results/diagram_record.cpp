@@ -1,13 +1,20 @@
 #include "results/analyses.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "drawing/diagram_figure.hpp"
 #include "files/missing.hpp"
+#include "files/number_text.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/attractors/bifurcation.hpp"
@@ -120,6 +127,78 @@ std::int64_t sum_of(const Table& table, const char* column) {
   return sum;
 }
 
+/// "12 to 19.5", or one value.
+std::string interval_text(const Table& table, std::size_t row) {
+  const double from = table.numbers("from")[row], to = table.numbers("to")[row];
+  return from == to ? fmt::format("{:.6g}", from) : fmt::format("{:.6g} to {:.6g}", from, to);
+}
+
+/// "12 to 19.5, 22 and 4 more" of the rows.
+std::string list_text(const Table& table, const std::vector<std::size_t>& rows) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(most, rows.size()); ++i)
+    parts.push_back(interval_text(table, rows[i]));
+  return fmt::format("{}", fmt::join(parts, ", ")) +
+         (rows.size() > most ? fmt::format(" and {} more", rows.size() - most) : "");
+}
+
+/// Where motions of few periods are on a way, where others, and where none.
+std::string way_sentence(const Table& intervals, const std::string& way, const SweepAxis& axis) {
+  constexpr std::array words{"period 1 at ",      "period 2 at ",  "period 4 at ",
+                             "other periods at ", "aperiodic at ", "not known at "};
+  std::array<std::vector<std::size_t>, words.size()> rows;
+  const std::vector<double> periods = intervals.numbers("period");
+  for (std::size_t i = 0; i < intervals.rows(); ++i) {
+    if (cell_text(intervals.at(i, "way")) != way) continue;
+    const double period = periods[i];
+    const std::size_t kind = std::isnan(period) ? 5
+                             : period == 0.0    ? 4
+                             : period == 1.0    ? 0
+                             : period == 2.0    ? 1
+                             : period == 4.0    ? 2
+                                                : 3;
+    rows[kind].push_back(i);
+  }
+  std::vector<std::string> parts;
+  for (std::size_t kind = 0; kind < words.size(); ++kind)
+    if (!rows[kind].empty()) parts.push_back(words[kind] + list_text(intervals, rows[kind]));
+  if (parts.empty()) return "";
+  return fmt::format("On the way {} ({}): {}.", way, axis.unit, fmt::join(parts, "; "));
+}
+
+std::string hysteresis_sentence(const Table& hysteresis, bool both_ways, const SweepAxis& axis) {
+  if (!both_ways) return "The values were passed one way alone.";
+  if (hysteresis.empty()) return "Both ways lead to the same motions.";
+  std::vector<std::size_t> rows(hysteresis.rows());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return fmt::format("Both ways lead to different motions at {} {}.", list_text(hysteresis, rows), axis.unit);
+}
+
+std::string exact_sentence(const Diagram& diagram) {
+  const std::string &status = diagram.exact_status, &back = diagram.exact_status_back;
+  if (status == "reached_end" || status == "closed")
+    return "Lines are exact periodic solutions, dashed where they are unstable.";
+  if (status == "not_sought" || status.empty()) return "";
+  if (status == "refused") return "There is no exact curve of this scene.";
+  return "Lines are exact periodic solutions, dashed where they are unstable, from one end of the interval (" +
+         spaced_words(status) + ")" +
+         (back.empty() ? "." : " and from the other (" + spaced_words(back) + "). Others may be missing.");
+}
+
+std::vector<std::string> sentences_of(const Diagram& diagram, int values, const Table& intervals,
+                                      const Table& hysteresis) {
+  std::vector<std::string> sentences{
+      fmt::format("The section of {} was recorded at {} values of the {}, in {}.",
+                  diagram.places[std::size_t(diagram.place)].name, values, diagram.axis.quantity,
+                  quantity(diagram.wall_seconds, "s")),
+      way_sentence(intervals, "there", diagram.axis), way_sentence(intervals, "back", diagram.axis),
+      hysteresis_sentence(hysteresis, !diagram.values.back().forwards, diagram.axis),
+      exact_sentence(diagram)};
+  std::erase(sentences, "");
+  return sentences;
+}
+
 void append_findings(Record& record, const Scene& scene, const Diagram& diagram) {
   const auto count = [&](auto&& which) {
     return std::count_if(diagram.values.begin(), diagram.values.end(), which);
@@ -132,7 +211,7 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
     most = std::fmax(most, one.displacement.row(diagram.place).maxCoeff());
     least = std::fmin(least, one.displacement.row(diagram.place).minCoeff());
   }
-  record.add(quantities::section_of, diagram.places[std::size_t(diagram.place)].name);
+  record.add("section_of", diagram.places[std::size_t(diagram.place)].name);
   record.add("max_section_displacement", most);
   record.add("min_section_displacement", least);
   record.add(quantities::aperiodic_values,
@@ -140,10 +219,12 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   record.add(quantities::longest_found, longest);
   const Table hysteresis = hysteresis_table(diagram, scene.analysis.section_tolerance);
   record.add(quantities::hysteresis_values, sum_of(hysteresis, "values"));
-  record.add(quantities::period_intervals, intervals_table(diagram));
-  record.add(quantities::hysteresis, hysteresis);
-  record.add(quantities::exact_curve, diagram.exact_status);
-  if (!diagram.exact_status_back.empty()) record.add(quantities::exact_curve_back, diagram.exact_status_back);
+  const Table intervals = intervals_table(diagram);
+  record.sentences = sentences_of(diagram, scene.analysis.values, intervals, hysteresis);
+  record.add("period_intervals", intervals);
+  record.add("hysteresis", hysteresis);
+  record.add("exact_curve", diagram.exact_status);
+  if (!diagram.exact_status_back.empty()) record.add("exact_curve_back", diagram.exact_status_back);
   const auto failed = count([](const DiagramValue& one) { return !one.failure.empty(); });
   if (failed > 0)
     warn(record,

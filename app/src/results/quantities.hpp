@@ -26,13 +26,13 @@ inline constexpr Quantity frequency{"frequency_Hz", setting, "Hz", "frequency"},
     contact_directions{"contact_directions", setting}, degrees_of_freedom{"degrees_of_freedom", setting},
     reduced_degrees_of_freedom{"reduced_degrees_of_freedom", setting};
 
-inline constexpr Quantity residual{"residual"}, iterations{"iterations"}, unknowns{"unknowns"}, form{"form"},
-    warnings{"warnings"}, estimated_error{"estimated_error"},
-    ladder_seconds{"ladder_seconds", diagnostic, "s"}, phases_status{"phases_status"},
-    error_of_vibration{"error_of_vibration"}, error_of_displacement{"error_of_displacement"},
-    peak_value_resolution{"peak_value_resolution"}, peak_place_resolution{"peak_place_resolution"},
-    error_of_force{"error_of_force"}, phases{"phases"}, solved_by{"solved_by"}, points{"points"},
-    points_tongue{"points_tongue"}, tongues{"tongues"}, stability{"stability"}, stability_by{"stability_by"},
+inline constexpr Quantity residual{"residual"}, form{"form"}, warnings{"warnings"},
+    estimated_error{"estimated_error"}, ladder_seconds{"ladder_seconds", diagnostic, "s"},
+    phases_status{"phases_status"}, error_of_vibration{"error_of_vibration"},
+    error_of_displacement{"error_of_displacement"}, peak_value_resolution{"peak_value_resolution"},
+    peak_place_resolution{"peak_place_resolution"}, error_of_force{"error_of_force"}, phases{"phases"},
+    solved_by{"solved_by"}, points{"points"}, points_tongue{"points_tongue"}, tongues{"tongues"},
+    stability{"stability"}, stability_by{"stability_by"},
     points_stability_not_known{"points_stability_not_known"}, stability_not_known{"stability_not_known"},
     unstable_parts{"unstable_parts"}, special_points{"special_points"}, random_starts{"random_starts"},
     motions{"motions"}, structure_curve{"structure_curve"},
@@ -51,7 +51,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     contact_dissipation{"contact_dissipation_J", result, "J", "contact dissipation"},
     friction_work{"friction_work_J", result, "J", "friction work"}, wear{"wear_m3", result, "m3", "wear"},
     friction{"friction", result}, max_slip_fraction{"max_slip_fraction", result},
-    max_open_fraction{"max_open_fraction", result}, friction_energy_error{"friction_energy_error"},
+    max_open_fraction{"max_open_fraction", result},
     equivalent_damping_ratio{"equivalent_damping_ratio", result}, impacts{"impacts", result},
     max_impulse{"max_impulse_Ns", result, "N s", "max impulse"},
     max_impact_velocity{"max_impact_velocity_m_per_s", result, "m/s", "max impact velocity"},
@@ -72,9 +72,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
 // Those of motions that do not repeat, with half the width of their 95 % confidence intervals, and of
 // diagrams.
 inline constexpr std::string_view aperiodic = "aperiodic";  ///< the status of such a record
-inline constexpr Quantity motion_kind{"motion_kind"}, recorded_periods{"recorded_periods"},
-    transient_periods{"transient_periods"}, statistics{"statistics"}, batch_correlation{"batch_correlation"},
-    section_period{"section_period"}, lyapunov_exponent{"lyapunov_exponent", result},
+inline constexpr Quantity lyapunov_exponent{"lyapunov_exponent", result},
     lyapunov_exponent_error{"lyapunov_exponent_error", result},
     rms_displacement_error{"rms_displacement_error_m", result, "m", "error of rms displacement"},
     rms_vibration_error{"rms_vibration_error_m", result, "m", "error of rms vibration"},
@@ -83,11 +81,8 @@ inline constexpr Quantity motion_kind{"motion_kind"}, recorded_periods{"recorded
     friction_work_error{"friction_work_error_J", result, "J", "error of friction work"},
     wear_error{"wear_error_m3", result, "m3", "error of wear"}, impacts_error{"impacts_error", result},
     impact_energy_error{"impact_energy_error_J", result, "J", "error of impact energy"};
-inline constexpr Quantity diagram_values{"values", setting}, section_of{"section_of"},
-    period_intervals{"period_intervals"}, hysteresis{"hysteresis"},
-    aperiodic_values{"aperiodic_values", result}, hysteresis_values{"hysteresis_values", result},
-    longest_found{"longest_period_found", result}, exact_curve{"exact_curve"},
-    exact_curve_back{"exact_curve_back"};
+inline constexpr Quantity diagram_values{"values", setting}, aperiodic_values{"aperiodic_values", result},
+    hysteresis_values{"hysteresis_values", result}, longest_found{"longest_period_found", result};
 
 // Those of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},

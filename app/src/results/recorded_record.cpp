@@ -7,6 +7,7 @@
 
 #include "drawing/diagram_figure.hpp"
 #include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
@@ -107,6 +108,71 @@ void warn_of_kind(Record& record, const RecordedMotion& motion) {
          motion.recorded / 20, motion.correlation);
 }
 
+/// "1.680 ± 0.004 mm": the error with two digits, and the value with as many decimals.
+std::string with_error(const solvers::Estimate& known, const std::string& unit) {
+  const Scale scale = axis_scale(std::abs(known.value));
+  const double shown = scale.factor * known.error;
+  const int decimals = shown > 0.0 ? std::clamp(1 - int(std::floor(std::log10(shown))), 0, 6) : 6;
+  return fmt::format("{:.{}f} ± {:.{}f} {}{}", scale.factor * known.value, decimals, shown, decimals,
+                     scale.prefix, unit);
+}
+
+std::string kind_sentence(const RecordedMotion& motion) {
+  const std::string before =
+      fmt::format("Within {} periods of the load the motion did not repeat. ", motion.transient);
+  const std::string measured =
+      std::isfinite(motion.exponent.value)
+          ? fmt::format("the largest Lyapunov exponent is {:.3g} ± {:.2g} per period of the load",
+                        motion.exponent.value, motion.exponent.error)
+          : std::string("the largest Lyapunov exponent was not found");
+  switch (motion.kind) {
+    case MotionKind::chaotic:
+      return before + "It is chaotic: " + measured + ".";
+    case MotionKind::quasi_periodic:
+      return before + "It is quasi-periodic: it keeps its size, and " + measured +
+             ", which is zero within what so many periods tell.";
+    case MotionKind::periodic:
+      return before + fmt::format("In the record it repeats after {} of them.", motion.repeats);
+    case MotionKind::settling:
+      return before + "It still settles, or has a long period, since perturbations decay: " + measured + ".";
+    case MotionKind::not_known:
+      break;
+  }
+  return before + "Whether it is aperiodic or has not settled yet is not known: " + measured + ".";
+}
+
+/// What came out, of which the leading contact and the summary, which has no more than the scene's laws do.
+std::vector<std::string> sentences_of(const RecordedMotion& motion, const MotionPlace& contact,
+                                      const Summary& summary) {
+  const auto of = [&](const char* quantity) { return motion.of(contact.name, quantity); };
+  const auto sum = [&](const char* quantity) { return motion.of(all_contacts, quantity); };
+  const auto has = [&](const Quantity& one) { return std::isfinite(number_in(summary, one)); };
+  std::vector<std::string> sentences{
+      kind_sentence(motion),
+      fmt::format("Over the next {} periods the leading contact has a vibration of {} (rms about its mean), "
+                  "and lies between {} and {}.",
+                  motion.recorded, with_error(of("vibration_rms"), contact.unit),
+                  quantity(of("min").value, contact.unit), quantity(of("max").value, contact.unit))};
+  if (has(quantities::mean_contact_force))
+    sentences.push_back("Its contact force has a mean of " + with_error(of("mean_force"), "N") +
+                        (has(quantities::max_contact_force)
+                             ? " and a largest value of " + quantity(of("max_force").value, "N") + "."
+                             : "."));
+  if (has(quantities::impacts))
+    sentences.push_back(fmt::format(
+        "There are {:.4g} ± {:.2g} impacts in a period of the load, at up to {}, and they dissipate {}.",
+        sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
+        quantity(of("max_impact_velocity").value, "m/s"), with_error(sum("impact_energy_in_a_period"), "J")));
+  if (has(quantities::friction_work))
+    sentences.push_back(fmt::format("Friction dissipates {} in a period of the load.",
+                                    with_error(sum("friction_work_in_a_period"), "J")));
+  if (has(quantities::wear))
+    sentences.push_back(fmt::format("It wears off {:.4g} ± {:.2g} m^3 in a period of the load.",
+                                    sum("wear_in_a_period").value, sum("wear_in_a_period").error));
+  sentences.emplace_back("Errors are halves of 95 % confidence intervals, by the means of 20 batches.");
+  return sentences;
+}
+
 void add_files(Record& record, const RecordedMotion& motion) {
   record.section = section_table(motion);
   record.files.push_back({"statistics.csv", csv_text(statistics_table(motion)),
@@ -125,15 +191,17 @@ void add_files(Record& record, const RecordedMotion& motion) {
 void append_recorded(Record& record, const RecordedMotion& motion, int contact) {
   if (motion.is_aperiodic()) record.status = quantities::aperiodic;
   replace(record.summary, quantities::status, record.status);
-  replace_values(record, motion, motion.places[std::size_t(contact)].name);
-  record.add(quantities::motion_kind, name_of(motion.kind));
+  const MotionPlace& leading = motion.places[std::size_t(contact)];
+  replace_values(record, motion, leading.name);
+  record.sentences = sentences_of(motion, leading, record.summary);
+  record.add("motion_kind", name_of(motion.kind));
   record.add(quantities::lyapunov_exponent, motion.exponent.value);
   record.add(quantities::lyapunov_exponent_error, motion.exponent.error);
-  if (motion.repeats > 0) record.add(quantities::section_period, motion.repeats);
-  record.add(quantities::transient_periods, motion.transient);
-  record.add(quantities::recorded_periods, motion.recorded);
-  record.add(quantities::batch_correlation, motion.correlation);
-  record.add(quantities::statistics, statistics_table(motion));
+  if (motion.repeats > 0) record.add("section_period", motion.repeats);
+  record.add("transient_periods", motion.transient);
+  record.add("recorded_periods", motion.recorded);
+  record.add("batch_correlation", motion.correlation);
+  record.add("statistics", statistics_table(motion));
   warn_of_kind(record, motion);
   add_files(record, motion);
 }

@@ -20,12 +20,9 @@ namespace wavebalance::app {
 
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
                          int unknowns, double solve_seconds) {
-  return {{quantities::converged, converged},
-          {quantities::status, status},
-          {quantities::residual, residual},
-          {quantities::iterations, std::int64_t{iterations}},
-          {quantities::unknowns, std::int64_t{unknowns}},
-          {quantities::solve_seconds, solve_seconds}};
+  return {{quantities::converged, converged},   {quantities::status, status},
+          {quantities::residual, residual},     {"iterations", std::int64_t{iterations}},
+          {"unknowns", std::int64_t{unknowns}}, {quantities::solve_seconds, solve_seconds}};
 }
 
 void insert_wall_seconds(Summary& summary, double seconds) {

@@ -29,6 +29,8 @@ struct Record {
   std::string status;
   /// Reasons why the result may be inaccurate, one sentence each; also in the summary.
   std::vector<std::string> warnings;
+  /// What came out, where the analysis says it itself and not by the values of the summary.
+  std::vector<std::string> sentences;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< see sweep_table(); empty otherwise
