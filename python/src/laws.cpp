@@ -22,82 +22,62 @@ using Law = solvers::AnyContactLaw;
 
 namespace {
 
-/// A law of three functions of Python, each called with one displacement, with the lock taken.
-class FunctionLaw {
+/// Functions of Python, each called with numbers and with the lock taken, and what a law of them is.
+class LawOfFunctions {
  public:
-  FunctionLaw(const py::function& force, const py::function& tangent, const py::function& potential,
-              double gap, bool unilateral, bool monotone, std::vector<double> kinks)
-      : functions_(new Functions{force, tangent, potential}, &release),
-        gap_(gap),
-        unilateral_(unilateral),
-        monotone_(monotone),
-        kinks_(std::move(kinks)) {}
-
-  double force(double displacement) const { return call(functions_->force, displacement); }
-  double tangent(double displacement) const { return call(functions_->tangent, displacement); }
-  double potential(double displacement) const { return call(functions_->potential, displacement); }
-  double gap() const { return gap_; }
-  bool unilateral() const { return unilateral_; }
-  bool monotone() const { return monotone_; }
-  std::vector<double> kinks() const { return kinks_; }
-
- private:
-  struct Functions {
-    py::function force, tangent, potential;
-  };
-
-  static void release(Functions* functions) {
-    const py::gil_scoped_acquire locked;
-    delete functions;
-  }
-  static double call(const py::function& function, double displacement) {
-    const py::gil_scoped_acquire locked;
-    return function(displacement).cast<double>();
-  }
-
-  std::shared_ptr<Functions> functions_;
-  double gap_;
-  bool unilateral_, monotone_;
-  std::vector<double> kinks_;
-};
-
-/// A law of four functions of Python, of which the first three are called with displacement and velocity.
-class VelocityFunctionLaw {
- public:
-  VelocityFunctionLaw(const py::function& force, const py::function& tangent, const py::function& damping,
-                      const py::function& potential, double gap, bool unilateral, std::vector<double> kinks)
-      : functions_(new Functions{force, tangent, damping, potential}, &release),
+  LawOfFunctions(std::vector<py::function> functions, double gap, bool unilateral, std::vector<double> kinks)
+      : functions_(new std::vector<py::function>(std::move(functions)), &release),
         gap_(gap),
         unilateral_(unilateral),
         kinks_(std::move(kinks)) {}
 
-  double force(double u, double v) const { return call(functions_->force, u, v); }
-  double tangent(double u, double v) const { return call(functions_->tangent, u, v); }
-  double damping(double u, double v) const { return call(functions_->damping, u, v); }
-  double potential(double u) const { return call(functions_->potential, u); }
   double gap() const { return gap_; }
   bool unilateral() const { return unilateral_; }
   std::vector<double> kinks() const { return kinks_; }
 
- private:
-  struct Functions {
-    py::function force, tangent, damping, potential;
-  };
-
-  static void release(Functions* functions) {
-    const py::gil_scoped_acquire locked;
-    delete functions;
-  }
+ protected:
   template <class... Numbers>
-  static double call(const py::function& function, Numbers... numbers) {
+  double call(std::size_t function, Numbers... numbers) const {
     const py::gil_scoped_acquire locked;
-    return function(numbers...).template cast<double>();
+    return (*functions_)[function](numbers...).template cast<double>();
   }
 
-  std::shared_ptr<Functions> functions_;
+ private:
+  static void release(std::vector<py::function>* functions) {
+    const py::gil_scoped_acquire locked;
+    delete functions;
+  }
+
+  std::shared_ptr<std::vector<py::function>> functions_;
   double gap_;
   bool unilateral_;
   std::vector<double> kinks_;
+};
+
+/// Of force, tangent and potential over the displacement.
+class FunctionLaw : public LawOfFunctions {
+ public:
+  FunctionLaw(std::vector<py::function> functions, double gap, bool unilateral, bool monotone,
+              std::vector<double> kinks)
+      : LawOfFunctions(std::move(functions), gap, unilateral, std::move(kinks)), monotone_(monotone) {}
+
+  double force(double displacement) const { return call(0, displacement); }
+  double tangent(double displacement) const { return call(1, displacement); }
+  double potential(double displacement) const { return call(2, displacement); }
+  bool monotone() const { return monotone_; }
+
+ private:
+  bool monotone_;
+};
+
+/// Of force, tangent and damping over displacement and velocity, and the potential over the displacement.
+class VelocityFunctionLaw : public LawOfFunctions {
+ public:
+  using LawOfFunctions::LawOfFunctions;
+  double force(double u, double v) const { return call(0, u, v); }
+  double tangent(double u, double v) const { return call(1, u, v); }
+  double damping(double u, double v) const { return call(2, u, v); }
+  double potential(double u) const { return call(3, u); }
 };
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -144,12 +124,12 @@ void add_factories(py::module_& module) {
   module.def("function_law", [](const py::function& force, const py::function& tangent,
                                 const py::function& potential, double gap, bool unilateral, bool monotone,
                                 std::vector<double> kinks) {
-    return Law(FunctionLaw(force, tangent, potential, gap, unilateral, monotone, std::move(kinks)));
+    return Law(FunctionLaw({force, tangent, potential}, gap, unilateral, monotone, std::move(kinks)));
   });
   module.def("velocity_law", [](const py::function& force, const py::function& tangent,
                                 const py::function& damping, const py::function& potential, double gap,
                                 bool unilateral, std::vector<double> kinks) {
-    return Law(VelocityFunctionLaw(force, tangent, damping, potential, gap, unilateral, std::move(kinks)));
+    return Law(VelocityFunctionLaw({force, tangent, damping, potential}, gap, unilateral, std::move(kinks)));
   });
 }
 
