@@ -98,27 +98,9 @@ std::shared_ptr<solvers::TimePair> make_pair(const std::string& name, int functi
   time.functions = functions;
   time.quadrature_points = points;
   time.sample_offset = sample_offset;
-  const auto word = [](const char* key, const std::string& value, auto words) {
-    std::string allowed;
-    for (const auto& [text, meaning] : words) {
-      if (value == text) return meaning;
-      allowed += (allowed.empty() ? "\"" : ", \"") + std::string(text) + "\"";
-    }
-    throw std::invalid_argument(std::string(key) + " is \"" + value + "\"; expected one of " + allowed);
-  };
-  using solvers::Formulation, solvers::InnerProducts, solvers::NyquistCoefficient;
-  time.formulation = word(
-      "formulation", formulation,
-      std::array<std::pair<const char*, Formulation>, 3>{{{"strong", Formulation::strong},
-                                                          {"weak", Formulation::weak},
-                                                          {"distributional", Formulation::distributional}}});
-  time.inner_products =
-      word("inner_products", inner_products,
-           std::array<std::pair<const char*, InnerProducts>, 2>{
-               {{"quadrature", InnerProducts::quadrature}, {"exact", InnerProducts::exact}}});
-  time.nyquist = word("nyquist", nyquist,
-                      std::array<std::pair<const char*, NyquistCoefficient>, 2>{
-                          {{"drop", NyquistCoefficient::drop}, {"keep", NyquistCoefficient::keep}}});
+  time.formulation = named<solvers::Formulation>("formulation", formulation);
+  time.inner_products = named<solvers::InnerProducts>("inner_products", inner_products);
+  time.nyquist = named<solvers::NyquistCoefficient>("nyquist", nyquist);
   return std::make_shared<solvers::TimePair>(app::make_pair(time));
 }
 

@@ -1,11 +1,25 @@
 #pragma once
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "scene/enum_names.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
 namespace wavebalance::python {
+
+/// The value of an enumeration that has this name in scenes. Throws std::invalid_argument for another.
+template <class Enum>
+Enum named(const std::string& key, const std::string& name) {
+  std::string allowed;
+  for (const auto& [value, known] : app::enum_names<Enum>) {
+    if (name == known) return value;
+    allowed += (allowed.empty() ? "\"" : ", \"") + std::string(known) + "\"";
+  }
+  throw std::invalid_argument(key + " is \"" + name + "\"; expected one of " + allowed);
+}
 
 /// A structure as it is solved, and the way back to the degrees of freedom that Python gave.
 struct Structure : solvers::LinearStructure {

@@ -16,14 +16,6 @@ namespace wavebalance::python {
 
 namespace py = pybind11;
 
-solvers::ContactForm form_of(const std::string& name) {
-  using solvers::ContactForm;
-  for (const ContactForm form : {ContactForm::automatic, ContactForm::displacement, ContactForm::force})
-    if (name == to_string(form)) return form;
-  throw std::invalid_argument("form is \"" + name +
-                              "\"; expected \"automatic\", \"displacement\" or \"force\"");
-}
-
 namespace {
 
 /// The status of a dynamic stiffness that is singular, as of a record.
@@ -67,7 +59,7 @@ Response respond(const std::shared_ptr<Problem>& problem, const py::object& laws
                  int max_iterations) {
   solvers::ContactLaws all = laws_of(laws, problem->condensed().structure());
   solvers::ForcedResponseOptions options;
-  options.form = form_of(form);
+  options.form = named<solvers::ContactForm>("form", form);
   options.stay_near_guess = stay_near_guess;
   options.newton.tolerance = tolerance;
   options.newton.max_iterations = max_iterations;

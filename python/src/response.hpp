@@ -15,9 +15,6 @@ struct Response {
   double wall_seconds = 0.0;  ///< of the condensation and the solution
 };
 
-/// The contact form of this name. Throws std::invalid_argument for another.
-solvers::ContactForm form_of(const std::string& name);
-
 /// A solution at a frequency (Hz) near the guess (contacts x points, m), the response before it, or the
 /// motion without contact.
 Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws laws, double frequency,

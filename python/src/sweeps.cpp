@@ -35,7 +35,7 @@ solvers::FrequencySweepOptions options_of(double from, double to, const Steps& s
   options.output_points = steps.output_points;
   options.max_points = steps.max_points;
   options.keep_unknowns = true;
-  options.start.form = form_of(steps.form);
+  options.start.form = named<solvers::ContactForm>("form", steps.form);
   auto& arc = options.arc_length;
   const double scale = std::abs(to - from) / 20.0;
   arc.parameter_scale = scale;
