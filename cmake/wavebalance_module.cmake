@@ -57,11 +57,16 @@ function(wavebalance_add_module name)
   endif()
 endfunction()
 
-# wavebalance_add_room(room SOURCES <names> HEADERS <names>) appends src/<room>/<name>.cpp to `sources` and
-# <include>/<room>/<name>.hpp to `headers`, where the variable `include` names the module's folder of public headers.
+# wavebalance_add_room(room SOURCES <names> HEADERS <names>) appends src/<room>/<name>.cpp to `sources`, all of the folder but
+# main.cpp where no names are given, and <include>/<room>/<name>.hpp to `headers`, where the variable `include` names the
+# module's folder of public headers.
 function(wavebalance_add_room room)
   cmake_parse_arguments(PARSE_ARGV 1 R "" "" "SOURCES;HEADERS")
   list(TRANSFORM R_SOURCES REPLACE "(.+)" "src/${room}/\\1.cpp")
+  if(NOT R_SOURCES)
+    file(GLOB_RECURSE R_SOURCES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/${room}/*.cpp)
+    list(FILTER R_SOURCES EXCLUDE REGEX "/main\\.cpp$")
+  endif()
   set_source_files_properties(${R_SOURCES} PROPERTIES UNITY_GROUP ${room})
   list(TRANSFORM R_HEADERS REPLACE "(.+)" "${include}/${room}/\\1.hpp")
   set(sources ${sources} ${R_SOURCES} PARENT_SCOPE)
