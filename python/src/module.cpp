@@ -1,7 +1,6 @@
 #include "bindings.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/files/output.hpp"
-#include "wavebalance/solvers/linalg/blas_threads.hpp"
 
 PYBIND11_MODULE(_core, module) {
   using namespace wavebalance;

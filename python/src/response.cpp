@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <chrono>
-#include <stdexcept>
 
 #include "arrays.hpp"
 #include "bindings.hpp"

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "arrays.hpp"

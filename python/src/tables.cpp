@@ -2,8 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
-
 #include "arrays.hpp"
 
 namespace wavebalance::python {

@@ -1,7 +1,6 @@
 // The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
 // command.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>

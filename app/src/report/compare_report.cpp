@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "report/report_parts.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "drawing/mode_figure.hpp"
 #include "drawing/record_figure.hpp"

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "drawing/motions_figure.hpp"
 #include "files/missing.hpp"
