@@ -69,9 +69,9 @@ void add_matrices(std::vector<SceneKey>& keys) {
       &MatricesStructure::free, "free", "",
       "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "
       "what no contact resists keeps a zero mean",
-      optional,
-      only_with(analysis_is(
-          {"forced_response", "frequency_sweep", "time_stepping", "motions", "bifurcation_diagram"})));
+      optional, only_with(analysis_where([](const AnalysisKind& kind) {
+        return kind.under_load && kind.type != AnalysisType::amplitude_sweep;
+      })));
   matrices(
       &MatricesStructure::dof_map, "dof_map", "",
       "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "
