@@ -12,6 +12,9 @@
 namespace wavebalance::app {
 namespace {
 
+/// A sine is missed by 3e-4 of its amplitude at most.
+constexpr int samples_of_a_period = 128;
+
 std::vector<double> values_of(const Scene& scene) {
   const auto [from, to] = sweep_interval(scene.analysis);
   const int count = scene.analysis.values;
@@ -44,14 +47,17 @@ class PassedValues {
     solvers::LongMotionOptions options;
     options.transient = scene_.analysis.transient_periods;
     options.recorded = scene_.analysis.section_points;
+    options.points = samples_of_a_period;
     options.observer = [&](const Progress& progress) {
       return solvers::goes_on(
           observer_, {"bifurcation diagram", progress.step, value,
                       forwards ? "on the way there" : "on the way back", done + share * progress.done});
     };
-    const solvers::LongMotion motion = solvers::long_motion(*flow, options);
-    if (motion.cancelled) return std::nullopt;
     DiagramValue result{.value = value, .forwards = forwards};
+    const solvers::LongMotion motion = solvers::long_motion(
+        *flow, options,
+        [&](const solvers::ContactFlow&, const solvers::Motion& period) { widen(result, period); });
+    if (motion.cancelled) return std::nullopt;
     if (motion.ended != solvers::FlowStatus::converged) {
       result.failure = to_string(motion.ended);
       before_ = nullptr;
@@ -61,11 +67,22 @@ class PassedValues {
     result.velocity = motion.velocity;
     result.period = solvers::section_period(motion, options.recorded / 4, scene_.analysis.section_tolerance,
                                             flow->length(), problem.frequency);
+    if (result.period == 0)
+      result.curve = solvers::invariant_curve(solvers::section_points(motion, problem.frequency),
+                                              largest_curve_residual);
     before_ = std::move(flow);
     return result;
   }
 
  private:
+  static void widen(DiagramValue& value, const solvers::Motion& period) {
+    const Eigen::VectorXd most = period.displacement.rowwise().maxCoeff(),
+                          least = period.displacement.rowwise().minCoeff();
+    const bool first = value.highest.size() == 0;
+    value.highest = first ? most : Eigen::VectorXd(value.highest.cwiseMax(most));
+    value.lowest = first ? least : Eigen::VectorXd(value.lowest.cwiseMin(least));
+  }
+
   const Scene& scene_;
   FlowRows& rows_;
   const Observer& observer_;
@@ -188,7 +205,7 @@ Diagram bifurcation_diagram(const Scene& scene, const StructureModel& model, con
   if (rows.dynamics() == nullptr) return diagram;
   diagram.status = "converged";
   pass_values(scene, rows, observer, diagram);
-  diagram.place = scene.analysis.outputs.empty() ? widest_place(diagram) : rows.contacts();
+  diagram.place = rows.has_outputs() ? rows.contacts() : widest_place(diagram);
   if (diagram.status != "interrupted") add_exact_curve(scene, model, observer, diagram);
   if (diagram.exact_status == "interrupted" || diagram.exact_status_back == "interrupted")
     diagram.status = "interrupted";

@@ -10,10 +10,13 @@
 namespace wavebalance::app {
 namespace {
 
-/// analysis.outputs alone, without contacts.
+/// analysis.outputs without contacts, of those that are the displacement of a place: other quantities are no
+/// rows of the structure.
 std::vector<Output> output_rows(Scene scene) {
   scene.analysis.contact_outputs = false;
-  return outputs_of(scene);
+  std::vector<Output> outputs = outputs_of(scene);
+  std::erase_if(outputs, [](const Output& one) { return one.names_quantity(); });
+  return outputs;
 }
 
 StructureModel with_outputs(const Scene& scene, const StructureModel& model) {

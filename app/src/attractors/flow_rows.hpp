@@ -11,7 +11,8 @@
 namespace wavebalance::app {
 
 /// A scene's structure as it is integrated from event to event: behind the directions of its contacts those
-/// of analysis.outputs, along which no law acts, so that their motion is as exact as that of the contacts.
+/// of those analysis.outputs that are displacements, along which no law acts, so that their motion is as
+/// exact as that of the contacts.
 class FlowRows {
  public:
   /// Throws as make_problem() and ContactDynamics do.
@@ -22,6 +23,7 @@ class FlowRows {
   /// What each row is, and its unit.
   const std::vector<MotionPlace>& places() const { return places_; }
   int contacts() const { return contacts_; }  ///< rows of contacts, which are the first
+  bool has_outputs() const { return contacts_ < int(places_.size()); }
 
   /// The problem at a frequency (Hz) or, in a scene over the amplitude, at an amplitude of the load.
   solvers::PhasesProblem at(double value);

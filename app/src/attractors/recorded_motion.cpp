@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "attractors/flow_rows.hpp"
@@ -98,6 +99,7 @@ class PeriodBook {
   void add_friction(const solvers::ContactFlow& flow) {
     using enum solvers::ContactState;
     for (const solvers::FrictionCycle& cycle : flow.cycles()) {
+      if (cycle.row >= contacts_) continue;
       const SceneContact& place = places_[std::size_t(cycle.row)];
       if (!has_friction(place.law)) continue;
       PeriodValues& values = values_[std::size_t(cycle.row)];
@@ -185,17 +187,6 @@ class PlaceMeasures {
   std::vector<MotionMeasure>& measures_;
 };
 
-/// Whether the motion of the contacts keeps its size: that of its last quarter against that of its first.
-bool keeps_size(const Eigen::MatrixXd& section) {
-  constexpr double alike = 0.05;
-  const Eigen::Index quarter = section.cols() / 4;
-  const auto size = [](const Eigen::MatrixXd& part) {
-    return (part.colwise() - part.rowwise().mean()).norm();
-  };
-  const double first = size(section.leftCols(quarter)), last = size(section.rightCols(quarter));
-  return first > 0.0 && std::abs(last / first - 1.0) < alike;
-}
-
 /// A perturbation that grows in proportion to the time has the mean growth log(N) / N, too.
 MotionKind verdict_on(const RecordedMotion& motion) {
   if (motion.repeats > 0) return MotionKind::periodic;
@@ -204,8 +195,7 @@ MotionKind verdict_on(const RecordedMotion& motion) {
   if (!std::isfinite(value)) return MotionKind::not_known;
   if (value > std::max(error, beside_zero)) return MotionKind::chaotic;
   if (value < -std::max(error, beside_zero)) return MotionKind::settling;
-  const bool neutral = std::abs(value) <= 0.5 * beside_zero && keeps_size(motion.displacement);
-  return neutral ? MotionKind::quasi_periodic : MotionKind::not_known;
+  return motion.curve.residual <= largest_curve_residual ? MotionKind::quasi_periodic : MotionKind::not_known;
 }
 
 bool same_poles(const solvers::ContactDynamics& a, const solvers::ContactDynamics& b) {
@@ -268,12 +258,15 @@ RecordedMotion recorded_by(solvers::ContactFlow& flow, const FlowRows& rows, con
   result.displacement = motion.displacement;
   result.velocity = motion.velocity;
   result.repeats = solvers::section_period(motion, result.recorded / 4, tolerance, flow.length(), frequency);
+  result.curve = solvers::invariant_curve(solvers::section_points(motion, frequency), largest_curve_residual);
+  if (result.curve.harmonics() > 0)
+    result.curve.coefficients.rightCols(motion.velocity.rows()) *= 2.0 * std::numbers::pi * frequency;
   result.exponent =
       motion.growth.empty() ? Estimate{solvers::missing, solvers::missing} : batch_mean(motion.growth);
   result.kind = verdict_on(result);
   measure_places(scene, book, result);
   result.spectrum = solvers::power_spectrum(book.series(), result.recorded, frequency);
-  if (!scene.analysis.outputs.empty())
+  if (rows.has_outputs())
     result.leading = rows.contacts();
   else
     motion.displacement.rowwise().squaredNorm().maxCoeff(&result.leading);

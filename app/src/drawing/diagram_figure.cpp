@@ -79,6 +79,44 @@ Panel period_panel(const Diagram& diagram) {
   return panel;
 }
 
+/// The invariant curve in the section of the leading place.
+Series curve_series(const RecordedMotion& motion, double length, double speed) {
+  constexpr int parts = 400;
+  Series series("invariant curve", SeriesStyle::line);
+  series.colour = Colour::orange;
+  for (int k = 0; k <= parts; ++k) {
+    const Eigen::VectorXd point = motion.curve.at(double(k) / parts);
+    series.append(length * point[motion.leading],
+                  speed * point[Eigen::Index(motion.places.size()) + motion.leading]);
+  }
+  return series;
+}
+
+/// The largest and the least displacement over all recorded periods.
+Panel envelope_panel(const Diagram& diagram) {
+  const MotionPlace& place = diagram.places[std::size_t(diagram.place)];
+  double reach = 0.0;
+  for (const DiagramValue& one : diagram.values)
+    if (one.failure.empty())
+      reach = std::max({reach, std::abs(one.highest[diagram.place]), std::abs(one.lowest[diagram.place])});
+  const Scale scale = axis_scale(reach);
+  Panel panel;
+  panel.title = "Largest and least displacement of " + plain(place.name);
+  panel.x.label = diagram.axis.label();
+  panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
+  Series repeats("repeats", SeriesStyle::points), turns("quasi-periodic", SeriesStyle::points),
+      others("neither", SeriesStyle::points);
+  for (const DiagramValue& one : diagram.values) {
+    if (!one.failure.empty()) continue;
+    Series& series = one.period > 0 ? repeats : one.is_quasi_periodic() ? turns : others;
+    series.append(one.value, scale.factor * one.highest[diagram.place]);
+    series.append(one.value, scale.factor * one.lowest[diagram.place]);
+  }
+  for (Series* series : {&repeats, &turns, &others})
+    if (!series->x.empty()) panel.add(std::move(*series));
+  return panel;
+}
+
 }  // namespace
 
 Figure diagram_figure(const Diagram& diagram) {
@@ -89,7 +127,7 @@ Figure diagram_figure(const Diagram& diagram) {
     figure.title += " (INCOMPLETE: " + diagram.status + ")";
   figure.panel_width = 660;
   figure.panel_height = 380;
-  figure.panels = {section_panel(diagram), period_panel(diagram)};
+  figure.panels = {section_panel(diagram), envelope_panel(diagram), period_panel(diagram)};
   return figure;
 }
 
@@ -104,6 +142,10 @@ std::vector<Panel> recorded_panels(const RecordedMotion& motion) {
   section.y.label = "Velocity (" + speed.prefix + place.unit + "/s)";
   Series points = dots("", Colour::blue);
   for (Eigen::Index k = 0; k < u.size(); ++k) points.append(length.factor * u[k], speed.factor * v[k]);
+  if (motion.kind == MotionKind::quasi_periodic) {
+    points.label = "points";
+    section.add(curve_series(motion, length.factor, speed.factor));
+  }
   section.add(std::move(points));
   Panel spectrum;
   spectrum.title = "Power spectral density of " + plain(place.name);

@@ -51,6 +51,35 @@ Table exact_table(const Diagram& diagram) {
   return table;
 }
 
+/// Frequency of the load at a value.
+double load_frequency(const Scene& scene, const DiagramValue& one) {
+  return is_over_amplitude(scene.analysis) ? scene.forcing.frequency : one.value;
+}
+
+/// What the motion at each value is, and between which displacements it stays.
+Table envelope_table(const Scene& scene, const Diagram& diagram) {
+  std::vector<std::string> columns{
+      diagram.axis.column(), "way", "period", "second_frequency_Hz", "rotation_number", "curve_residual",
+      "curve_harmonics"};
+  for (const MotionPlace& place : diagram.places)
+    for (const char* which : {"_max_", "_min_"})
+      columns.push_back(column_of(place.name) + which + place.unit);
+  Table table(columns);
+  for (const DiagramValue& one : diagram.values) {
+    if (!one.failure.empty()) continue;
+    const bool found = one.is_quasi_periodic();
+    const double rotation = found ? one.curve.rotation : missing;
+    std::vector<Cell> row = row_of(one.value, way_of(one), one.period, rotation * load_frequency(scene, one),
+                                   rotation, one.period == 0 ? one.curve.residual : missing,
+                                   found ? double(one.curve.harmonics()) : missing);
+    for (std::size_t i = 0; i < diagram.places.size(); ++i)
+      for (const Eigen::VectorXd* reach : {&one.highest, &one.lowest})
+        row.emplace_back((*reach)[Eigen::Index(i)]);
+    table.append_row(std::move(row));
+  }
+  return table;
+}
+
 /// Neighbouring values of one way and one period, in their order.
 Table intervals_table(const Diagram& diagram) {
   Table table({"way", "from", "to", "values", "period"});
@@ -175,6 +204,14 @@ std::string hysteresis_sentence(const Table& hysteresis, bool both_ways, const S
   return fmt::format("Both ways lead to different motions at {} {}.", list_text(hysteresis, rows), axis.unit);
 }
 
+std::string quasi_periodic_sentence(std::int64_t aperiodic, std::int64_t quasi_periodic) {
+  if (aperiodic == 0) return "";
+  return fmt::format(
+      "At {} of {} values without a period the section is a closed curve: the motion is quasi-periodic, and "
+      "envelope.csv has its second frequency.",
+      quasi_periodic, aperiodic);
+}
+
 std::string exact_sentence(const Diagram& diagram) {
   const std::string &status = diagram.exact_status, &back = diagram.exact_status_back;
   if (status == "reached_end" || status == "closed")
@@ -186,13 +223,22 @@ std::string exact_sentence(const Diagram& diagram) {
          (back.empty() ? "." : " and from the other (" + spaced_words(back) + "). Others may be missing.");
 }
 
+std::int64_t count_of(const Diagram& diagram, bool (*which)(const DiagramValue&)) {
+  return std::ranges::count_if(diagram.values, which);
+}
+
+bool is_aperiodic(const DiagramValue& one) { return one.failure.empty() && one.period == 0; }
+bool is_quasi_periodic(const DiagramValue& one) { return one.is_quasi_periodic(); }
+
 std::vector<std::string> sentences_of(const Diagram& diagram, int values, const Table& intervals,
                                       const Table& hysteresis) {
   std::vector<std::string> sentences{
       fmt::format("The section of {} was recorded at {} values of the {}, in {}.",
                   diagram.places[std::size_t(diagram.place)].name, values, diagram.axis.quantity,
                   quantity(diagram.wall_seconds, "s")),
-      way_sentence(intervals, "there", diagram.axis), way_sentence(intervals, "back", diagram.axis),
+      way_sentence(intervals, "there", diagram.axis),
+      way_sentence(intervals, "back", diagram.axis),
+      quasi_periodic_sentence(count_of(diagram, is_aperiodic), count_of(diagram, is_quasi_periodic)),
       hysteresis_sentence(hysteresis, !diagram.values.back().forwards, diagram.axis),
       exact_sentence(diagram)};
   std::erase(sentences, "");
@@ -200,9 +246,6 @@ std::vector<std::string> sentences_of(const Diagram& diagram, int values, const 
 }
 
 void append_findings(Record& record, const Scene& scene, const Diagram& diagram) {
-  const auto count = [&](auto&& which) {
-    return std::count_if(diagram.values.begin(), diagram.values.end(), which);
-  };
   double most = missing, least = missing;
   int longest = 0;
   for (const DiagramValue& one : diagram.values) {
@@ -214,8 +257,8 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   record.add("section_of", diagram.places[std::size_t(diagram.place)].name);
   record.add("max_section_displacement", most);
   record.add("min_section_displacement", least);
-  record.add(quantities::aperiodic_values,
-             count([](const DiagramValue& one) { return one.failure.empty() && one.period == 0; }));
+  record.add(quantities::aperiodic_values, count_of(diagram, is_aperiodic));
+  record.add(quantities::quasi_periodic_values, count_of(diagram, is_quasi_periodic));
   record.add(quantities::longest_found, longest);
   const Table hysteresis = hysteresis_table(diagram, scene.analysis.section_tolerance);
   record.add(quantities::hysteresis_values, sum_of(hysteresis, "values"));
@@ -225,7 +268,7 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   record.add("hysteresis", hysteresis);
   record.add("exact_curve", diagram.exact_status);
   if (!diagram.exact_status_back.empty()) record.add("exact_curve_back", diagram.exact_status_back);
-  const auto failed = count([](const DiagramValue& one) { return !one.failure.empty(); });
+  const auto failed = count_of(diagram, [](const DiagramValue& one) { return !one.failure.empty(); });
   if (failed > 0)
     warn(record,
          "At {} values the integration ended before the section was complete (step_failure or "
@@ -267,6 +310,9 @@ Record diagram_record(const Scene& scene, const StructureModel& model, const Ana
   record.add(quantities::warnings, record.warnings);
   if (diagram.values.empty()) return record;
   record.section = section_table(diagram);
+  record.files.push_back({"envelope.csv", csv_text(envelope_table(scene, diagram)),
+                          "of each value the period, or the second frequency of a quasi-periodic motion, and "
+                          "the largest and least displacement of each place"});
   if (!diagram.exact.empty())
     record.files.push_back({"exact_curve.csv", csv_text(exact_table(diagram)),
                             "the exact curve in the section, with the multipliers outside the unit circle"});

@@ -73,7 +73,9 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
 // diagrams.
 inline constexpr std::string_view aperiodic = "aperiodic";  ///< the status of such a record
 inline constexpr Quantity lyapunov_exponent{"lyapunov_exponent", result},
-    lyapunov_exponent_error{"lyapunov_exponent_error", result},
+    lyapunov_exponent_error{"lyapunov_exponent_error", result}, curve_residual{"curve_residual", result},
+    second_frequency{"second_frequency_Hz", result, "Hz", "second frequency"},
+    rotation_number{"rotation_number", result},
     rms_displacement_error{"rms_displacement_error_m", result, "m", "error of rms displacement"},
     rms_vibration_error{"rms_vibration_error_m", result, "m", "error of rms vibration"},
     mean_contact_force{"mean_contact_force_N", result, "N", "mean contact force"},
@@ -82,7 +84,8 @@ inline constexpr Quantity lyapunov_exponent{"lyapunov_exponent", result},
     wear_error{"wear_error_m3", result, "m3", "error of wear"}, impacts_error{"impacts_error", result},
     impact_energy_error{"impact_energy_error_J", result, "J", "error of impact energy"};
 inline constexpr Quantity diagram_values{"values", setting}, aperiodic_values{"aperiodic_values", result},
-    hysteresis_values{"hysteresis_values", result}, longest_found{"longest_period_found", result};
+    quasi_periodic_values{"quasi_periodic_values", result}, hysteresis_values{"hysteresis_values", result},
+    longest_found{"longest_period_found", result};
 
 // Those of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},

@@ -84,7 +84,7 @@ Record stepping_record(const Scene& scene, const StructureModel& model, const An
   const auto recorded = recorded_motion(scene, model, response, options.observer);
   response.recorded = recorded.has_value();
   Record record = response_record(scene, model, response);
-  if (recorded) append_recorded(record, *recorded, response.contact);
+  if (recorded) append_recorded(record, *recorded, scene.forcing.frequency, response.contact);
   return record;
 }
 

@@ -98,7 +98,8 @@ void warn_of_kind(Record& record, const RecordedMotion& motion) {
   if (motion.kind == MotionKind::not_known)
     warn(record,
          "Whether the motion is aperiodic or has not settled yet is not known: its largest Lyapunov exponent "
-         "cannot be told from zero, or was not found. {} More analysis.recorded_periods may tell it.",
+         "cannot be told from zero, or was not found, and its section is no closed curve. {} More "
+         "analysis.recorded_periods may tell it.",
          statistics);
   constexpr double independent = 0.45;  // twice the standard deviation with 20 batches
   if (motion.correlation > independent)
@@ -117,7 +118,7 @@ std::string with_error(const solvers::Estimate& known, const std::string& unit) 
                      scale.prefix, unit);
 }
 
-std::string kind_sentence(const RecordedMotion& motion) {
+std::string kind_sentence(const RecordedMotion& motion, double frequency) {
   const std::string before =
       fmt::format("Within {} periods of the load the motion did not repeat. ", motion.transient);
   const std::string measured =
@@ -129,8 +130,12 @@ std::string kind_sentence(const RecordedMotion& motion) {
     case MotionKind::chaotic:
       return before + "It is chaotic: " + measured + ".";
     case MotionKind::quasi_periodic:
-      return before + "It is quasi-periodic: it keeps its size, and " + measured +
-             ", which is zero within what so many periods tell.";
+      return before +
+             fmt::format(
+                 "It is quasi-periodic, with a second frequency of {} or one that differs by a multiple of the "
+                 "load's: its section is a closed curve within {:.1g} of its size, and {}, which is zero within "
+                 "what so many periods tell.",
+                 quantity(motion.curve.rotation * frequency, "Hz"), motion.curve.residual, measured);
     case MotionKind::periodic:
       return before + fmt::format("In the record it repeats after {} of them.", motion.repeats);
     case MotionKind::settling:
@@ -142,13 +147,13 @@ std::string kind_sentence(const RecordedMotion& motion) {
 }
 
 /// What came out, of which the leading contact and the summary, which has no more than the scene's laws do.
-std::vector<std::string> sentences_of(const RecordedMotion& motion, const MotionPlace& contact,
-                                      const Summary& summary) {
+std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequency,
+                                      const MotionPlace& contact, const Summary& summary) {
   const auto of = [&](const char* quantity) { return motion.of(contact.name, quantity); };
   const auto sum = [&](const char* quantity) { return motion.of(all_contacts, quantity); };
   const auto has = [&](const Quantity& one) { return std::isfinite(number_in(summary, one)); };
   std::vector<std::string> sentences{
-      kind_sentence(motion),
+      kind_sentence(motion, frequency),
       fmt::format("Over the next {} periods the leading contact has a vibration of {} (rms about its mean), "
                   "and lies between {} and {}.",
                   motion.recorded, with_error(of("vibration_rms"), contact.unit),
@@ -188,16 +193,22 @@ void add_files(Record& record, const RecordedMotion& motion) {
 
 }  // namespace
 
-void append_recorded(Record& record, const RecordedMotion& motion, int contact) {
+void append_recorded(Record& record, const RecordedMotion& motion, double frequency, int contact) {
   if (motion.is_aperiodic()) record.status = quantities::aperiodic;
   replace(record.summary, quantities::status, record.status);
   const MotionPlace& leading = motion.places[std::size_t(contact)];
   replace_values(record, motion, leading.name);
-  record.sentences = sentences_of(motion, leading, record.summary);
+  record.sentences = sentences_of(motion, frequency, leading, record.summary);
   record.add("motion_kind", name_of(motion.kind));
   record.add(quantities::lyapunov_exponent, motion.exponent.value);
   record.add(quantities::lyapunov_exponent_error, motion.exponent.error);
   if (motion.repeats > 0) record.add("section_period", motion.repeats);
+  record.add(quantities::curve_residual, motion.curve.residual);
+  if (motion.kind == MotionKind::quasi_periodic) {
+    record.add(quantities::second_frequency, motion.curve.rotation * frequency);
+    record.add(quantities::rotation_number, motion.curve.rotation);
+    record.add("curve_harmonics", motion.curve.harmonics());
+  }
   record.add("transient_periods", motion.transient);
   record.add("recorded_periods", motion.recorded);
   record.add("batch_correlation", motion.correlation);

@@ -81,7 +81,7 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   if (places.empty()) return;
   warn(record,
        "At the Neimark-Sacker point{} {} {} the motion becomes quasi-periodic: what begins there has no "
-       "period and is not followed.",
+       "period and is not on the curve; analysis.type = \"bifurcation_diagram\" follows it.",
        places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit);
 }
 

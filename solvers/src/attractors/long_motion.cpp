@@ -101,12 +101,16 @@ LongMotion long_motion(ContactFlow& flow, const LongMotionOptions& options,
   return result;
 }
 
+Eigen::MatrixXd section_points(const LongMotion& motion, double frequency) {
+  Eigen::MatrixXd points(2 * motion.displacement.rows(), motion.recorded());
+  points << motion.displacement, motion.velocity / (2.0 * std::numbers::pi * frequency);
+  return points;
+}
+
 int section_period(const LongMotion& motion, int longest, double tolerance, double length, double frequency) {
-  const double rate = 2.0 * std::numbers::pi * frequency;
-  const Index rows = motion.displacement.rows(), count = motion.recorded();
-  Eigen::MatrixXd points(2 * rows, count);
-  points << motion.displacement, motion.velocity / rate;
+  const Index count = motion.recorded();
   if (count == 0) return 0;
+  const Eigen::MatrixXd points = section_points(motion, frequency);
   const Eigen::VectorXd mean = points.rowwise().mean();
   const double size = std::max(length, (points.colwise() - mean).colwise().norm().maxCoeff());
   for (int p = 1; p <= longest && p < count; ++p) {

@@ -17,6 +17,12 @@ struct DiagramValue {
   /// Empty, or why there is no section: "step_failure" or "endless_events"; the next value begins from rest.
   std::string failure = {};
   Eigen::MatrixXd displacement = {}, velocity = {};  ///< places x points of the section
+  Eigen::VectorXd highest = {}, lowest = {};         ///< of each place over all recorded periods
+  solvers::InvariantCurve curve = {};                ///< through the section of a motion without a period
+
+  bool is_quasi_periodic() const {
+    return failure.empty() && period == 0 && curve.residual <= largest_curve_residual;
+  }
 };
 
 /// The points of a section that differ: of a motion that repeats those of one period.

@@ -7,6 +7,7 @@
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/attractors/invariant_curve.hpp"
 #include "wavebalance/solvers/time/record_statistics.hpp"
 
 namespace wavebalance::app {
@@ -31,19 +32,24 @@ struct MotionMeasure {
 /// What a motion that was recorded for many periods is.
 enum class MotionKind {
   chaotic,         ///< perturbations grow: the largest Lyapunov exponent is positive beyond its error
-  quasi_periodic,  ///< they neither grow nor decay, and the motion keeps its size
+  quasi_periodic,  ///< they neither grow nor decay, and the section is a closed curve
   periodic,        ///< the section repeats after `repeats` periods
   settling,        ///< they decay: it has not settled yet, or repeats after more periods than are recorded
   not_known
 };
 std::string name_of(MotionKind kind);
 
+/// Of the size of a section: how far its points may lie off a closed curve that it is told to be,
+/// solvers::InvariantCurve::residual.
+inline constexpr double largest_curve_residual = 1e-3;
+
 /// A motion that did not repeat, over many periods.
 struct RecordedMotion {
   MotionKind kind = MotionKind::not_known;
-  solvers::Estimate exponent;  ///< the largest Lyapunov exponent, per period of the load
-  int repeats = 0;             ///< periods after which the section repeats; 0 without
-  int transient = 0;           ///< periods before the record
+  solvers::Estimate exponent;          ///< the largest Lyapunov exponent, per period of the load
+  int repeats = 0;                     ///< periods after which the section repeats; 0 without
+  solvers::InvariantCurve curve = {};  ///< through the section, displacements before velocities
+  int transient = 0;                   ///< periods before the record
   int recorded = 0;
   double correlation = 0.0;  ///< solvers::batch_correlation() of the square of the leading displacement
   std::vector<MotionPlace> places;

@@ -44,6 +44,10 @@ struct LongMotion {
 LongMotion long_motion(ContactFlow& flow, const LongMotionOptions& options,
                        const std::function<void(const ContactFlow&, const Motion&)>& visit = {});
 
+/// 2 R x periods: displacements, and below them velocities over the angular frequency, which `frequency` (Hz)
+/// makes lengths, too.
+Eigen::MatrixXd section_points(const LongMotion& motion, double frequency);
+
 /// The least number p <= longest of periods after which all points of the section come back, to `tolerance`
 /// of the size of the motion; 0 without one. `length` (m) is the least size, velocities count by `frequency`
 /// (Hz) of the period. The record must have more than p periods.
