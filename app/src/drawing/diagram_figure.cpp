@@ -104,8 +104,8 @@ Panel envelope_panel(const Diagram& diagram) {
   panel.title = "Largest and least displacement of " + plain(place.name);
   panel.x.label = diagram.axis.label();
   panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
-  Series repeats("repeats", SeriesStyle::points), turns("quasi-periodic", SeriesStyle::points),
-      others("neither", SeriesStyle::points);
+  Series repeats = dots("repeats", Colour::black), turns = dots("quasi-periodic", Colour::green),
+         others = dots("neither", Colour::vermillion);
   for (const DiagramValue& one : diagram.values) {
     if (!one.failure.empty()) continue;
     Series& series = one.period > 0 ? repeats : one.is_quasi_periodic() ? turns : others;
@@ -113,7 +113,10 @@ Panel envelope_panel(const Diagram& diagram) {
     series.append(one.value, scale.factor * one.lowest[diagram.place]);
   }
   for (Series* series : {&repeats, &turns, &others})
-    if (!series->x.empty()) panel.add(std::move(*series));
+    if (!series->x.empty()) {
+      series->marker_size = 2.0 * dot_size;
+      panel.add(std::move(*series));
+    }
   return panel;
 }
 
