@@ -4,7 +4,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <stdexcept>
 
 #include "bindings.hpp"
@@ -82,6 +84,60 @@ class VelocityFunctionLaw : public LawOfFunctions {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// A law of several rows of two functions of Python. Both are called with the displacements of N instants,
+/// rows x N, and where the law reads them velocities: `force` returns as many forces, `slopes` those by
+/// displacements and by velocities, rows x rows x N.
+class VectorFunctionLaw {
+ public:
+  VectorFunctionLaw(const py::function& force, const py::function& slopes, int rows, bool velocities)
+      : functions_(new Functions{force, slopes}, &release), rows_(rows), velocities_(velocities) {}
+
+  int rows() const { return rows_; }
+  bool depends_on_velocity() const { return velocities_; }
+
+  void evaluate(const solvers::PeriodKinematics& motion, solvers::PeriodForces& out) const {
+    const py::gil_scoped_acquire locked;
+    const auto points = py::ssize_t(motion.points);
+    py::tuple arguments(velocities_ ? 2 : 1);
+    arguments[0] = array_of(motion.displacement, points);
+    if (velocities_) arguments[1] = array_of(motion.velocity, points);
+    const auto force = functions_->force(*arguments).cast<Numbers>();
+    std::copy_n(force.data(), force.size(), out.force.begin());
+    const auto slopes = functions_->slopes(*arguments).cast<std::pair<Numbers, Numbers>>();
+    for (int i = 0; i < rows_; ++i)
+      for (int j = 0; j < rows_; ++j)
+        for (int l = 0; l < motion.points; ++l)
+          add(i * motion.points + l, j * motion.points + l, slopes.first.at(i, j, l),
+              velocities_ && !out.velocity_slope.empty() ? slopes.second.at(i, j, l) : 0.0, out);
+  }
+
+ private:
+  struct Functions {
+    py::function force, slopes;
+  };
+
+  static void release(Functions* functions) {
+    const py::gil_scoped_acquire locked;
+    delete functions;
+  }
+  Numbers array_of(std::span<const double> values, py::ssize_t points) const {
+    Numbers array({py::ssize_t(rows_), points});
+    std::fill_n(array.mutable_data(), array.size(), 0.0);  // at rest where no velocities are given
+    std::copy(values.begin(), values.end(), array.mutable_data());
+    return array;
+  }
+  static void add(int force, int by, double slope, double damping, solvers::PeriodForces& out) {
+    out.piece[std::size_t(force)] = 1;
+    if (force != by) return out.others.push_back({force, by, slope, damping});
+    out.displacement_slope[std::size_t(force)] = slope;
+    if (!out.velocity_slope.empty()) out.velocity_slope[std::size_t(force)] = damping;
+  }
+
+  std::shared_ptr<Functions> functions_;
+  int rows_;
+  bool velocities_;
+};
+
 /// function(u) at each displacement, of their shape.
 template <class Function>
 Numbers at_each(const Numbers& displacement, Function function) {
@@ -131,6 +187,10 @@ void add_factories(py::module_& module) {
                                 bool unilateral, std::vector<double> kinks) {
     return Law(VelocityFunctionLaw({force, tangent, damping, potential}, gap, unilateral, std::move(kinks)));
   });
+  module.def("vector_law",
+             [](const py::function& force, const py::function& slopes, int rows, bool velocities) {
+               return Law(VectorFunctionLaw(force, slopes, rows, velocities));
+             });
 }
 
 }  // namespace

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 
@@ -39,6 +41,41 @@ def velocity_law(
 
     energy = potential if potential is not None else integral(lambda one: force(one, 0.0), gap, kinks)
     return _core.velocity_law(force, tangent or by_displacement, damping or by_velocity, energy, gap, unilateral, kinks)
+
+
+VectorForce = Callable[..., "npt.ArrayLike"]
+
+
+def checked_force(force: VectorForce, rows: int) -> Callable[..., npt.NDArray[np.float64]]:
+    """A force of several rows that returns an array of the shape of its displacements."""
+
+    def checked(*motion: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        values = np.asarray(force(*motion), float)
+        if values.shape != motion[0].shape:
+            raise ValueError(f"force returned an array of shape {values.shape}; expected {motion[0].shape}, {rows} rows of as many instants")
+        return values
+
+    return checked
+
+
+def vector_slopes(force: Callable[..., npt.NDArray[np.float64]], sizes: Sequence[float]) -> Callable[..., Any]:
+    """Central differences of a force of several rows, by its displacements and by its velocities where it has these."""
+
+    def slopes(*motion: npt.NDArray[np.float64]) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        both = [np.empty((0, 0, 0)), np.empty((0, 0, 0))]
+        for k, size in enumerate(sizes[: len(motion)]):
+            step = 6e-6 * np.maximum(np.linalg.norm(motion[k], axis=0), size)
+            columns = []
+            for row in range(len(motion[k])):
+                ahead, back = [list(motion) for _ in range(2)]
+                for moved, sign in ((ahead, 1.0), (back, -1.0)):
+                    moved[k] = motion[k].copy()
+                    moved[k][row] += sign * step
+                columns.append((force(*ahead) - force(*back)) / (2.0 * step))
+            both[k] = np.stack(columns, axis=1)
+        return both[0], both[1]
+
+    return slopes
 
 
 def difference(force: Callable[[float], float], length: float) -> Callable[[float], float]:

@@ -12,7 +12,8 @@ Eigen::VectorXd largest_slopes(const PeriodSlopes& slopes, double frequency) {
   if (slopes.velocity.size() > 0)
     largest = largest.cwiseMax(2.0 * std::numbers::pi * frequency * slopes.velocity.cwiseAbs());
   for (const SlopeEntry& entry : slopes.others)
-    largest[entry.force] = std::max(largest[entry.force], std::abs(entry.slope));
+    largest[entry.force] = std::max({largest[entry.force], std::abs(entry.slope),
+                                     2.0 * std::numbers::pi * frequency * std::abs(entry.damping)});
   return largest;
 }
 
@@ -36,6 +37,7 @@ void ActiveSlopes::set(const PeriodSlopes& slopes, RateMap* rates, double freque
   std::erase_if(others_, [&](const SlopeEntry& entry) { return scales[entry.force] == 0.0; });
   for (SlopeEntry& entry : others_) {
     entry.slope /= scales[entry.force];
+    entry.damping /= scales[entry.force];
     const auto at = std::lower_bound(samples_.begin(), samples_.end(), entry.force) - samples_.begin();
     entry.force = static_cast<int>(at);
   }
@@ -48,6 +50,8 @@ Eigen::VectorXd ActiveSlopes::read(const Eigen::VectorXd& motion) {
     Eigen::VectorXd velocity;
     rates_->apply(motion, frequency_, velocity);
     values += of_velocity_.cwiseProduct(velocity(samples_));
+    for (const SlopeEntry& entry : others_)
+      values[entry.force] += entry.damping * velocity[entry.displacement];
   }
   for (const SlopeEntry& entry : others_) values[entry.force] += entry.slope * motion[entry.displacement];
   return values;
@@ -62,6 +66,8 @@ Eigen::VectorXd ActiveSlopes::read_transposed(const Eigen::VectorXd& values, Eig
   if (reads_velocities()) {
     Eigen::VectorXd velocity = Eigen::VectorXd::Zero(samples);
     velocity(samples_) = of_velocity_.cwiseProduct(values);
+    for (const SlopeEntry& entry : others_)
+      velocity[entry.displacement] += entry.damping * values[entry.force];
     rates_->apply_transposed(velocity, frequency_, motion);
   }
   motion(samples_) += own_.cwiseProduct(values);
@@ -87,10 +93,14 @@ std::vector<ActiveSlopes::ContactForces> ActiveSlopes::forces_of(int contact, co
     force_at(samples_[i]) += scale_[index] * (takes_samples() ? 1.0 : own_[index]) * motions.col(at);
     if (reads_velocities()) force_at(samples_[i]) += scale_[index] * of_velocity_[index] * rates.col(at);
   }
-  for (const SlopeEntry& entry : others_)
-    if (entry.displacement / points == contact)
-      force_at(samples_[std::size_t(entry.force)]) +=
-          scale_[entry.force] * entry.slope * motions.col(entry.displacement % points);
+  for (const SlopeEntry& entry : others_) {
+    if (entry.displacement / points != contact) continue;
+    const int at = entry.displacement % points;
+    const double scale = scale_[entry.force];
+    force_at(samples_[std::size_t(entry.force)]) += scale * entry.slope * motions.col(at);
+    if (reads_velocities())
+      force_at(samples_[std::size_t(entry.force)]) += scale * entry.damping * rates.col(at);
+  }
   return forces;
 }
 
@@ -114,8 +124,9 @@ void ActiveSlopes::fill(int points, int period, const Eigen::MatrixXd& columns, 
     for (std::size_t i = 0; reads_velocities() && i < samples_.size(); ++i)
       out[i] += of_velocity_[Eigen::Index(i)] * rates(start[i] + shifted(point[i]), source);
     for (const SlopeEntry& entry : others_) {
-      const int at = entry.displacement % points;
-      out[entry.force] += entry.slope * column[entry.displacement - at + shifted(at)];
+      const int at = entry.displacement % points, from = entry.displacement - at + shifted(at);
+      out[entry.force] += entry.slope * column[from];
+      if (reads_velocities()) out[entry.force] += entry.damping * rates(from, source);
     }
   }
   auto block = matrix.topLeftCorner(count(), count());

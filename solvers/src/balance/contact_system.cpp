@@ -137,8 +137,10 @@ ForceSlopes ContactSystem::side_of(int sample, const LawKink& kink, bool beyond)
 void ContactSystem::add_velocity_slope(Eigen::VectorXd& slope) {
   if (!rates_) return;
   // At fixed samples the velocities f V u grow like the frequency.
-  operator_.apply(forces_.slopes.velocity.cwiseProduct(velocity_) / operator_.problem().frequency(),
-                  product_);
+  Eigen::VectorXd growth = forces_.slopes.velocity.cwiseProduct(velocity_);
+  for (const SlopeEntry& entry : forces_.slopes.others)
+    growth[entry.force] += entry.damping * velocity_[entry.displacement];
+  operator_.apply(growth / operator_.problem().frequency(), product_);
   slope += product_;
 }
 

@@ -140,6 +140,26 @@ struct CoupledAlong {
   }
 };
 
+/// The slopes of a law of several rows that ActsAtInstants along the computed motion: smooth between instants
+/// of a fine grid, at which the law is asked for all of them at once.
+class InstantAlong {
+ public:
+  InstantAlong(const AnyContactLaw& law, int row, const std::vector<ContactCurve>& curves, double frequency);
+
+  bool has(int contact) const { return contact >= row_ && contact < row_ + rows_; }
+  /// By the displacement, N/m, and the velocity, N s/m, of another of its rows or the same.
+  double tangent(int force, int displacement, double time) const {
+    return at(tangents_, force, displacement, time);
+  }
+  double damping(int force, int velocity, double time) const { return at(dampings_, force, velocity, time); }
+
+ private:
+  double at(const std::vector<double>& slopes, int force, int by, double time) const;
+
+  int row_, rows_;
+  std::vector<double> tangents_, dampings_;  // rows x rows x instants
+};
+
 /// The time between samples l and l + 1 at which the curve crosses the level.
 inline double crossing(const ContactCurve& curve, double level, Index l) {
   const Eigen::VectorXd& samples = curve.samples();

@@ -22,6 +22,7 @@ using detail::ContactAlong;
 using detail::ContactCurve;
 using detail::CoupledAlong;
 using detail::crossing;
+using detail::InstantAlong;
 
 // Whether a curve, value(sample), rises above the level between samples about l that are all below it: the
 // vertex of the parabola through three samples says whether to look, the curve itself decides.
@@ -221,6 +222,17 @@ AllCoupled coupled_along(const AnyTimeBasis& trial, const ContactLaws& laws,
   return all;
 }
 
+using AllInstant = std::vector<InstantAlong>;
+
+AllInstant instant_along(const AnyTimeBasis& trial, const ContactLaws& laws,
+                         const ContactUnknowns& unknowns) {
+  AllInstant all;
+  for (int c = 0; c < static_cast<int>(unknowns.samples.cols()); c += laws[c].rows())
+    if (laws[c].acts_at_instants())
+      all.emplace_back(laws[c], c, curves_of(trial, laws, unknowns, c), unknowns.frequency);
+  return all;
+}
+
 // Adds the intervals of a law of several rows to each of them; false where one of them holds no sample.
 bool add_intervals(const CoupledAlong& along, Intervals& intervals) {
   const ContactCurve& curve = along.curves.front();
@@ -242,7 +254,7 @@ bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const Cont
                   PeriodicStiffness& stiffness) {
   const int count = static_cast<int>(unknowns.samples.cols());
   for (int c = 0; c < count; c += laws[c].rows()) {
-    if (!laws[c].acts_over_period() || laws[c].coupled()) continue;
+    if (!laws[c].acts_over_period() || laws[c].coupled() || laws[c].acts_at_instants()) continue;
     if (!laws[c].friction()) return false;
     auto along = friction_along(laws[c], c, curves_of(trial, laws, unknowns, c));
     if (!along) return false;
@@ -264,28 +276,48 @@ std::optional<int> add_intervals(const ContactAlong& along, int contact, Periodi
   return static_cast<int>(intervals->size());
 }
 
+// The law of several rows that has a contact; null for others.
+template <class Along>
+const Along* law_at(const std::vector<Along>& all, int contact) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Along& one) { return one.has(contact); });
+  return at == all.end() ? nullptr : &*at;
+}
+
 // By displacements and, where laws depend on them, by velocities, and where forces jump.
-void set_slopes(const AllContacts& all, const AllCoupled& all_coupled, bool velocities,
+void set_slopes(AllContacts all, AllCoupled all_coupled, AllInstant all_instant, bool velocities,
                 PeriodicStiffness& stiffness) {
-  const auto contacts = std::make_shared<AllContacts>(all);
-  const auto coupled = std::make_shared<AllCoupled>(all_coupled);
+  const auto contacts = std::make_shared<const AllContacts>(std::move(all));
+  const auto coupled = std::make_shared<const AllCoupled>(std::move(all_coupled));
+  const auto instant = std::make_shared<const AllInstant>(std::move(all_instant));
   const auto along = [contacts](int contact) -> const ContactAlong& {
     return (*contacts)[static_cast<std::size_t>(contact)];
   };
-  stiffness.tangent = [along, coupled](int contact, double time) {
-    for (const CoupledAlong& one : *coupled)
-      if (one.has(contact)) return one.slope(contact, contact, time);
+  stiffness.tangent = [along, coupled, instant](int contact, double time) {
+    if (const CoupledAlong* one = law_at(*coupled, contact)) return one->slope(contact, contact, time);
+    if (const InstantAlong* one = law_at(*instant, contact)) return one->tangent(contact, contact, time);
     return along(contact).tangent(time);
   };
-  if (!coupled->empty())
-    stiffness.coupling = [coupled](int force, int displacement, double time) {
-      for (const CoupledAlong& one : *coupled)
-        if (one.has(force) && one.has(displacement)) return one.slope(force, displacement, time);
+  if (!coupled->empty() || !instant->empty())
+    stiffness.coupling = [coupled, instant](int force, int displacement, double time) {
+      if (const CoupledAlong* one = law_at(*coupled, force); one && one->has(displacement))
+        return one->slope(force, displacement, time);
+      if (const InstantAlong* one = law_at(*instant, force); one && one->has(displacement))
+        return one->tangent(force, displacement, time);
       return 0.0;
     };
   if (!velocities) return;
-  stiffness.damping = [along](int contact, double time) { return along(contact).damping(time); };
-  stiffness.impulse = [along](int contact, double time) { return along(contact).impulse(time); };
+  stiffness.damping = [along, instant](int contact, double time) {
+    if (const InstantAlong* one = law_at(*instant, contact)) return one->damping(contact, contact, time);
+    return along(contact).damping(time);
+  };
+  if (!instant->empty())
+    stiffness.damping_coupling = [instant](int force, int velocity, double time) {
+      const InstantAlong* one = law_at(*instant, force);
+      return one && one->has(velocity) ? one->damping(force, velocity, time) : 0.0;
+    };
+  stiffness.impulse = [along, instant](int contact, double time) {
+    return law_at(*instant, contact) ? 0.0 : along(contact).impulse(time);
+  };
 }
 
 // Why no stiffness is known, whatever the motion.
@@ -312,9 +344,11 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   };
   if (const StabilityStatus why = refusal_of(laws, unknowns); why != StabilityStatus::converged)
     return ended(why);
-  const AllCoupled coupled = coupled_along(trial, laws, unknowns);
+  AllCoupled coupled = coupled_along(trial, laws, unknowns);
+  AllInstant instant = instant_along(trial, laws, unknowns);
   AllContacts contacts;
-  if (!add_friction(trial, laws, unknowns, stiffness) || (!coupled.empty() && !stiffness.friction.empty()))
+  if (!add_friction(trial, laws, unknowns, stiffness) ||
+      (!(coupled.empty() && instant.empty()) && !stiffness.friction.empty()))
     return ended(StabilityStatus::unsupported_law);
   for (int c = 0; c < count; ++c)
     contacts.push_back(
@@ -323,6 +357,7 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
          unknowns.frequency});
   int rigid = 0, elastic = 0;  // intervals of contact
   for (int c = 0; c < count; ++c) {
+    if (law_at(instant, c)) stiffness.intervals.push_back({c, 0.0, 1.0});
     if (laws[c].acts_over_period()) continue;
     const auto added = add_intervals(contacts[static_cast<std::size_t>(c)], c, stiffness);
     if (!added) return ended(StabilityStatus::too_few_samples);
@@ -335,7 +370,8 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
     if (elastic > 0 || !coupled.empty()) stiffness.intervals.clear();
     return ended(StabilityStatus::no_finite_stiffness);
   }
-  set_slopes(contacts, coupled, laws.depend_on_velocity(), stiffness);
+  set_slopes(std::move(contacts), std::move(coupled), std::move(instant), laws.depend_on_velocity(),
+             stiffness);
   return stiffness;
 }
 

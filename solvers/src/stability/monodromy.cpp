@@ -140,7 +140,7 @@ class Propagator {
     const Eigen::MatrixXd free = detail::product(maps.free, states);
     Eigen::MatrixXd right = slope.asDiagonal() * free;
     if (stiffness_.coupling) {
-      const Eigen::MatrixXd coupling = coupling_at_nodes(piece, begin, length);
+      const Eigen::MatrixXd coupling = coupling_at_nodes(stiffness_.coupling, piece, begin, length);
       matrix += detail::product(coupling, maps.memory);
       right += detail::product(coupling, free);
     }
@@ -149,18 +149,24 @@ class Propagator {
       matrix += damping.asDiagonal() * maps.memory_rate;
       right += damping.asDiagonal() * detail::product(maps.free_rate, states);
     }
+    if (stiffness_.damping_coupling) {
+      const Eigen::MatrixXd coupling = coupling_at_nodes(stiffness_.damping_coupling, piece, begin, length);
+      matrix += detail::product(coupling, maps.memory_rate);
+      right += detail::product(coupling, detail::product(maps.free_rate, states));
+    }
     return detail::Lu<double>(matrix).solve(right);
   }
 
-  // The slopes of forces by displacements of other rows of their laws.
-  Eigen::MatrixXd coupling_at_nodes(const Piece& piece, double begin, double length) const {
+  // The slopes of forces by other rows of their laws.
+  Eigen::MatrixXd coupling_at_nodes(const std::function<double(int, int, double)>& slope, const Piece& piece,
+                                    double begin, double length) const {
     const auto closed = Index(piece.closed.size()), size = rule_.points.size() * closed;
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(size, size);
     for (Index i = 0; i < rule_.points.size(); ++i)
       for (Index a = 0; a < closed; ++a)
         for (Index b = 0; b < closed; ++b)
           if (a != b)
-            slopes(i * closed + a, i * closed + b) = stiffness_.coupling(
+            slopes(i * closed + a, i * closed + b) = slope(
                 piece.closed[std::size_t(a)], piece.closed[std::size_t(b)], begin + length * rule_.points[i]);
     return slopes;
   }

@@ -70,6 +70,8 @@ class AnyContactLaw {
     model_->start(v, flexibility, force);
   }
 
+  /// Whether it ActsAtInstants.
+  bool acts_at_instants() const { return model_->acts_at_instants(); }
   /// The law where it is a CoupledLaw, nullptr for others.
   const AnyCoupledLaw* coupled() const { return model_->coupled(); }
   /// The constants of a law that IsElasticFriction, nothing for others.
@@ -140,6 +142,7 @@ class AnyContactLaw {
     virtual void start(std::span<const double>, std::span<const double>, std::span<double>) const {
       refuse_steps();
     }
+    virtual bool acts_at_instants() const { return false; }
     virtual const AnyCoupledLaw* coupled() const { return nullptr; }
     virtual std::optional<FrictionConstants> friction() const { return std::nullopt; }
     virtual std::optional<double> restitution() const { return std::nullopt; }
@@ -252,6 +255,11 @@ class AnyContactLaw {
     int rows() const override { return law_.rows(); }
     void evaluate(const PeriodKinematics& motion, PeriodForces& forces) const override {
       law_.evaluate(motion, forces);
+    }
+    bool acts_at_instants() const override { return ActsAtInstants<Law>; }
+    bool depends_on_velocity() const override {
+      if constexpr (ActsAtInstants<Law>) return law_.depends_on_velocity();
+      return false;
     }
     bool advances_in_steps() const override { return AdvancesInSteps<Law>; }
     void advance(std::span<const double> before, std::span<const double> v,

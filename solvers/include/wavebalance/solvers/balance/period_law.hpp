@@ -15,11 +15,12 @@ struct PeriodKinematics {
   std::span<const double> velocity;      ///< m/s; empty where no law of the structure reads velocities
 };
 
-/// One entry of the derivative of the forces by displacements.
+/// One entry of the derivative of the forces by the motion.
 struct SlopeEntry {
   int force = 0;         ///< the sample of the force
   int displacement = 0;  ///< the sample of the displacement
   double slope = 0.0;    ///< N/m
+  double damping = 0.0;  ///< N s/m: by the velocity of that sample; 0 where velocities are not read
 };
 
 /// The forces of a law over a period along its rows, and their derivative. All are zero before, so that a law
@@ -28,7 +29,7 @@ struct PeriodForces {
   std::span<double> force;               ///< N, rows x N values
   std::span<double> displacement_slope;  ///< N/m: of each force by the displacement of the same sample
   std::span<double> velocity_slope;      ///< N s/m: by its velocity; empty like PeriodKinematics::velocity
-  std::vector<SlopeEntry>& others;       ///< by the displacements of other samples; samples count in the law
+  std::vector<SlopeEntry>& others;       ///< by other samples, which count in the law
   std::span<int> piece;                  ///< the analytic piece of the law on which each force lies
 };
 
@@ -60,6 +61,13 @@ template <class Law>
 concept OffersPeriodResolvent = PeriodLaw<Law> && requires(const Law& law, std::span<const double> rows) {
   { law.rigid() } -> std::convertible_to<bool>;
   { law.resolvent(rows) } -> PeriodLaw;
+};
+
+/// A law over a period whose forces follow from displacements and, where it says so, velocities of the same
+/// instant: it may be evaluated at single instants.
+template <class Law>
+concept ActsAtInstants = PeriodLaw<Law> && requires(const Law& law) {
+  { law.depends_on_velocity() } -> std::convertible_to<bool>;
 };
 
 /// The numbers of a Coulomb contact, of which its motions follow. Its rows are the normal direction, where
@@ -99,7 +107,7 @@ concept IsElasticFriction = AdvancesInSteps<Law> && requires(const Law& law) {
 struct PeriodSlopes {
   Eigen::VectorXd displacement;    ///< N/m: of each force by the displacement of the same sample
   Eigen::VectorXd velocity;        ///< N s/m: by its velocity; empty where no law reads velocities
-  std::vector<SlopeEntry> others;  ///< by the displacements of other samples
+  std::vector<SlopeEntry> others;  ///< by other samples
 };
 
 }  // namespace wavebalance::solvers

@@ -104,10 +104,12 @@ struct PeriodicStiffness {
   /// The slope of the law, N/m, of a contact at a time (in periods) within one of its intervals.
   std::function<double(int contact, double time)> tangent;
   /// The slope of the force of a contact by the displacement of another of the same law, N/m, likewise; empty
-  /// where no law is a CoupledLaw.
+  /// where no law of several rows acts.
   std::function<double(int force, int displacement, double time)> coupling = {};
   /// The slope by the velocity, N s/m, likewise; empty where no law depends on the velocity.
   std::function<double(int contact, double time)> damping = {};
+  /// The slope by the velocity of another contact of the same law, N s/m; empty without such laws.
+  std::function<double(int force, int velocity, double time)> damping_coupling = {};
   /// N s/m, where the force jumps as an interval begins or ends: the impulse on a perturbation over its
   /// displacement, the force after that instant less the one before it over the velocity of the contact.
   /// Empty where no law depends on the velocity.
@@ -130,7 +132,7 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 /// epsilon. A law that also acts below its gap has the intervals between its kinks, less those without slope.
 /// Up to 64 times a period at which a contact passes other breakpoints of its law are cuts.
 ///
-/// A CoupledLaw has its intervals for each of its rows.
+/// A CoupledLaw has its intervals for each of its rows, a law that ActsAtInstants has the whole period.
 ///
 /// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
 /// of trial functions or of the interpolant.
