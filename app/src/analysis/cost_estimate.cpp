@@ -178,8 +178,8 @@ std::string slow_stepping_advice(const Scene& scene) {
     return "";
   const bool balances = accepts(scene, as_response(scene));
   return fmt::format(
-      "time stepping follows all {} modes, the fastest of which may take hours; structure.kept_modes = 8 takes "
-      "the lowest{}",
+      "time stepping follows all {} modes, and stiff contacts may make its steps short; structure.kept_modes = 8 "
+      "takes the lowest{}",
       reduced_size(scene), balances ? ", and analysis.type = \"forced_response\" needs no steps" : "");
 }
 

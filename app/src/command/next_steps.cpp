@@ -16,6 +16,10 @@ const Move recorded = always(
     "analysis.type = \"time_stepping\" with analysis.max_periods = 200, which has statistics of what does "
     "not repeat",
     {.analysis = "time_stepping", .set = {"analysis.max_periods=200"}});
+const Move diagram = always(
+    "analysis.type = \"bifurcation_diagram\", which integrates over the interval, with or without periodic "
+    "motions",
+    {.analysis = "bifurcation_diagram"});
 const Move all_motions = always("analysis.type = \"motions\"", {.analysis = "motions"});
 const Move static_load = always("a static load that presses the structure against a contact (forcing.terms)",
                                 {.added = "[[forcing.terms]]\nharmonic = 0\namplitude = 1.0"});
@@ -64,7 +68,7 @@ const Remedies& of_responses() {
 
 const Remedies& of_sweeps() {
   static const Remedies all{{"returned", {reversed, other_start}},
-                            {"no_start", {other_start}},
+                            {"no_start", {other_start, diagram}},
                             {"closed", {other_start, reversed, more_points}},
                             {"ended", {other_start, reversed}},
                             {"lost", {damping_depth, exact_curve, smaller_step, more_points, odd_functions}},

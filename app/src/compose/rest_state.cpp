@@ -66,6 +66,18 @@ double frequency_of(const Scene& scene) {
   return frequency > 0.0 ? beside * frequency : 1.0;
 }
 
+/// Whether contacts that press against each other hold the structure where its equations leave no more than
+/// rounding. A balance measures its residual by the motion, which is none there.
+bool holds_itself(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found) {
+  constexpr double rounding = 1e-13;  // of what each force alone would move
+  Eigen::VectorXd moved;
+  problem.apply(found.contact_force, moved);
+  const double left = (found.displacement - problem.contact_free_response() + moved).norm();
+  const Eigen::VectorXd forces =
+      solvers::by_contact(found.contact_force, problem.contacts()).rowwise().norm();
+  return left <= rounding * problem.contact_compliance().dot(forces);
+}
+
 std::optional<RestState> state_of(const Scene& scene, const solvers::LinearStructure& structure) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact);
   if (mode || scene.contact.law == no_law) return std::nullopt;
@@ -79,8 +91,9 @@ std::optional<RestState> state_of(const Scene& scene, const solvers::LinearStruc
     const auto mean = [&](const Eigen::VectorXd& samples) -> Eigen::VectorXd {
       return solvers::by_contact(samples, structure.contacts()).rowwise().mean();
     };
-    return RestState{found.converged(), std::string(to_string(found.status)), mean(found.displacement),
-                     mean(found.contact_force)};
+    const bool holds = found.converged() || holds_itself(problem, found);
+    return RestState{holds, holds ? "converged" : std::string(to_string(found.status)),
+                     mean(found.displacement), mean(found.contact_force)};
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   }

@@ -1,5 +1,7 @@
 #include "drawing/output_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -111,6 +113,18 @@ void add_harmonics(Figure& figure, const Sweep& sweep, const SweepLine& line, co
     }
 }
 
+/// Those with the largest values, at most `most`, in their order.
+std::vector<Series> largest_series(std::vector<Series> all, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> sizes;
+  for (std::size_t i = 0; i < all.size(); ++i) sizes.emplace_back(-largest_of(all[i].y, 0.0), i);
+  std::ranges::sort(sizes);
+  sizes.resize(std::min(sizes.size(), most));
+  std::ranges::sort(sizes, {}, &std::pair<double, std::size_t>::second);
+  std::vector<Series> kept;
+  for (const auto& [size, i] : sizes) kept.push_back(std::move(all[i]));
+  return kept;
+}
+
 /// A value of each contact along the main curve, in a panel with the contacts in its legend.
 void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<SceneContact>& contacts,
                        const std::string& title, const std::string& quantity, const std::string& unit,
@@ -118,7 +132,7 @@ void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<Sce
   constexpr std::size_t most = 7;  // colours
   std::vector<Series> drawn;
   double largest = 0.0;
-  for (std::size_t k = 0; k < contacts.size() && drawn.size() < most; ++k) {
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (contacts[k].place > 0) continue;
     Series series(plain(whole_name_of(contacts[k])), SeriesStyle::line);
     for (std::size_t i = 0; i < sweep.curve.points.size(); ++i)
@@ -130,7 +144,10 @@ void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<Sce
   if (!(largest > 0.0)) return;
   const bool cubic = unit.starts_with("m^3");  // whose prefixes would be cubed
   const Scale scale = cubic ? Scale() : axis_scale(largest);
-  Panel& panel = figure.add_panel(title);
+  const std::size_t all = drawn.size();
+  drawn = largest_series(std::move(drawn), most);
+  Panel& panel = figure.add_panel(
+      all > drawn.size() ? fmt::format("{}, the {} largest of {}", title, drawn.size(), all) : title);
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label = quantity + " (" + scale.prefix + unit + ")";
   panel.y.lower = 0.0;

@@ -61,7 +61,7 @@ void append_output(std::vector<std::string>& sentences, const Table& outputs, st
                                ? "at most " + peak_text(vibration, unit, resolution, number(axis.column()),
                                                         number(quantities::peak_place_resolution.name), axis)
                                : quantity(vibration, unit) + " (half peak to peak)";
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-7;  // of what a balance and its peak resolve
   const bool names_quantity = name.find(" of ") != std::string::npos;
   sentences.push_back(fmt::format("The {}{} is {}, about a mean of {}.",
                                   names_quantity ? "" : "vibration of ", name, size,

@@ -152,7 +152,11 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
 
 std::vector<std::string> stability_sentences(const Summary& summary, const SweepAxis& axis) {
   const std::string status = text_in(summary, quantities::stability);
-  if (status.empty()) return {};
+  if (status.empty()) {
+    const std::string analysis = text_in(summary, quantities::analysis);
+    const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
+    return curve ? std::vector{status_sentence("not_computed")} : std::vector<std::string>{};
+  }
   std::vector<std::string> sentences{status == "partly_known" ? partly_known_sentence(summary)
                                                               : sentence_of(summary, status)};
   const double unstable = number_in(summary, quantities::unstable_multipliers);
