@@ -84,6 +84,19 @@ def test_an_interrupted_sweep_leaves_its_points(begin, bar, tmp_path):
     assert len(rows_of(tmp_path / "out" / "sweep.csv")) > 1
 
 
+def test_a_sweep_interrupted_in_its_stability_keeps_the_outputs_of_its_points(begin, bar, tmp_path):
+    sets = (*SWEEP[:2], "analysis.frequency_to=200", "analysis.first_step=2e-2", "analysis.largest_step=2e-2",
+            "analysis.max_points=1000000", "analysis.outputs=[3]")
+    running = begin("run", bar, "--output", "out", *[word for one in sets for word in ("--set", one)], terminal=True)
+    running.wait_until(lambda: "stability: step " in running.errors())
+    running.send(signal.SIGINT)
+    ended = running.wait()
+    assert ended.code == 130, ended.errors
+    rows = rows_of(tmp_path / "out" / "sweep.csv")
+    assert len(rows) > 1000 and rows[-1]["unstable"] == "nan"
+    assert all(float(row["node_3_half_peak_to_peak_m"]) > 0.0 for row in rows)
+
+
 def test_a_folder_used_twice_holds_the_second_record_and_foreign_files(run):
     first = run(BAR)
     assert first.code == 0

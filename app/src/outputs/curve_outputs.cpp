@@ -83,14 +83,15 @@ SweepOutputs measure_outputs(const Scene& scene, const StructureModel& model, Sw
   found.outputs = outputs_of(scene);
   if (found.empty()) return found;
   bool& cancelled = sweep.outputs_cancelled;
-  const Observer watch = sweep.interrupted() ? Observer() : observer;
+  const bool stopped = sweep.stopped();  // by an observer that would stop this, too
+  const Observer watch = stopped ? Observer() : observer;
   const auto measured = [&](const Sweep& of, std::size_t number) {
     return along_curve(scene, model, found.outputs, of, number, watch, cancelled);
   };
   for (std::size_t i = 0; i <= sweep.branches.size(); ++i) found.curves.push_back(measured(sweep, i));
   for (const Sweep& isola : sweep.isolas) found.isolas.push_back(measured(isola, 0));
   found.exact_at_peak = exact_at_peak(scene, model, found.outputs, sweep);
-  if (!cancelled && !sweep.interrupted()) solve_for_peaks(scene, model, found, sweep, watch);
+  if (!cancelled && !stopped) solve_for_peaks(scene, model, found, sweep, watch);
   const std::string wanted = peak_name(scene);
   for (std::size_t i = 0; i < found.outputs.size(); ++i) {
     if (wanted.empty() || (found.outputs[i].name != wanted && found.outputs[i].number != wanted)) continue;
