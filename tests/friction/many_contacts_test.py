@@ -16,12 +16,15 @@ def grid(count, **analysis):
     pairs = []
     for i in range(count):
         for name, side, stiffness in (("spring", -1.0, SPRING), ("dimple", 1.0, DIMPLE)):
-            pairs.append({"name": f"{name} {i + 1}", "dofs": [i + 1], "coefficients": [side], "tangent": [count + i + 1],
-                          "normal_stiffness": stiffness, "normal_gap": -PRESSED / stiffness})
+            pairs.append({"name": f"{name} {i + 1}", "dofs": [i + 1], "coefficients": [side],
+                          "tangent": [count + i + 1], "normal_stiffness": stiffness,
+                          "normal_gap": -PRESSED / stiffness})
     load = np.r_[np.zeros(count), np.linspace(1.0, 2.0, count)].reshape(-1, 1)
     return {
-        "structure": {"type": "matrices", "mass": np.eye(n), "damping": 8.0 * np.eye(n), "stiffness": 1e4 * np.eye(n)},
-        "contact": {"law": "coulomb", "friction": 0.3, "tangential_stiffness": 3e4, "wear_coefficient": 1e-14, "pairs": pairs},
+        "structure": {"type": "matrices", "mass": np.eye(n), "damping": 8.0 * np.eye(n),
+                      "stiffness": 1e4 * np.eye(n)},
+        "contact": {"law": "coulomb", "friction": 0.3, "tangential_stiffness": 3e4, "wear_coefficient": 1e-14,
+                    "pairs": pairs},
         "forcing": {"load": load, "amplitude": 6.0, "frequency": 30.0},
         "time": {"trial": "fourier", "weight": "fourier", "functions": 9, "quadrature_points": 64},
         "analysis": analysis,
@@ -41,7 +44,8 @@ def test_contacts_that_press_against_each_other_are_known_at_rest(more):
 
 
 def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path):
-    record = wb.run(grid(5, type="frequency_sweep", frequency_from=24.0, frequency_to=36.0, stability=False, outputs=[10]), output=tmp_path)
+    scene = grid(5, type="frequency_sweep", frequency_from=24.0, frequency_to=36.0, stability=False, outputs=[10])
+    record = wb.run(scene, output=tmp_path)
     assert record.converged
     sweep, drawn = record.sweep, (tmp_path / "outputs.figure.js").read_text()
     wears = {name: np.nanmax(sweep[f"{name.replace(' ', '_')}_wear_m3_per_s"])
@@ -51,5 +55,6 @@ def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path
     assert panel["title"] == "Wear, the 7 largest of 10"
     seen = {re.sub(" normal$", "", one["label"]) for one in panel["series"]}
     assert seen == set(sorted(wears, key=wears.get, reverse=True)[:7])
-    assert "Stability was not computed; analysis.stability = true asks for it." in (tmp_path / "report.html").read_text()
+    words = "Stability was not computed; analysis.stability = true asks for it."
+    assert words in (tmp_path / "report.html").read_text()
 
