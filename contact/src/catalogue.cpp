@@ -12,7 +12,12 @@ LawEntry entry_of() {
   constexpr bool reads_velocity = requires(const Law& law) { law.force(0.0, 0.0); };
   constexpr bool has_rows = requires(const Law& law) { law.rows(); };
   constexpr bool has_penetration = requires(const Law& law) { law.penetration({}, {}); };
-  return {Law::description(), reads_velocity, has_rows && !has_penetration, has_penetration,
+  constexpr bool reads_signal = requires(const Law& law) { law.reads_signal(); };
+  return {Law::description(),
+          reads_velocity,
+          has_rows && !has_penetration,
+          has_penetration && !reads_signal,
+          reads_signal,
           [](const LawValues& values) -> AnyLaw { return Law::of(values); }};
 }
 
@@ -27,6 +32,8 @@ AnyLaw LawEntry::make(const LawValues& values) const {
   const LawValues complete = complete_values(*this, values);
   try {
     return maker(complete);
+  } catch (const LawFault&) {
+    throw;
   } catch (const std::invalid_argument& error) {
     throw LawFault(parameters.empty() ? "" : std::string(parameters.front().name), error.what());
   }

@@ -278,7 +278,11 @@ LawDescription CoulombLaw::description() {
                {"normal_load_speed2", "N s^2",
                 "normal force over the square of the angular frequency of the load, beside normal_load: a "
                 "mass times its radius; without it none",
-                at_least_zero})},
+                at_least_zero}),
+           may_lack(file_parameter(
+               "normal_load_table",
+               "CSV file with the columns frequency_Hz and normal_load, in N over the frequency of the load, "
+               "beside normal_load and monotone between its rows; without it none"))},
       .beyond_gap_alone = false};
 }
 
@@ -287,6 +291,11 @@ CoulombLaw CoulombLaw::of(const LawValues& values) {
   if (const double grows = number_or(values, "normal_load_speed2", 0.0); grows != 0.0)
     detail::reject("CoulombLaw", "normal_load_speed2", grows,
                    "0: a law is made at one frequency, at which it is part of normal_load");
+  if (values.contains("normal_load_table"))
+    throw LawFault(
+        "normal_load_table",
+        "CoulombLaw: normal_load_table is given; a law is made at one frequency, at which it is part "
+        "of normal_load");
   FrictionParameters parameters{
       number_of(values, "friction"), number_or(values, "tangential_stiffness", rigid),
       number_of(values, "normal_load"), static_cast<int>(number_of(values, "tangents"))};

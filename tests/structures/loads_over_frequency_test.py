@@ -1,4 +1,4 @@
-"""Loads that vary with the frequency: amplitude_table of [[forcing.terms]], accelerations in g, and normal loads that grow."""
+"""Loads that vary with the frequency: amplitude_table, accelerations in g, and normal loads that grow or follow a table."""
 
 import numpy as np
 import pytest
@@ -233,3 +233,150 @@ def test_a_study_over_the_frequency_has_the_normal_load_of_each_run(tmp_path):
 def test_a_motion_of_the_curve_has_its_friction_at_its_frequency(tmp_path):
     wb.run(scene(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + "\nmotion_at = [9.0]"), output=tmp_path / "out")
     assert (tmp_path / "out" / "motion_9_Hz.csv").exists() or list((tmp_path / "out").glob("motion*.csv"))
+
+
+# amplitude_table of [forcing], and the same of a bar.
+PLAIN = SCENE.replace("frequency = 9.0", "frequency = 9.0\nload_dofs = [1]\namplitude = 2.5\namplitude_table = \"table.csv\"")
+
+
+def plain(**named):
+    return PLAIN.format(**{"contact": 'law = "none"', "terms": "", "time": BASES, "analysis": RESPONSE} | named)
+
+
+@pytest.mark.parametrize("exact", ["false", "true"])
+def test_the_amplitude_of_the_forcing_takes_a_table_too(exact):
+    table("table.csv", phases=PHASES)
+    record = wb.run(plain(analysis=SWEEP + f"\nexact = {exact}\nstability = true", contact=STOP.replace("2e-4", "1.0")))
+    frequency = record.sweep["frequency_Hz"]
+    expected = np.abs(receptance(frequency) * force_at(frequency, PHASES, 2.5)) / np.sqrt(2.0)
+    assert len(frequency) > 10
+    np.testing.assert_allclose(record.sweep["rms_displacement_m"], expected, rtol=1e-9)
+    assert not record.sweep["unstable"].any()
+
+
+@pytest.mark.parametrize("time, analysis", [
+    (BASES, RESPONSE), ('method = "exact"', RESPONSE), ("", 'type = "time_stepping"\ntolerance = 1e-9'),
+    ("", 'type = "shooting"'), ("", 'type = "motions"'),
+    ("", 'type = "bifurcation_diagram"\nfrequency_from = 8.9\nfrequency_to = 9.0\nvalues = 2\nboth_ways = false'),
+])
+def test_both_tables_are_the_same_load_in_every_analysis(time, analysis):
+    one = wb.run(plain(time=time, analysis=analysis, contact=STOP))
+    other = wb.run(scene(TABLE + "\namplitude = 2.5", time=time, analysis=analysis, contact=STOP))
+    assert one.converged and other.converged
+    if "bifurcation" in analysis:
+        given = wb.run(scene(f"dofs = [1]\namplitude = {force_at(9.0, amplitude=2.5).real!r}", time=time, analysis=analysis, contact=STOP))
+        for record in (one, other):
+            assert record.section["displacement_m"][-1] == pytest.approx(given.section["displacement_m"][-1], rel=1e-6)
+    else:
+        assert one.summary["max_displacement_m"] == pytest.approx(other.summary["max_displacement_m"], rel=1e-9)
+
+
+def test_a_bar_takes_a_table_and_a_scene_is_written_with_it(tmp_path):
+    bar = """
+[structure]
+type = "bar"
+youngs_modulus = 1.0
+density = 1.0
+area = 1.0
+length = 1.0
+elements = 4
+stiffness_damping = 0.1
+[contact]
+law = "none"
+[forcing]
+amplitude = 0.1
+frequency = 9.0
+{table}
+[time]
+{time}
+"""
+    record = wb.run(bar.format(table='amplitude_table = "table.csv"', time=BASES), output=tmp_path / "out")
+    given = wb.run(bar.format(table="", time=BASES), {"forcing.amplitude": 0.1 * force_at(9.0).real})
+    assert distance(displacements(record), displacements(given)) < 1e-12
+    assert distance(displacements(wb.run(tmp_path / "out" / "scene.toml")), displacements(record)) == 0.0
+    assert "0.1 N times a table over the frequency" in wb.check(bar.format(table='amplitude_table = "table.csv"', time=BASES))
+
+
+@pytest.mark.parametrize("prepare, keys, part", [
+    (lambda: table("table.csv", places=[7.0, 8.0, 11.0, 15.0]), {}, "6 to 14 Hz"),
+    (lambda: table("table.csv", amplitudes=[1.0, float("nan"), 1.0, 1.0]), {}, "no finite number"),
+    (lambda: None, {"forcing.amplitude": 0.0}, "which is 0"),
+    (lambda: None, {"forcing.amplitude_table": "other.csv"}, "other.csv"),
+])
+def test_a_table_of_the_forcing_that_does_not_fit_is_refused_by_key(prepare, keys, part):
+    prepare()
+    with pytest.raises(wb.SceneError) as refusal:
+        wb.run(plain(analysis=SWEEP), keys)
+    assert "forcing.amplitude_table" in str(refusal.value) and part in str(refusal.value)
+
+
+def test_an_amplitude_sweep_takes_no_table_of_the_forcing():
+    with pytest.raises(wb.SceneError, match="forcing.amplitude_table"):
+        wb.run(plain(analysis='type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'))
+
+
+# A normal load by a table, beside one that does not vary.
+LOADS = [3.0, 20.0, 6.0, 12.0]
+TABLED = PRESSED + f"{LOAD}\nnormal_load_table = \"loads.csv\""
+
+
+@pytest.fixture
+def loads():
+    table("loads.csv", amplitudes=LOADS, head="frequency_Hz,normal_load")
+
+
+def tabled(frequency):
+    return LOAD + steffen(PLACES, np.array(LOADS))(frequency)
+
+
+@pytest.mark.parametrize("time", [FINE, 'method = "exact"', "stepping"])
+def test_a_response_has_the_normal_load_of_the_table(loads, time):
+    stepping = time == "stepping"
+    named = {"time": "" if stepping else time, "analysis": 'type = "time_stepping"' if stepping else RESPONSE}
+    found = solved(DRIVE, contact=TABLED, **named)
+    given = solved(DRIVE, contact=PRESSED + repr(float(tabled(9.0))), **named)
+    assert distance(displacements(found), displacements(given)) < 1e-10
+    assert found.summary["friction_work_J"] == pytest.approx(given.summary["friction_work_J"], rel=1e-9)
+    assert given.summary["friction_work_J"] > 0.0
+
+
+@pytest.mark.parametrize("exact", ["false", "true"])
+def test_points_of_a_curve_have_the_normal_load_of_the_table_there(loads, exact):
+    sweep = solved(DRIVE, contact=TABLED, time=FINE, analysis=SWEEP + f"\nexact = {exact}\nstability = true").sweep
+    frequency = sweep["frequency_Hz"]
+    for point in (3, len(frequency) // 2, -2):
+        one = float(frequency[point])
+        beginning = f'type = "frequency_sweep"\nfrequency_from = {one!r}\nfrequency_to = {1.01 * one!r}\nexact = {exact}\nstability = true'
+        fixed = solved(DRIVE, contact=PRESSED + repr(float(tabled(one))), time=FINE, analysis=beginning).sweep
+        for name in ("max_displacement_m", "friction_work_J"):
+            assert sweep[name][point] == pytest.approx(fixed[name][0], rel=1e-6)
+        assert sweep["unstable"][point] == fixed["unstable"][0]
+
+
+def test_a_study_and_a_diagram_have_the_normal_load_of_each_frequency(loads, tmp_path):
+    values = [8.0, 10.0]
+    found = wb.study(scene(DRIVE, contact=TABLED, time=FINE), {"forcing.frequency": values}, output=tmp_path / "study").table
+    expected = [at(one, float(tabled(one))).summary["rms_displacement_m"] for one in values]
+    np.testing.assert_allclose(found["rms_displacement_m"], expected, rtol=1e-9)
+    diagram = 'type = "bifurcation_diagram"\nfrequency_from = 8.0\nfrequency_to = 10.0\nvalues = 2\nexact_curve = false\nboth_ways = false'
+    for contact, load in ((TABLED, tabled), (GROWING, normal_load)):
+        section = wb.run(scene(DRIVE, contact=contact, time="", analysis=diagram)).section
+        fixed = wb.run(scene(DRIVE, contact=PRESSED + repr(float(load(10.0))), time="", analysis=diagram)).section
+        assert section["displacement_m"][-1] == pytest.approx(fixed["displacement_m"][-1], rel=1e-6)
+
+
+@pytest.mark.parametrize("prepare, part", [
+    (lambda: table("loads.csv", places=[7.0, 8.0, 11.0, 15.0], amplitudes=LOADS, head="frequency_Hz,normal_load"), "6 to 14 Hz"),
+    (lambda: table("loads.csv", amplitudes=[1.0, -2.0, 1.0, 1.0], head="frequency_Hz,normal_load"), "at least 0"),
+    (lambda: table("loads.csv", head="frequency_Hz,load"), "normal_load"),
+    (lambda: None, "loads.csv"),
+])
+def test_a_table_of_normal_loads_that_does_not_fit_is_refused_by_key(prepare, part):
+    prepare()
+    error = str(refused(scene(DRIVE, contact=TABLED, time=FINE, analysis=SWEEP), "contact.normal_load_table"))
+    assert part in error
+
+
+def test_a_limit_cycle_has_no_frequency_for_a_normal_load_to_follow():
+    cycle = scene(contact=GROWING + "\nsurface_speed = 0.1", time="", analysis='type = "limit_cycle"').replace("frequency = 9.0", "")
+    refused(cycle, "contact.normal_load_speed2", "normal_load alone")

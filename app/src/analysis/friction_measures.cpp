@@ -172,10 +172,12 @@ std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::Fr
   if (!has_friction(scene)) return {};
   std::vector<FrictionShares> along;
   const std::vector<SceneContact> places = contacts_of(scene);
+  Scene read = scene;
+  read.contact = with_tables_read(scene.contact);
   std::vector<LawAtRow> laws = laws_of_rows(contacts_of(scene), curve.series_flexibility);
   for (const solvers::SweepPoint& point : curve.points) {
     if (has_growing_normal_load(scene.contact))
-      laws = laws_of_rows(contacts_of(scene, point.frequency), curve.series_flexibility);
+      laws = laws_of_rows(contacts_of(read, point.frequency), curve.series_flexibility);
     const std::size_t points =
         static_cast<std::size_t>(point.unknown.size()) / std::size_t(contact_count(scene));
     FrictionShares shares;

@@ -191,9 +191,9 @@ void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, c
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
                                    observer, sweep.phases_cancelled));
-  // Along curves with friction or a ring, which have no phases to be followed, this takes as long as exact
-  // ones.
-  const bool followed = !has_friction(scene) && !names_plane(scene.contact);
+  // Along curves with friction or laws of several rows, which have no phases to be followed, this takes as
+  // long as exact ones.
+  const bool followed = !has_friction(scene) && !names_coupled_rows(scene.contact);
   if (scene.analysis.stability && scene.analysis.special_points && followed)
     add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {

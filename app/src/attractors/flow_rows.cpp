@@ -34,11 +34,18 @@ StructureModel with_outputs(const Scene& scene, const StructureModel& model) {
 }
 
 solvers::ContactLaws laws_with_outputs(const Scene& scene, int contacts) {
+  const std::size_t outputs = output_rows(scene).size();
+  const auto with_outputs = [contacts, outputs](const solvers::ContactLaws& laws) -> solvers::ContactLaws {
+    std::vector<solvers::AnyContactLaw> each;
+    for (int row = 0; row < contacts; row += laws[row].rows()) each.push_back(laws[row]);
+    each.resize(each.size() + outputs);  // of no law
+    return each;
+  };
   const solvers::ContactLaws laws = make_laws(scene);
-  std::vector<solvers::AnyContactLaw> each;
-  for (int row = 0; row < contacts; row += laws[row].rows()) each.push_back(laws[row]);
-  each.resize(each.size() + output_rows(scene).size());  // of no law
-  return each;
+  if (!laws.follow_frequency()) return with_outputs(laws);
+  return solvers::ContactLaws::over_frequency(
+      [laws, with_outputs](double frequency) { return with_outputs(laws.at(frequency)); },
+      load_frequency(scene));
 }
 
 std::vector<MotionPlace> places_of(const Scene& scene) {

@@ -96,7 +96,7 @@ solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
   const std::vector<SceneContact> contacts = contacts_of(scene, frequency);
   const bool one = std::all_of(contacts.begin(), contacts.end(),
                                [&](const SceneContact& other) { return other.same_law(contacts.front()); });
-  if (one && !has_friction(scene) && !names_plane(scene.contact))
+  if (one && !has_friction(scene) && !names_coupled_rows(scene.contact))
     return contacts.empty() ? make_law(scene.contact) : law_of(contacts[0].law, contacts[0].values);
   std::vector<solvers::AnyContactLaw> laws;
   for (const SceneContact& contact : contacts)
@@ -108,7 +108,9 @@ solvers::ContactLaws laws_at(const Scene& scene, double frequency) {
 
 solvers::ContactLaws make_laws(const Scene& scene) {
   if (!has_growing_normal_load(scene.contact)) return laws_at(scene, load_frequency(scene));
-  return solvers::ContactLaws::over_frequency([scene](double frequency) { return laws_at(scene, frequency); },
+  Scene read = scene;
+  read.contact = with_tables_read(scene.contact);
+  return solvers::ContactLaws::over_frequency([read](double frequency) { return laws_at(read, frequency); },
                                               load_frequency(scene));
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "compose/scene_rules.hpp"
+#include "files/frequency_table.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -113,10 +114,32 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
   if (scene.analysis.exact) check_elastic_planes(document, scene, "analysis.exact", "false");
 }
 
-/// A ring is solved by balances in the displacement form, and by events.
-void check_plane_analysis(const Document& document, const Scene& scene) {
-  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+/// A ring and a periodic stiffness are solved by balances in the displacement form, and by events.
+void check_coupled_analysis(const Document& document, const Scene& scene) {
+  const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  if (mode && names_plane(scene.contact))
     fail_rule(document, {"analysis.type", "contact.law"}, "not with a ring; expected another analysis");
+  if (!names_signal(scene.contact)) return;
+  const std::string stiffness = "not with a periodic stiffness, ";
+  if (mode || scene.analysis.type == AnalysisType::limit_cycle)
+    fail_rule(document, {"analysis.type", "contact.law"},
+              stiffness + "which has the period of a load; expected another analysis");
+  if (is_over_amplitude(scene.analysis))
+    fail_rule(document, {"analysis.type", "contact.law"},
+              stiffness +
+                  "whose harmonics are no load that an amplitude scales; expected a sweep over the "
+                  "frequency, or a study over stiffness_harmonics or the amplitude");
+  if (scene.structure.loss_factor > 0.0)
+    fail_rule(
+        document, {"structure.loss_factor"},
+        stiffness + "whose motion is no sum of harmonics that each have a stiffness; expected 0, or damping");
+}
+
+/// A periodic stiffness is one of [[contact.pairs]].
+void check_signal(const Document& document, const SceneContact& contact) {
+  if (!contact.pair)
+    fail_rule(document, {"contact.law"},
+              "acts between degrees of freedom; expected [[contact.pairs]] with dofs, one or two of them");
 }
 
 /// Rigid friction that is integrated in time begins at rest where the structure is.
@@ -192,10 +215,7 @@ void check_friction_pair(const Document& document, const Scene& scene, const Sce
       fail_law(document, contact, key,
                "the contact has no normal direction, " + std::string(expected) +
                    ", or [[contact.pairs]] with tangent");
-  const bool grows = contact::number_or(values, "normal_load_speed2", 0.0) > 0.0;
-  if (grows && scene.analysis.type == AnalysisType::nonlinear_mode)
-    fail_rule(document, {section + ".normal_load_speed2", "contact.normal_load_speed2"},
-              "a nonlinear mode has no speed; expected normal_load alone");
+  const bool grows = has_growing_normal_load(scene.contact);
   if (!has_normal && !grows && !(contact::number_of(values, "normal_load") > 0.0))
     fail_rule(
         document, {section + ".normal_load", "contact.normal_load"},
@@ -296,18 +316,47 @@ void check_mixture(const Document& document, const Scene& scene) {
   }
 }
 
+/// Normal loads that follow the frequency of the load belong to analyses that have one, which a table holds.
+void check_normal_loads(const Document& document, const Scene& scene) {
+  const auto check = [&](const std::string& section, const contact::LawValues& values) {
+    const AnalysisType type = scene.analysis.type;
+    const bool load = type != AnalysisType::nonlinear_mode && type != AnalysisType::limit_cycle;
+    const std::string none = "analysis.type = \"" + name_of(type) +
+                             "\" has no load whose frequency it follows; "
+                             "expected normal_load alone";
+    if (!load && contact::number_or(values, "normal_load_speed2", 0.0) > 0.0)
+      fail_rule(document, {section + ".normal_load_speed2"}, none);
+    if (!values.contains("normal_load_table")) return;
+    if (!load) fail_rule(document, {section + ".normal_load_table"}, none);
+    try {
+      const std::string& file = contact::file_of(values, "normal_load_table");
+      std::vector<double> places = read_normal_loads(file);
+      places.resize(places.size() / 2);
+      const auto [from, to] = load_frequencies(scene);
+      require_frequencies(file, places, from, to);
+    } catch (const std::runtime_error& error) {
+      fail_rule(document, {section + ".normal_load_table"}, error.what());
+    }
+  };
+  check("contact", scene.contact.values);
+  for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
+    check(pair_section(i), scene.contact.pairs[i].values);
+}
+
 }  // namespace
 
 void check_laws(const Document& document, const Scene& scene) {
+  check_normal_loads(document, scene);
   check_mixture(document, scene);
   check_tangents(document, scene);
   const std::vector<SceneContact> contacts = contacts_of(scene);
   if (has_friction(scene)) check_friction_analysis(document, scene);
-  if (names_plane(scene.contact)) check_plane_analysis(document, scene);
+  if (names_coupled_rows(scene.contact)) check_coupled_analysis(document, scene);
   for (const SceneContact& contact : contacts) {
     if (has_friction(contact.law)) check_friction_pair(document, scene, contact);
     if (has_friction(contact.law)) check_friction_of_states(document, scene, contact);
     if (acts_in_plane(contact.law)) check_ring(document, scene, contact);
+    if (reads_signal(contact.law)) check_signal(document, contact);
   }
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i)
     if (has_friction(scene.contact.pairs[i].law))

@@ -179,6 +179,7 @@ std::vector<Output> outputs_of(const Scene& scene) {
   std::vector<std::string> places;
   if (scene.structure.type == StructureType::matrices) places = contact_names(scene);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (is_signal(contacts[i])) continue;
     const std::string name = name_of(contacts[i]);
     const bool placed = !places.empty() && contacts[i].name.empty();
     const std::string title = placed ? name + ", " + places[i] : name;
@@ -218,7 +219,8 @@ Eigen::MatrixXd rows_of_outputs(const std::vector<Output>& outputs, const Scene&
     for (const int row : outputs[i].rows)
       unknowns += outputs[i].weight *
                   (matrices ? row_of_unknowns(*files, row) : Eigen::RowVectorXd::Unit(model.unknowns, row));
-    rows.row(Eigen::Index(i)) = model.reduced() ? Eigen::RowVectorXd(unknowns * model.recovery) : unknowns;
+    const Eigen::RowVectorXd own = model.reduced() ? Eigen::RowVectorXd(unknowns * model.recovery) : unknowns;
+    rows.row(Eigen::Index(i)).head(own.size()) = own;  // signals are behind them
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "compose/signals.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"
 #include "matrices/structure_files.hpp"
@@ -55,6 +56,7 @@ solvers::LinearStructure structure_of_files(const Scene& scene) {
       {.force = unit_load(scene, *files), .inertia = {}, .files = files.get(), .stiffness_damping = 0.0});
   if (scene.structure.matrices.free)
     structure.rigid_modes = solvers::find_rigid_modes(structure.mass, structure.stiffness);
+  append_signals(structure, scene);
   return structure;
 }
 

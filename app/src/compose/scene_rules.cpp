@@ -5,7 +5,6 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "matrices/loads.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -217,28 +216,6 @@ void check_motions(const Document& document, const Scene& scene) {
               "a sweep writes no motion without analysis.motion_at; expected 0, or motion_at = \"peak\"");
 }
 
-/// Each series has what its file and the functions can hold.
-void check_series(const Document& document, const Scene& scene) {
-  const bool phases = solves_by_phases(scene) || solves_by_impacts(scene) || moves_by_events(scene);
-  const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
-  const int functions = phases ? phases_starts.back() : scene.time.functions;
-  const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
-  for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i) {
-    const ForcingTerm& term = scene.forcing.terms[i];
-    if (balanced && term.samples.empty() && term.harmonic > most)
-      fail_rule(document, {term_section(i) + ".harmonic", "time.functions"},
-                "the functions hold harmonics of the load up to " + std::to_string(most) +
-                    "; expected no more" + (phases ? "" : ", or more time.functions"));
-    try {
-      harmonics_of(term);
-      check_amplitude_table(scene, term);
-    } catch (const SamplesFault& fault) {
-      const char* file = term.samples.empty() ? ".amplitude_table" : ".samples";
-      fail_rule(document, {term_section(i) + file}, fault.what());
-    }
-  }
-}
-
 void check_dense_size(const Document& document, const Scene& scene) {
   const bool stepping = integrates_in_time(scene.analysis.type);
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
@@ -372,7 +349,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   if (sweep) check_sweep(document, scene);
   if (sweep) check_motions(document, scene);
   check_records(document, scene);
-  if (!mode) check_series(document, scene);
+  if (!mode) check_loads(document, scene);
   if (balanced) check_subharmonic(document, scene);
   check_outputs(document, scene);
   check_branches(document, scene);

@@ -21,6 +21,9 @@ void check_laws(const Document& document, const Scene& scene);
 /// scene. Throws SceneError.
 void check_structure_rules(const Document& document, Scene& scene);
 
+/// Checks that each series of the loads has what its file and the functions can hold. Throws SceneError.
+void check_loads(const Document& document, const Scene& scene);
+
 /// Checks functions, quadrature and the pair of bases of a balance. Throws SceneError.
 void check_time(const Document& document, const Scene& scene);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "compose/signals.hpp"
 #include "matrices/carried_rows.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"
@@ -61,7 +62,7 @@ StructureModel bar_model(const Scene& scene) {
   model.structure.stiffness = std::move(matrices.stiffness);
   model.structure.contact_directions = solvers::contact_rows({bar.elements - 1}, bar.elements);
   model.structure.load = Eigen::VectorXd::Zero(bar.elements);
-  model.structure.load[bar.elements - 1] = scene.forcing.amplitude;
+  model.structure.load[bar.elements - 1] = plain_amplitude(scene.forcing);
   model.structure.forces =
       forces_of(scene.forcing, {.force = Eigen::VectorXd::Unit(bar.elements, bar.elements - 1),
                                 .inertia = bar_inertia(bar, model.structure.mass)});
@@ -226,7 +227,7 @@ StructureModel blade_model(const Scene& scene, const solvers::Observer& observer
   fem::Matrices matrices = fem::solid_matrices(blade->model, scene.structure.stiffness_damping);
   stiffen_by_rotation(matrices, blade->model, scene.structure.blade);
   model.unknowns = blade->model.dofs.count();
-  const Loads loads{blade_load(scene, *blade, scene.forcing.amplitude),
+  const Loads loads{blade_load(scene, *blade, plain_amplitude(scene.forcing)),
                     forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
                                               .inertia = blade_inertia(scene, *blade, matrices.mass)})};
   reduce(model, matrices, loads, solvers::contact_rows(tip_unknowns(scene, *blade), model.unknowns),
@@ -258,7 +259,7 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
       matrices.damping += proportional;
   }
   const Eigen::VectorXd unit = unit_load(scene, *files);
-  const Loads loads{scene.forcing.amplitude * unit,
+  const Loads loads{plain_amplitude(scene.forcing) * unit,
                     forces_of(scene.forcing, {.force = unit,
                                               .inertia = {},
                                               .files = files.get(),
@@ -306,7 +307,7 @@ Eigen::MatrixXd StructureModel::recover(const Eigen::MatrixXd& coordinates) cons
   if (coordinates.rows() != size())
     throw std::invalid_argument("StructureModel::recover: there are " + std::to_string(coordinates.rows()) +
                                 " rows of coordinates; there must be " + std::to_string(size()));
-  return reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates;
+  return reduced() ? Eigen::MatrixXd(recovery * coordinates) : coordinates.topRows(unknowns);
 }
 
 void set_gaps(StructureModel& model, const Scene& scene) {
@@ -338,6 +339,7 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
       make_contacts_massless(model, massless_modes(scene.structure, model.structure));
     model.frequency_change = frequency_change(with_mass, model.structure);
   }
+  append_signals(model, scene);
   model.turning = model.structure.turning;
   if (!turns_along_curve(scene)) model.structure.turning = {};
   set_gaps(model, scene);

@@ -101,6 +101,10 @@ std::string term_place(const Scene& scene, const ForcingTerm& term) {
   return scene.structure.type == StructureType::matrices ? force_place(scene) : "";
 }
 
+std::string table_text(const std::string& file) {
+  return file.empty() ? "" : " times a table over the frequency";
+}
+
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string size = number_text(term.amplitude);
@@ -111,8 +115,9 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
   const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term)) : "";
-  const std::string table = term.amplitude_table.empty() ? "" : " times a table over the frequency";
-  return fmt::format("           {}: {}{}{}{}{}\n", spaced_words(name_of(term.kind)), series, unit, table,
+  return fmt::format("           {}: {}{}{}{}{}
+", spaced_words(name_of(term.kind)), series, unit,
+                     table_text(term.amplitude_table),
                      phase, place.empty() ? "" : " " + place);
 }
 
@@ -171,8 +176,8 @@ std::string forcing_line(const Scene& scene) {
   const std::string periods =
       analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
   const bool terms_alone = scene.forcing.amplitude == 0.0 && !terms.empty();
-  const std::string force =
-      fmt::format("{} N {}, ", number_text(scene.forcing.amplitude), force_place(scene));
+  const std::string force = fmt::format("{} N{} {}, ", number_text(scene.forcing.amplitude),
+                                        table_text(scene.forcing.amplitude_table), force_place(scene));
   return fmt::format("forcing    {}{} Hz{}{}\n{}", terms_alone ? "" : force, frequency, periods,
                      analysis.branches ? ", with branches" : "", terms) +
          isolas_line(analysis);

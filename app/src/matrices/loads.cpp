@@ -8,17 +8,17 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "files/frequency_table.hpp"
 #include "matrices/load_places.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/spectral/fft.hpp"
 
 namespace wavebalance::app {
 namespace {
 
 using solvers::PeriodicForce;
-
-constexpr std::size_t max_samples_bytes = std::size_t{1} << 28;
 
 /// Refuses a file whose first row are numbers, which would otherwise be lost.
 void require_names(const Table& table, const std::string& file) {
@@ -33,7 +33,7 @@ void require_names(const Table& table, const std::string& file) {
 std::vector<double> samples_in(const std::string& file) {
   std::vector<double> samples;
   try {
-    const Table table = read_csv(file, max_samples_bytes);
+    const Table table = read_csv(file, max_table_bytes);
     require_names(table, file);
     samples = table.numbers(table.columns().back());
   } catch (const std::exception& error) {
@@ -140,52 +140,31 @@ void add_by_table(std::vector<PeriodicForce>& forces, PeriodicForce force, const
 
 }  // namespace
 
-AmplitudeTable amplitude_table(const ForcingTerm& term) {
-  AmplitudeTable result;
-  const std::string& file = term.amplitude_table;
-  if (file.empty()) return result;
+AmplitudeTable amplitude_table(const std::string& file) {
+  if (file.empty()) return {};
   try {
-    const Table table = read_csv(file, max_samples_bytes);
-    for (const char* name : {"frequency_Hz", "amplitude"})
-      if (!table.has_column(name))
-        throw SamplesFault(
-            fmt::format("{}: there is no column {}; expected frequency_Hz, amplitude and, if wanted, "
-                        "phase_degrees",
-                        file, name));
-    result.frequencies = table.numbers("frequency_Hz");
-    result.amplitudes = table.numbers("amplitude");
-    result.phases = table.has_column("phase_degrees") ? table.numbers("phase_degrees")
-                                                      : std::vector<double>(table.rows(), 0.0);
-  } catch (const SamplesFault&) {
-    throw;
+    const Table table = read_frequency_table(file, "amplitude", "phase_degrees");
+    return {table.numbers("frequency_Hz"), table.numbers("amplitude"),
+            table.has_column("phase_degrees") ? table.numbers("phase_degrees")
+                                              : std::vector<double>(table.rows(), 0.0)};
   } catch (const std::exception& error) {
     throw SamplesFault(error.what());
   }
-  if (result.frequencies.size() < 2)
-    throw SamplesFault(
-        fmt::format("{}: there are {} rows; expected at least 2", file, result.frequencies.size()));
-  for (std::size_t i = 0; i < result.frequencies.size(); ++i) {
-    if (!std::isfinite(result.frequencies[i] + result.amplitudes[i] + result.phases[i]))
-      throw SamplesFault(fmt::format("{}: row {} has an entry that is no finite number", file, i + 1));
-    if (i > 0 && !(result.frequencies[i] > result.frequencies[i - 1]))
-      throw SamplesFault(fmt::format("{}: frequency_Hz = {} of row {} is not above that of the row before",
-                                     file, result.frequencies[i], i + 1));
-  }
-  return result;
 }
 
-void check_amplitude_table(const Scene& scene, const ForcingTerm& term) {
-  const AmplitudeTable table = amplitude_table(term);
+void check_amplitude_table(const Scene& scene, const std::string& file) {
+  const AmplitudeTable table = amplitude_table(file);
   if (table.empty()) return;
-  const bool sweep = scene.analysis.type == AnalysisType::frequency_sweep;
-  const double from = sweep ? scene.analysis.frequency_from : scene.forcing.frequency,
-               to = sweep ? scene.analysis.frequency_to : from;
-  if (std::min(from, to) >= table.frequencies.front() && std::max(from, to) <= table.frequencies.back())
-    return;
-  throw SamplesFault(
-      fmt::format("{} has rows from {} to {} Hz; expected all frequencies of the scene, {} to {} Hz",
-                  term.amplitude_table, table.frequencies.front(), table.frequencies.back(),
-                  std::min(from, to), std::max(from, to)));
+  const auto [from, to] = load_frequencies(scene);
+  try {
+    require_frequencies(file, table.frequencies, from, to);
+  } catch (const std::runtime_error& error) {
+    throw SamplesFault(error.what());
+  }
+}
+
+double plain_amplitude(const Forcing& forcing) {
+  return forcing.amplitude_table.empty() ? forcing.amplitude : 0.0;
 }
 
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term) {
@@ -203,8 +182,10 @@ std::vector<PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& p
   std::vector<PeriodicForce> forces;
   if (places.files != nullptr && !forcing.weight.empty())
     add_force(forces, {weight_of(forcing, *places.files), Eigen::VectorXcd::Ones(1), 0});
+  if (const AmplitudeTable table = amplitude_table(forcing.amplitude_table); !table.empty())
+    add_by_table(forces, {forcing.amplitude * places.force, Eigen::VectorXcd::Unit(2, 1), 0}, table);
   for (std::size_t i = 0; i < forcing.terms.size(); ++i) {
-    const AmplitudeTable table = amplitude_table(forcing.terms[i]);
+    const AmplitudeTable table = amplitude_table(forcing.terms[i].amplitude_table);
     std::vector<PeriodicForce> own;
     add_term(table.empty() ? forces : own, forcing, i, places);
     for (PeriodicForce& force : own) add_by_table(forces, std::move(force), table);

@@ -28,19 +28,22 @@ struct LoadPlaces {
 /// SamplesFault for a file that is not there, without numbers, or with fewer than two.
 Eigen::VectorXcd harmonics_of(const ForcingTerm& term);
 
-/// The columns of ForcingTerm::amplitude_table; empty without one.
+/// The columns of a file amplitude_table; empty without one.
 struct AmplitudeTable {
   std::vector<double> frequencies, amplitudes, phases;  ///< Hz, 1, degrees: as many of each
 
   bool empty() const { return frequencies.empty(); }
 };
-/// That of a term. Throws SamplesFault for a file that is not there, without these columns, with fewer than
-/// two rows or a number that is not finite, and for frequencies that do not ascend.
-AmplitudeTable amplitude_table(const ForcingTerm& term);
-/// The table of a term, if it has one, holds all frequencies of the scene. Throws SamplesFault.
-void check_amplitude_table(const Scene& scene, const ForcingTerm& term);
+/// Throws SamplesFault for a file that is not there, without these columns, with fewer than two rows or a
+/// number that is not finite, and for frequencies that do not ascend.
+AmplitudeTable amplitude_table(const std::string& file);
+/// The table, if there is one, holds all frequencies of the scene. Throws SamplesFault.
+void check_amplitude_table(const Scene& scene, const std::string& file);
+/// Forcing::amplitude, or 0 where it follows a table, by which forces_of() has it.
+double plain_amplitude(const Forcing& forcing);
 
-/// The forces of the weight and of all terms, those of the same shape together. Throws as harmonics_of().
+/// The forces of the weight, of an amplitude by a table and of all terms, those of the same shape together.
+/// Throws as harmonics_of().
 std::vector<solvers::PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places);
 
 }  // namespace wavebalance::app

@@ -40,7 +40,10 @@ Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& file
 
 /// The scene with each of its pairs once.
 Scene with_one_side(Scene scene) {
-  for (ContactPair& pair : scene.contact.pairs) pair.side = ObstacleSide::positive;
+  for (ContactPair& pair : scene.contact.pairs) {
+    pair.side = ObstacleSide::positive;
+    if (reads_signal(pair.law)) pair.law = "linear";  // places alone matter, and a signal has none
+  }
   return scene;
 }
 
@@ -106,8 +109,8 @@ std::vector<std::string> contact_names(const Scene& scene) {
   const auto files = structure_files(scene);
   std::vector<std::string> names;
   for (const SceneContact& contact : contact_places(scene)) {
-    if (!contact.name.empty()) {
-      names.push_back(contact.name);
+    if (!contact.name.empty() || contact.dofs.empty()) {
+      names.push_back(name_of(contact));
       continue;
     }
     std::vector<std::string> rows;

@@ -62,6 +62,7 @@ void append_rest(Record& record, const Scene& scene, const StructureModel& model
   const bool directed = has_directions(contacts), named = !contact_labels(scene).empty();
   std::vector<Summary> rows;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (is_signal(contacts[i])) continue;
     Summary& row = rows.emplace_back(Summary{{"contact", contacts[i].number}});
     if (directed) row.emplace_back("direction", direction_name(contacts[i]));
     row.emplace_back("displacement_m", rest->displacement[Eigen::Index(i)]);
@@ -83,10 +84,11 @@ std::string rest_lines(const Scene& scene) {
   std::string text = fmt::format("at rest    {} of {} contacts {} under the static loads\n", closed,
                                  whole_contact_count(scene), closed == 1 ? "is closed" : "are closed");
   for (std::size_t i = 0; i < std::min(shown, contacts.size()); ++i)
-    text += "           " +
-            contact_text(contacts[i], names[i], displacement_unit(scene, contacts[i]),
-                         rest->displacement[Eigen::Index(i)], rest->force[Eigen::Index(i)]) +
-            "\n";
+    if (!is_signal(contacts[i]))
+      text += "           " +
+              contact_text(contacts[i], names[i], displacement_unit(scene, contacts[i]),
+                           rest->displacement[Eigen::Index(i)], rest->force[Eigen::Index(i)]) +
+              "\n";
   if (contacts.size() > shown)
     text += fmt::format("           and {} more; the record lists all\n", contacts.size() - shown);
   return text;

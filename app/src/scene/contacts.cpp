@@ -6,7 +6,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "files/frequency_table.hpp"
 #include "wavebalance/contact/catalogue.hpp"
+#include "wavebalance/solvers/structure/periodic_force.hpp"
 
 namespace wavebalance::app {
 
@@ -14,6 +16,7 @@ namespace {
 
 void add_tangents(const ContactPair& pair, std::size_t index, const std::string& name,
                   std::vector<SceneContact>& contacts) {
+  if (reads_signal(pair.law)) contacts.push_back({.pair = index, .place = 1, .name = name, .law = pair.law});
   int place = 0;
   const auto add = [&](const std::vector<int>& dofs, const std::vector<double>& coefficients) {
     if (!dofs.empty())
@@ -70,14 +73,27 @@ std::vector<SceneContact> unnumbered_places(const Scene& scene) {
   return contacts;
 }
 
-constexpr const char* growth_of_normal_load = "normal_load_speed2";
+constexpr const char *growth_of_normal_load = "normal_load_speed2",
+                     *table_of_normal_load = "normal_load_table";
+
+// Through the rows of a table, which are read already where contact_tables_read() has done so.
+double normal_load_in(const contact::LawValue& table, double frequency) {
+  const auto* rows = std::get_if<std::vector<double>>(&table);
+  if (rows == nullptr) return normal_load_in(read_normal_loads(std::get<std::string>(table)), frequency);
+  const auto count = std::ssize(*rows) / 2;
+  return solvers::FrequencyFactor{Eigen::VectorXd::Map(rows->data(), count),
+                                  Eigen::VectorXd::Map(rows->data() + count, count)}
+      .at(frequency);
+}
 
 // At a frequency of the load, Hz.
 void set_normal_load(contact::LawValues& values, double frequency) {
   const double speed = 2.0 * std::numbers::pi * frequency;
-  const double grown = contact::number_or(values, growth_of_normal_load, 0.0) * speed * speed;
-  if (values.erase(growth_of_normal_load) > 0)
-    values.insert_or_assign("normal_load", contact::number_or(values, "normal_load", 0.0) + grown);
+  double added = contact::number_or(values, growth_of_normal_load, 0.0) * speed * speed;
+  const auto table = values.find(table_of_normal_load);
+  if (table != values.end()) added += normal_load_in(table->second, frequency);
+  if (values.erase(growth_of_normal_load) + values.erase(table_of_normal_load) > 0)
+    values.insert_or_assign("normal_load", contact::number_or(values, "normal_load", 0.0) + added);
 }
 
 // The number of tangents of a contact with friction.
@@ -87,6 +103,8 @@ int tangents_of(const Scene& scene, const SceneContact& contact) {
 }
 
 }  // namespace
+
+bool is_signal(const SceneContact& contact) { return contact.place > 0 && reads_signal(contact.law); }
 
 int tip_corners(const BladeStructure& blade) { return 2 * (blade.chord_elements + 1); }
 
@@ -106,6 +124,7 @@ int whole_contact_count(const Scene& scene) {
 std::string direction_name(const SceneContact& contact) {
   if (contact.directions == 1) return "";
   if (acts_in_plane(contact.law)) return contact.place == 0 ? "x" : "y";
+  if (reads_signal(contact.law)) return contact.place == 0 ? "" : "stiffness";
   if (contact.place == 0) return "normal";
   return contact.directions == 2 ? "tangent" : "tangent " + std::to_string(contact.place);
 }
@@ -153,14 +172,38 @@ contact::LawValues law_values(const std::string& law, const contact::LawValues& 
   return taken;
 }
 
-double load_frequency(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::frequency_sweep ? scene.analysis.frequency_from
-                                                              : scene.forcing.frequency;
+double load_frequency(const Scene& scene) { return load_frequencies(scene).first; }
+
+std::pair<double, double> load_frequencies(const Scene& scene) {
+  if (varies_frequency(scene.analysis)) return {scene.analysis.frequency_from, scene.analysis.frequency_to};
+  return {scene.forcing.frequency, scene.forcing.frequency};
+}
+
+std::vector<double> read_normal_loads(const std::string& file) {
+  const Table table = read_frequency_table(file, "normal_load");
+  std::vector<double> rows = table.numbers("frequency_Hz");
+  const std::vector<double> loads = table.numbers("normal_load");
+  for (const double load : loads)
+    if (!(load >= 0.0))
+      throw std::runtime_error(file + ": normal_load = " + std::to_string(load) + "; expected at least 0");
+  rows.insert(rows.end(), loads.begin(), loads.end());
+  return rows;
+}
+
+Contact with_tables_read(Contact contact) {
+  const auto read = [](contact::LawValues& values) {
+    const auto found = values.find(table_of_normal_load);
+    if (found != values.end()) found->second = read_normal_loads(std::get<std::string>(found->second));
+  };
+  read(contact.values);
+  for (ContactPair& pair : contact.pairs) read(pair.values);
+  return contact;
 }
 
 bool has_growing_normal_load(const Contact& contact) {
   const auto grows = [](const std::string& law, const contact::LawValues& values) {
-    return has_friction(law) && contact::number_or(values, growth_of_normal_load, 0.0) > 0.0;
+    return has_friction(law) && (contact::number_or(values, growth_of_normal_load, 0.0) > 0.0 ||
+                                 values.contains(table_of_normal_load));
   };
   return grows(contact.law, contact.values) ||
          std::any_of(contact.pairs.begin(), contact.pairs.end(),
@@ -198,7 +241,7 @@ bool has_friction(const Scene& scene) {
 
 bool integrates_by_events(const Scene& scene) {
   return integrates_in_time(scene.analysis.type) &&
-         (has_friction(scene) || names_plane(scene.contact) || has_impacts(scene.contact));
+         (has_friction(scene) || names_coupled_rows(scene.contact) || has_impacts(scene.contact));
 }
 
 double common_gap(const Scene& scene) {

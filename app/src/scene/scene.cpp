@@ -68,6 +68,7 @@ bool acts_everywhere(std::string_view law) {
 }
 bool is_rigid(std::string_view law) { return contact::law_entry(law).rigid; }
 bool acts_in_plane(std::string_view law) { return contact::law_entry(law).acts_in_plane; }
+bool reads_signal(std::string_view law) { return contact::law_entry(law).reads_signal; }
 
 namespace {
 
@@ -79,6 +80,8 @@ bool names(const Contact& contact, bool (*wanted)(std::string_view)) {
 }  // namespace
 
 bool names_plane(const Contact& contact) { return names(contact, acts_in_plane); }
+bool names_signal(const Contact& contact) { return names(contact, reads_signal); }
+bool names_coupled_rows(const Contact& contact) { return names_plane(contact) || names_signal(contact); }
 bool names_friction(const Contact& contact) { return names(contact, has_friction); }
 
 bool takes_energy(const Contact& contact) { return names_friction(contact) || names(contact, is_damped); }
@@ -120,7 +123,7 @@ bool moves_by_events(const Scene& scene) {
   if (has_impacts(contact))
     return free || std::any_of(contact.pairs.begin(), contact.pairs.end(),
                                [](const ContactPair& pair) { return !is_rigid(pair.law); });
-  if (free && (names_friction(contact) || names_plane(contact))) return true;
+  if (free && (names_friction(contact) || names_coupled_rows(contact))) return true;
   if (names_friction_of_states(contact)) return true;
   const bool kept = contact.mass == ContactMass::keep ||
                     (contact.mass == ContactMass::automatic && scene.time.trial.empty() &&
@@ -132,7 +135,7 @@ bool solves_by_impacts(const Scene& scene) { return has_impacts(scene.contact) &
 
 bool seeks_by_events(const Scene& scene) {
   return has_impacts(scene.contact) || moves_by_events(scene) || names_friction(scene.contact) ||
-         names_plane(scene.contact);
+         names_coupled_rows(scene.contact);
 }
 
 Scene with_longer_period(Scene scene, int times) {
@@ -198,7 +201,7 @@ std::vector<std::string> input_files(const Scene& scene) {
   const MatricesStructure& matrices = scene.structure.matrices;
   std::vector<std::string> files{matrices.mass,           matrices.stiffness, matrices.damping,
                                  matrices.dof_map,        matrices.mesh,      matrices.gyroscopic,
-                                 matrices.spin_stiffness, scene.forcing.load};
+                                 matrices.spin_stiffness, scene.forcing.load, scene.forcing.amplitude_table};
   add_files(files, scene.contact.values);
   for (const ForcingTerm& term : scene.forcing.terms)
     files.insert(files.end(), {term.samples, term.load, term.amplitude_table});

@@ -194,7 +194,8 @@ namespace {
 
 // The squared frequency that the springs give to a rigid body: a hundredth of that of the first elastic mode,
 // or where nothing is elastic the squared rate of the dampers.
-double square_of_springs(const LinearStructure& structure, bool small) {
+double square_of_springs(const LinearStructure& whole, bool small) {
+  const LinearStructure structure = without_massless(whole).structure;
   const double largest =
       (structure.stiffness.diagonal().array() / structure.mass.diagonal().array()).abs().maxCoeff();
   if (!(largest > 0.0)) {

@@ -5,6 +5,10 @@ namespace {
 
 SceneValue no_coefficients(const Scene&) { return std::vector<double>(); }
 
+constexpr const char* table_help =
+    "CSV file with the columns frequency_Hz, amplitude and, if wanted, phase_degrees over the frequency of the "
+    "load: factors on amplitude, monotone between its rows";
+
 }  // namespace
 
 void add_forcing_keys(std::vector<SceneKey>& keys) {
@@ -14,6 +18,7 @@ void add_forcing_keys(std::vector<SceneKey>& keys) {
           "load or load_dofs of matrices; 0 where it is not given beside [[forcing.terms]]",
           required_with(analysis_where(&AnalysisKind::under_load)));
   keys.back().in_terms = true;
+  forcing(&Forcing::amplitude_table, "amplitude_table", "", table_help, path, none_by_default());
   forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
           required_with(analysis_where(&AnalysisKind::at_one_frequency)));
   forcing(
@@ -56,11 +61,8 @@ std::vector<SceneKey> term_keys(std::size_t index) {
       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
   term(&ForcingTerm::unit, "unit", "", "of the amplitude of a base_acceleration: g is 9.80665 m/s^2",
        one_of({"g"}), none_by_default());
-  term(
-      &ForcingTerm::amplitude_table, "amplitude_table", "",
-      "CSV file with the columns frequency_Hz, amplitude and, if wanted, phase_degrees over the frequency of the load: "
-      "factors on amplitude, which is 1 where it is not given, monotone between its rows",
-      path, none_by_default());
+  term(&ForcingTerm::amplitude_table, "amplitude_table", "",
+       std::string(table_help) + "; amplitude is 1 where it is not given", path, none_by_default());
   term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
        derived("1", [](const Scene&) { return std::int64_t{1}; }));
   term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",

@@ -14,6 +14,7 @@
 #include "wavebalance/contact/law_description.hpp"
 #include "wavebalance/contact/linear_law.hpp"
 #include "wavebalance/contact/no_contact.hpp"
+#include "wavebalance/contact/periodic_stiffness_law.hpp"
 #include "wavebalance/contact/polynomial_law.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/contact/ring_law.hpp"
@@ -36,13 +37,15 @@ using AnyLaw = std::variant<NoContact,        //
                             HuntCrossleyLaw,  //
                             KelvinVoigtLaw,   //
                             CoulombLaw,       //
-                            RingLaw>;
+                            RingLaw,          //
+                            PeriodicStiffnessLaw>;
 
 /// A row of the catalogue.
 struct LawEntry : LawDescription {
   bool reads_velocity = false;                    ///< whether the force depends on the velocity, too
   bool acts_over_period = false;                  ///< whether it follows from the motion over a whole period
   bool acts_in_plane = false;                     ///< whether it acts along two directions together
+  bool reads_signal = false;                      ///< whether its second row is a signal known beforehand
   std::function<AnyLaw(const LawValues&)> maker;  ///< from complete values
 
   /// The law of these values. Throws LawFault as complete_values() does, also for values that are in range

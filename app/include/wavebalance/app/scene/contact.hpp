@@ -73,8 +73,12 @@ bool is_rigid(std::string_view law);
 bool has_friction(std::string_view law);
 /// Whether it acts along two directions together, beyond a gap along every radius: a ring.
 bool acts_in_plane(std::string_view law);
-/// Whether a law of [contact] or of a pair does.
+/// Whether its second row is a signal known beforehand: a periodic stiffness.
+bool reads_signal(std::string_view law);
+/// Whether a law of [contact] or of a pair acts in a plane; whether one reads a signal; whether either.
 bool names_plane(const Contact& contact);
+bool names_signal(const Contact& contact);
+bool names_coupled_rows(const Contact& contact);
 /// Whether a law of [contact] or of a pair has friction that sticks or slips.
 bool names_friction(const Contact& contact);
 /// Whether a law of [contact] or of a pair takes energy from a motion: friction, or a force of the velocity.

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
@@ -27,6 +28,9 @@ struct SceneContact {
   bool same_law(const SceneContact& other) const { return law == other.law && values == other.values; }
 };
 
+/// Whether a direction is no motion but the signal of its law.
+bool is_signal(const SceneContact& contact);
+
 /// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a
 /// bar or blade, then those of [[contact.pairs]], of which one with obstacles on both sides has two, the
 /// positive one first. Normal loads that grow with the square of the frequency have their size at
@@ -35,7 +39,14 @@ struct SceneContact {
 std::vector<SceneContact> contacts_of(const Scene& scene, std::optional<double> frequency = {});
 /// Hz: forcing.frequency, or that at which a sweep over the frequency begins.
 double load_frequency(const Scene& scene);
-/// Whether the normal load of a contact grows with the square of the frequency.
+/// The same and that at which it ends, which is the same without a sweep or diagram.
+std::pair<double, double> load_frequencies(const Scene& scene);
+/// A file normal_load_table: its frequencies, Hz and ascending, and then its normal loads, N. Throws
+/// std::runtime_error, naming the file, where it is wrong.
+std::vector<double> read_normal_loads(const std::string& file);
+/// With them in place of the names of the files, for laws at many frequencies.
+Contact with_tables_read(Contact contact);
+/// Whether the normal load of a contact grows with the square of the frequency, or follows a table.
 bool has_growing_normal_load(const Contact& contact);
 
 /// The same without the values of laws and gaps.

@@ -38,6 +38,7 @@ struct ForcingTerm {
 /// a blade's tip; and the terms. Nonlinear modes do not use it.
 struct Forcing {
   double amplitude = 0.0;                      ///< N
+  std::string amplitude_table = {};            ///< factors on it, as ForcingTerm::amplitude_table; or empty
   double frequency = 0.0;                      ///< Hz, > 0; a frequency sweep does not use it
   std::string load = {};                       ///< matrices: Matrix Market file of n values, or empty
   std::vector<int> load_dofs = {};             ///< matrices: from 1, each with value 1; -i: dof i with -1
