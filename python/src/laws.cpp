@@ -172,6 +172,9 @@ void add_factories(py::module_& module) {
   module.def("needs_events", &needs_events);
   module.def("law_catalogue", &law_catalogue);
   module.def("make_law", [](const std::string& name, const contact::LawValues& values) {
+    if (contact::law_entry(name).reads_signal)
+      throw std::invalid_argument(name +
+                                  " has a signal beside its contact, which a scene makes; expected a scene");
     return std::visit([](const auto& law) { return Law(law); }, contact::law_entry(name).make(values));
   });
   module.def("table_law", [](std::vector<double> displacements, std::vector<double> forces) {

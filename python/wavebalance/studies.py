@@ -100,6 +100,7 @@ def study(
     samples: int | None = None,
     seed: int | None = None,
     quantity: str | None = None,
+    follow: bool = False,
     output: str | os.PathLike[str] | None = None,
     unset: Iterable[str] = (),
     threads: int = 0,
@@ -120,6 +121,8 @@ def study(
         "latin_hypercube" with a number of samples, and the second with a seed, 1 by default.
     quantity:
         The column that the picture shows, max_displacement_m by default.
+    follow:
+        Whether each run starts from the limit cycle of the run before it, one by one; not with an executor.
     output:
         A folder for the files and the journal of ``wavebalance study --output``. A study that was begun there goes on.
     threads:
@@ -145,7 +148,9 @@ def study(
     with scene_source(scene, overrides, unset) as source:
         if executor is not None and source.temporary:
             raise ValueError("scene holds matrices in memory, which workers of an executor cannot read; expected names of files")
-        plan = _plan(source, parameters, sampling, samples, seed, quantity, executor is None)
+        if executor is not None and follow:
+            raise ValueError("follow = True solves one run after the other; expected no executor")
+        plan = _plan(source, parameters, sampling, samples, seed, quantity, follow, executor is None)
         plan.check()
         session = _core.StudySession(plan, "" if output is None else os.fspath(output))
         try:
@@ -161,10 +166,11 @@ def _plan(
     samples: int | None,
     seed: int | None,
     quantity: str | None,
+    follow: bool,
     here: bool,
 ) -> _core.StudyPlan:
     """The study as the command reads it from a file, and the text of its scene."""
-    values = {"sampling": sampling, "samples": samples, "seed": seed, "quantity": quantity}
+    values = {"sampling": sampling, "samples": samples, "seed": seed, "quantity": quantity, "follow": follow or None}
     lines = [f"{key} = {toml_value(value)}" for key, value in values.items() if value is not None]
     lines += [f"set = {toml_value(source.overrides)}", f"unset = {toml_value(source.removed)}"]
     for key, taken in parameters.items():

@@ -148,24 +148,29 @@ StartMotion read_start_motion(const fs::path& place) {
   start.contacts = motion_of(read_csv(file), file);
   const Summary summary = read_summary(file.parent_path() / "summary.json");
   start.periods = periods_of(summary, file);
+  if (const auto* frequency = value_in<double>(summary, "frequency_Hz")) start.frequency = *frequency;
   return start;
 }
 
 void require_start_fits(const StartMotion& start, const Scene& scene) {
   if (start.contacts.empty()) return;
   const AnalysisType type = scene.analysis.type;
+  const bool cycle = type == AnalysisType::limit_cycle;
   const bool balanced = type == AnalysisType::forced_response || type == AnalysisType::frequency_sweep ||
                         type == AnalysisType::amplitude_sweep;
   const int contacts = contact_count(scene), periods = scene.analysis.subharmonic;
   const std::pair<bool, std::string> refusals[] = {
-      {!balanced, "analysis.type = \"" + name_of(type) +
-                      "\" has no start; expected forced_response, frequency_sweep or amplitude_sweep"},
-      {solves_by_impacts(scene) || moves_by_events(scene),
+      {!balanced && !cycle,
+       "analysis.type = \"" + name_of(type) +
+           "\" has no start; expected forced_response, frequency_sweep, amplitude_sweep or limit_cycle"},
+      {cycle && !(start.frequency > 0.0),
+       start.source + " has no frequency_Hz beside it; expected the results of a limit cycle"},
+      {!cycle && (solves_by_impacts(scene) || moves_by_events(scene)),
        "not with impacts, or friction of bodies with mass that no balance has, whose motions start from "
        "what the structure settles to"},
-      {solves_by_phases(scene),
+      {!cycle && solves_by_phases(scene),
        "not with time.method = \"exact\", which starts from a coarse balance of its own; expected \"balance\""},
-      {scene.time.tolerance > 0.0,
+      {!cycle && scene.time.tolerance > 0.0,
        "not with time.tolerance, which starts from coarser motions of its own; expected time.functions"},
       {start.contacts.rows() != contacts,
        fmt::format("{} has the motion of {}, but the scene has {}", start.source,

@@ -11,10 +11,13 @@
 namespace wavebalance::app {
 namespace {
 
-solvers::LimitCycleOptions options_of(const Scene& scene, const Observer& observer) {
-  solvers::LimitCycleOptions options{.random_starts = scene.analysis.random_starts,
-                                     .seed = static_cast<unsigned>(scene.analysis.seed),
-                                     .max_periods = scene.analysis.max_periods};
+solvers::LimitCycleOptions options_of(const Scene& scene, const StartMotion& start,
+                                      const Observer& observer) {
+  solvers::LimitCycleOptions options{
+      .near = {start.contacts.displacement, start.contacts.force, start.frequency},
+      .random_starts = scene.analysis.random_starts,
+      .seed = static_cast<unsigned>(scene.analysis.seed),
+      .max_periods = scene.analysis.max_periods};
   options.motion.tolerance = scene.time.tolerance > 0.0 ? scene.time.tolerance : default_phases_tolerance;
   options.motion.observer = observer;
   return options;
@@ -41,9 +44,9 @@ void copy_solution(const Scene& scene, const StructureModel& model, const Respon
 }  // namespace
 
 LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel& model,
-                                        const ResponseOptions& options) {
+                                        const StartMotion& start, const ResponseOptions& options) {
   constexpr double any = 0.618034;  // Hz, of the static loads
-  const auto start = std::chrono::steady_clock::now();
+  const auto begin = std::chrono::steady_clock::now();
   LimitCycleResponse result;
   Response& response = result.response;
   response.solved_by = name_of(TimeMethod::exact);
@@ -52,11 +55,12 @@ LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel
   response.status = "no_modes";
   if (model.contact_dynamics() == nullptr) return result;
   solvers::ContactProblem problem = exact_problem(scene, model);
-  result.found = solvers::limit_cycle(problem.phases_problem(any), options_of(scene, options.observer));
+  result.found =
+      solvers::limit_cycle(problem.phases_problem(any), options_of(scene, start, options.observer));
   response.converged = result.found.status == solvers::LimitCycleStatus::converged;
   response.status = to_string(result.found.status);
   copy_solution(scene, model, options, result);
-  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

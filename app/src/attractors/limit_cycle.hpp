@@ -1,5 +1,6 @@
 #pragma once
 #include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/solvers/attractors/limit_cycle.hpp"
 
 namespace wavebalance::app {
@@ -11,8 +12,9 @@ struct LimitCycleResponse {
   solvers::LimitCycle found;            ///< without its motion, which the response has
 };
 
-/// solvers::limit_cycle() of a scene with analysis.type = "limit_cycle".
+/// solvers::limit_cycle() of a scene with analysis.type = "limit_cycle", from a cycle nearby first unless
+/// that is empty.
 LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel& model,
-                                        const ResponseOptions& options);
+                                        const StartMotion& start, const ResponseOptions& options);
 
 }  // namespace wavebalance::app

@@ -14,6 +14,7 @@
 #include "report/run_record.hpp"
 #include "report/study_report.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/study/journal.hpp"
 
 namespace wavebalance::app {
@@ -90,6 +91,9 @@ int solve_study(const StudyArguments& arguments) {
   const StudyRuns runs(study);
   check_study(study, runs);
   const std::unique_ptr<Messenger> messenger = launched_messenger();
+  if (messenger && study.follow)
+    throw SceneError(
+        {study.name, 0, "", "follow", "true", "the runs follow one another; expected one process"});
   if (!messenger || messenger->rank() == 0) return lead_study(arguments, study, runs, messenger.get());
   StudyOptions options;
   options.threads = arguments.threads;

@@ -196,6 +196,7 @@ std::string study_outcome(const StudyRecord& record) {
     if (cell_text(statuses->at(i, "status")) != "converged")
       text +=
           fmt::format("{:<22}{}\n", cell_text(statuses->at(i, "status")), cell_text(statuses->at(i, "runs")));
+  for (const std::string& change : record.changes) text += change + "\n";
   return text;
 }
 

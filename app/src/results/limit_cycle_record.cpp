@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "attractors/limit_cycle.hpp"
+#include "results/quantities.hpp"
 #include "results/response_record.hpp"
 
 namespace wavebalance::app {
@@ -28,12 +29,15 @@ std::string limit_cycle_plan(const Scene& scene) {
 Record limit_cycle_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   ResponseOptions options = response_options(scene, how.observer);
   options.stability = true;
-  const LimitCycleResponse solved = limit_cycle_response(scene, model, options);
+  const LimitCycleResponse solved = limit_cycle_response(scene, model, how.start, options);
   Scene moving = scene;
   moving.forcing.frequency = solved.frequency;
   Record record = response_record(moving, model, solved.response);
   record.interrupted = solved.found.status == solvers::LimitCycleStatus::cancelled;
   if (record.interrupted) record.status = "interrupted";
+  if (!start.source.empty()) record.add(quantities::start_from, start.source);
+  if (solved.response.moves)
+    record.cycle = {.contacts = solved.response.contacts, .frequency = solved.frequency};
   record.add("period_s", 1.0 / solved.frequency);
   record.add("starts", solved.found.starts);
   record.add("starts_at_rest", solved.found.came_to_rest);

@@ -66,6 +66,12 @@ class StudyTable {
     return node->as_integer()->get();
   }
 
+  bool truth(const std::string& key) {
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_boolean()) fail(key, node, "expected true or false");
+    return node != nullptr && node->as_boolean()->get();
+  }
+
   double number(const std::string& key, const std::string& when) {
     const toml::node* node = find(key);
     if (node == nullptr) fail(key, nullptr, "missing; expected a number " + when);
@@ -219,6 +225,9 @@ Study parse_study(std::string_view text, const std::string& name, const std::str
       "quantity", "", "a value of summary.json, as \"max_displacement_m\", or an output, as \"row 19\"");
   study.sampling = read_sampling(table);
   read_samples(table, study);
+  study.follow = table.truth("follow");
+  if (study.follow && study.sampling != Sampling::grid && study.sampling != Sampling::list)
+    table.fail("follow", table.find("follow"), "has no meaning unless sampling is \"grid\" or \"list\"");
   read_parameters(table, study);
   table.refuse_others();
   return study;
@@ -232,6 +241,7 @@ std::string study_identity(const Study& study) {
   std::string text =
       fmt::format("{}\n{}\n{}\n{}\n", name_of(study.sampling), study.samples, study.seed,
                   std::filesystem::weakly_canonical(std::filesystem::absolute(study.scene)).string());
+  if (study.follow) text += "follow\n";
   for (const std::string& one : study.set) text += "set " + one + "\n";
   for (const std::string& one : study.unset) text += "unset " + one + "\n";
   for (const StudyParameter& one : study.parameters)

@@ -139,6 +139,42 @@ std::string leading_output_in(const Table& table) {
   return "";
 }
 
+/// "run 3 (contact.friction = 0.2)".
+std::string run_text(const Study& study, const StudyRuns& runs, const StudyRow& row) {
+  std::string values;
+  for (std::size_t i = 0; i < runs.parameters(); ++i)
+    values += (i == 0 ? "" : ", ") + study.parameters[i].key + " = " + runs.value(row.run, i);
+  return fmt::format("run {} ({})", row.run + 1, values);
+}
+
+/// What becomes of the limit cycle from one row to the next; empty where nothing does.
+std::string change_between(const StudyRow& before, const StudyRow& after) {
+  if (before.converged && !after.converged)
+    return fmt::format("the limit cycle is lost (status {})", after.status);
+  if (!before.converged && after.converged)
+    return fmt::format("a limit cycle appears (before it, {})", before.status);
+  const auto unstable = [](const StudyRow& row) {
+    const Entry* found = find_entry(row.values, quantities::unstable_multipliers.column());
+    const auto* count = found == nullptr ? nullptr : std::get_if<std::int64_t>(&found->value);
+    return count == nullptr ? std::int64_t{-1} : *count;
+  };
+  const std::int64_t from = unstable(before), to = unstable(after);
+  if (!after.converged || from < 0 || to < 0 || (from > 0) == (to > 0)) return "";
+  return to > 0 ? "the limit cycle loses its stability" : "the limit cycle becomes stable";
+}
+
+std::vector<std::string> changes_along(const Study& study, const StudyRuns& runs,
+                                       const std::vector<StudyRow>& rows) {
+  std::vector<std::string> changes;
+  for (std::size_t i = 1; study.follow && i < rows.size(); ++i) {
+    const std::string change = change_between(rows[i - 1], rows[i]);
+    if (!change.empty() && rows[i].run == rows[i - 1].run + 1)
+      changes.push_back(fmt::format("Between {} and {} {}.", run_text(study, runs, rows[i - 1]),
+                                    run_text(study, runs, rows[i]), change));
+  }
+  return changes;
+}
+
 }  // namespace
 
 std::string drawn_quantity(const Study& study, const Table& table) {
@@ -163,6 +199,7 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.converged; });
   record.converged = record.complete && converged == std::int64_t(rows.size());
   record.status = status_of(record);
+  record.changes = changes_along(study, runs, rows);
   record.summary = {{quantities::converged, record.converged},
                     {quantities::status, record.status},
                     {"runs", runs.size()},
@@ -177,6 +214,7 @@ StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<
     record.warnings.push_back(fmt::format("quantity = \"{}\": no run has such a value; pictures show {}",
                                           study.quantity, quantity));
   record.summary.emplace_back(quantities::warnings, record.warnings);
+  if (study.follow) record.summary.emplace_back("changes", record.changes);
   record.summary.emplace_back("quantity", quantity);
   record.summary.emplace_back("statuses", statuses_table(record.table));
   record.summary.emplace_back("quantiles", quantiles_table(study, record.table));

@@ -13,6 +13,7 @@
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/results/record.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 
 namespace wavebalance::app {
@@ -30,9 +31,17 @@ Summary scalars_of(const Summary& summary, bool converged) {
   return scalars;
 }
 
-void solve_into(StudyRow& row, const Scene& scene, LastStructure& last, const solvers::Observer& observer) {
+void solve_into(StudyRow& row, const Scene& scene, bool follow, LastStructure& last,
+                const solvers::Observer& observer) {
   check_memory(scene);
-  const Record record = analyse(scene, {.observer = observer, .model = &last.model_of(scene, observer)});
+  const bool fits = follow && last.cycle.contacts.rows() == contact_count(scene);
+  const Record record = analyse(scene, {.start = fits ? last.cycle : StartMotion{},
+                                        .observer = observer,
+                                        .model = &last.model_of(scene, observer)});
+  if (follow && record.converged) {
+    last.cycle = record.cycle;
+    last.cycle.source = "run " + std::to_string(row.run + 1);
+  }
   row.status = record.status;
   row.converged = record.converged;
   row.values = scalars_of(record.summary, record.converged || record.status == quantities::aperiodic);
@@ -54,7 +63,7 @@ StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, 
   row.run = run;
   row.status = "refused";
   try {
-    solve_into(row, scene_of_run(study, runs, run, last.earlier()), last, observer);
+    solve_into(row, scene_of_run(study, runs, run, last.earlier()), study.follow, last, observer);
   } catch (const std::invalid_argument& error) {
     row.message = error.what();
   } catch (const SceneError& error) {

@@ -42,7 +42,7 @@ class Distribution {
         total_(todo.size()),
         options_(options),
         sink_(sink),
-        local_(study, runs, local_threads(options)) {
+        local_(study, runs, study.follow ? 1 : local_threads(options)) {
     if (options.messenger != nullptr)
       for (int rank = 1; rank < options.messenger->size(); ++rank) remotes_.try_emplace(rank);
   }

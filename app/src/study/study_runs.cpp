@@ -11,6 +11,7 @@
 
 #include "files/number_text.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
+#include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study.hpp"
 
@@ -177,6 +178,10 @@ Scene scene_of_run(const Study& study, const StudyRuns& runs, std::int64_t run, 
 
 void check_study(const Study& study, const StudyRuns& runs) {
   const Scene first = scene_of_run(study, runs, 0);
+  if (study.follow && first.analysis.type != AnalysisType::limit_cycle)
+    throw SceneError({study.name, 0, "", "follow", "true",
+                      "only with analysis.type = \"limit_cycle\", and the scene has \"" +
+                          name_of(first.analysis.type) + "\""});
   scene_of_run(study, runs, runs.size() - 1);
   for (const StudyParameter& parameter : study.parameters) {
     std::vector<std::string> ends = parameter.values;

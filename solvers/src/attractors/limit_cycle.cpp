@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "flow/flow_start.hpp"
@@ -121,6 +122,7 @@ class CycleSearch {
         random_(options.seed) {}
 
   LimitCycle run() {
+    if (options_.near.frequency > 0.0) begin_near(options_.near);
     for (int start = 0; start < 2 + options_.random_starts && !done(); ++start) {
       if (start == 1 && surface_speeds(problem_).isZero(0.0)) continue;  // the same as at rest
       ++result_.starts;
@@ -138,11 +140,24 @@ class CycleSearch {
   }
 
  private:
-  static constexpr double settling_tolerance = 1e-6;
+  static constexpr double settling_tolerance = 1e-6, share_of_calm = 0.375;
   enum class End { goes_on, rest, grows, found, lost };
 
   bool done() const { return cancelled() || (result_.motion.converged() && is_stable_); }
   bool cancelled() const { return result_.status == LimitCycleStatus::cancelled; }
+
+  // Newton's method from a cycle nearby, and where it fails what the motion settles to from there.
+  void begin_near(const CycleNearby& near) {
+    ++result_.starts;
+    const PhasesProblem own{problem_.dynamics, problem_.laws, problem_.contact_free, near.frequency};
+    const PeriodStart begin = detail::start_near(own, near.displacement, near.force, share_of_calm);
+    const Eigen::VectorXd range =
+        near.displacement.rowwise().maxCoeff() - near.displacement.rowwise().minCoeff();
+    const End end = take(cycle_near(begin, 1.0 / near.frequency, 0.5 * range.maxCoeff()));
+    if (end == End::found || done()) return;
+    flow_.start(begin.state, begin.contacts);
+    follow();
+  }
 
   // From contacts at rest, from contacts that their surfaces carry, or from a random state.
   void let_go(int start) {
@@ -209,7 +224,10 @@ class CycleSearch {
     if (trace->amplitude() < resting * length_) return End::rest;
     const auto repeats = trace->returns(near);
     if (!repeats) return End::goes_on;
-    PhaseMotion motion = cycle_near(begin, *repeats, trace->amplitude());
+    return take(cycle_near(begin, *repeats, trace->amplitude()));
+  }
+
+  End take(PhaseMotion motion) {
     if (motion.status == PhasesStatus::cancelled) result_.status = LimitCycleStatus::cancelled;
     if (motion.parts == nullptr) return End::goes_on;
     is_stable_ = motion.converged() && motion.count_unstable() <= 0;
@@ -234,7 +252,7 @@ class CycleSearch {
 
   // One that is as large as what was seen, since a state of rest comes back, too.
   PhaseMotion cycle_near(const PeriodStart& begin, double repeats, double amplitude) const {
-    constexpr double share_of_calm = 0.375, alike = 0.5;
+    constexpr double alike = 0.5;
     const PhasesProblem own{problem_.dynamics, problem_.laws, problem_.contact_free, 1.0 / repeats};
     const FlowOptions how{.tolerance = settling_tolerance, .length = length_};
     ContactFlow flow(own, how);
@@ -289,6 +307,10 @@ LimitCycle limit_cycle(const PhasesProblem& problem, const LimitCycleOptions& op
   if (!problem.contact_free.rightCols(problem.contact_free.cols() - 1).isZero(0.0))
     throw std::invalid_argument(
         "limit_cycle: contact_free has harmonics of a periodic load; it must be static");
+  for (const Eigen::MatrixXd* rows : {&options.near.displacement, &options.near.force})
+    if (options.near.frequency > 0.0 && rows->rows() != problem.dynamics.contacts())
+      throw std::invalid_argument("limit_cycle: the cycle nearby has " + std::to_string(rows->rows()) +
+                                  " contacts; it must have " + std::to_string(problem.dynamics.contacts()));
   return CycleSearch(problem, options).run();
 }
 

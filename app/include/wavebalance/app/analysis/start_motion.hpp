@@ -13,6 +13,7 @@ struct StartMotion {
   std::string source;        ///< the file that holds it, for messages
   solvers::Motion contacts;  ///< displacement and force of all contacts; no velocity
   int periods = 1;           ///< of the load, over which it is given
+  double frequency = 0.0;    ///< Hz, of a limit cycle 1 / its period; 0 where it is not known
 };
 
 /// Reads a motion from the results of a run: a folder with contacts.csv or response.csv, or one motion such

@@ -41,6 +41,7 @@ struct Record {
   Table section;
   Table outputs;   ///< motion of each output over one period; empty after a curve and without any
   Table contacts;  ///< motion and force of every contact, see contacts_table(); empty unless there are many
+  StartMotion cycle;  ///< a limit cycle as a start of others; empty otherwise
   /// The motion of the whole structure: motion.pvd with its .vtu files, or motion.mtx; of a sweep the motions
   /// of its points, see curve_motions.hpp.
   std::vector<RecordFile> files;

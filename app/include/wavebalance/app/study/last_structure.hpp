@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
@@ -15,6 +16,8 @@ class LastStructure {
   const StructureModel& model_of(const Scene& scene, const solvers::Observer& observer);
   /// A scene with the same files of matrices, which need not be read again; null at first.
   const Scene* earlier() const { return part_ ? &*part_ : nullptr; }
+  /// The last limit cycle that was found, from which the next run of a study may start; empty at first.
+  StartMotion cycle;
   /// How many structures were made.
   int made() const { return made_; }
 

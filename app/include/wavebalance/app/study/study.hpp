@@ -42,6 +42,8 @@ struct Study {
   int samples = 0;         ///< runs of sobol and latin_hypercube
   std::uint64_t seed = 1;  ///< of latin_hypercube
   std::vector<StudyParameter> parameters;
+  /// Whether each run starts from the limit cycle of the last one before it that converged, one by one.
+  bool follow = false;
   std::string quantity;  ///< of the summaries, that is drawn; empty: the first that all runs have
 };
 

@@ -14,6 +14,7 @@ struct StudyRecord {
   bool converged = false;  ///< all runs have ended and converged
   bool complete = false;   ///< all runs have ended
   std::vector<std::string> warnings;
+  std::vector<std::string> changes;  ///< where limit cycles that follow one another appear, end, or change
   std::string status;  ///< "converged", "not_converged" if a run did not, "interrupted" if runs are left
   Summary summary;
   Table table;  ///< study.csv and study.npz, see study_table()

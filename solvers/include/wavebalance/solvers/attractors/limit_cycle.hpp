@@ -16,7 +16,14 @@ enum class LimitCycleStatus {
 
 std::string_view to_string(LimitCycleStatus status);
 
+/// A limit cycle nearby, as of other values of a parameter.
+struct CycleNearby {
+  Eigen::MatrixXd displacement, force;  ///< of the contacts at uniform times of its period, m and N
+  double frequency = 0.0;               ///< Hz; 0: none is known
+};
+
 struct LimitCycleOptions {
+  CycleNearby near = {};  ///< the first start, before contacts at rest
   /// Random states, beside contacts at rest and contacts that their surfaces carry, from which the structure
   /// is let go one after the other until one leads to a limit cycle.
   int random_starts = 8;
