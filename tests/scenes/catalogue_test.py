@@ -23,6 +23,7 @@ LAWS = {
     "kelvin_voigt": {"stiffness": 50.0, "damping": 0.3, "damping_depth": 0.01, "gap": 0.02},
     "coulomb": {"friction": 0.4, "tangential_stiffness": 60.0, "normal_load": 1.0},
     "ring": {"stiffness": 60.0, "gap": 0.02, "friction": 0.1},
+    "periodic_stiffness": {"stiffness": 50.0, "stiffness_harmonics": [10.0, 4.0], "gap": 0.02},
 }
 
 

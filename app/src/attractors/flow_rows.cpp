@@ -1,5 +1,7 @@
 #include "attractors/flow_rows.hpp"
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "analysis/phases_response.hpp"
@@ -10,13 +12,15 @@
 namespace wavebalance::app {
 namespace {
 
-/// analysis.outputs without contacts, of those that are the displacement of a place: other quantities are no
-/// rows of the structure.
+/// The places of analysis.outputs alone, each once, without contacts: rows have displacements in SI units.
 std::vector<Output> output_rows(Scene scene) {
   scene.analysis.contact_outputs = false;
-  std::vector<Output> outputs = outputs_of(scene);
-  std::erase_if(outputs, [](const Output& one) { return one.names_quantity(); });
-  return outputs;
+  std::vector<std::string> places;
+  for (const std::string& text : scene.analysis.outputs)
+    if (std::string place = output_words(text).place; std::ranges::find(places, place) == places.end())
+      places.push_back(std::move(place));
+  scene.analysis.outputs = std::move(places);
+  return outputs_of(scene);
 }
 
 StructureModel with_outputs(const Scene& scene, const StructureModel& model) {

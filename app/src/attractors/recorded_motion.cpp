@@ -99,7 +99,7 @@ class PeriodBook {
   void add_friction(const solvers::ContactFlow& flow) {
     using enum solvers::ContactState;
     for (const solvers::FrictionCycle& cycle : flow.cycles()) {
-      if (cycle.row >= contacts_) continue;
+      if (cycle.row >= contacts_) continue;  // of an output
       const SceneContact& place = places_[std::size_t(cycle.row)];
       if (!has_friction(place.law)) continue;
       PeriodValues& values = values_[std::size_t(cycle.row)];

@@ -14,7 +14,7 @@ void check_table_of_force(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (forcing.amplitude == 0.0)
     fail_rule(document, keys, "holds factors on forcing.amplitude, which is 0; expected a number beside it");
-  if (type == AnalysisType::amplitude_sweep || type == AnalysisType::limit_cycle)
+  if (is_over_amplitude(scene.analysis) || type == AnalysisType::limit_cycle)
     fail_rule(document, keys, "not with analysis.type = \"" + name_of(type) + "\"; expected amplitude alone");
   try {
     check_amplitude_table(scene, forcing.amplitude_table);
@@ -45,6 +45,9 @@ void check_loads(const Document& document, const Scene& scene) {
       fail_rule(document, {term_section(i) + ".harmonic", "time.functions"},
                 "the functions hold harmonics of the load up to " + std::to_string(most) +
                     "; expected no more" + (phases ? "" : ", or more time.functions"));
+    if (!term.amplitude_table.empty() && is_over_amplitude(scene.analysis))
+      fail_rule(document, {term_section(i) + ".amplitude_table"},
+                "not over the amplitude; expected amplitude alone");
     try {
       harmonics_of(term);
       check_amplitude_table(scene, term.amplitude_table);

@@ -142,7 +142,8 @@ void check_without_load(const Document& document, const Scene& scene) {
     const ForcingTerm& term = scene.forcing.terms[i];
     if (!term.samples.empty() || term.harmonic != 0)
       fail_rule(document,
-                {term_section(i) + (term.samples.empty() ? ".harmonic" : ".samples"), "analysis.type"},
+                {term_section(i) + (term.samples.empty() ? ".harmonic" : ".samples"),
+                 term_section(i) + ".amplitude", term_section(i) + ".amplitude_table", "analysis.type"},
                 none + "harmonic = 0, a static load");
   }
   const MatricesStructure& matrices = scene.structure.matrices;

@@ -251,6 +251,11 @@ void check_output_words(const Document& document, const Scene& scene) {
       if (contains(names, name)) throw std::invalid_argument(name + " is there twice; expected each once");
       names.push_back(name);
       if (output.derivative == 2) check_acceleration(document, scene);
+      const bool in_section = output.derivative == 0 && output.added.empty() && output.over.empty();
+      if (scene.analysis.type == AnalysisType::bifurcation_diagram && !in_section)
+        throw std::invalid_argument(
+            "a section has the displacement and the velocity of a place in the frame of the scene; expected the "
+            "place alone");
     } catch (const std::invalid_argument& error) {
       fail_rule(document, {"analysis.outputs"}, toml_text(text) + ": " + error.what());
     } catch (const StructureFault& fault) {

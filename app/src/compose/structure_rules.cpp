@@ -62,6 +62,10 @@ void check_turning(const Document& document, const Scene& scene) {
   if (!turns && structure.spin_speed > 0.0)
     fail_rule(document, {"structure.spin_speed"},
               "expected structure.gyroscopic or structure.spin_stiffness beside it");
+  if (turns && structure.spin_speed == 0.0 && integrates_in_time(scene.analysis.type) &&
+      varies_frequency(scene.analysis))
+    fail_missing(document, "structure", "spin_speed",
+                 "a number in rad/s, at which the structure turns along the whole diagram");
   if (!turns_along_curve(scene) || structure.spin_stiffness.empty()) return;
   const std::string instead =
       ", as structure.spin_stiffness changes the stiffness along the sweep; expected structure.spin_speed > 0, or ";
@@ -73,10 +77,6 @@ void check_turning(const Document& document, const Scene& scene) {
   if (redistributes_mass(scene))
     fail_rule(document, {"contact.mass", "contact.law"},
               "not with modes that vary" + instead + "contact.mass = \"keep\" and a law that is not rigid");
-  if (turns && structure.spin_speed == 0.0 && integrates_in_time(scene.analysis.type) &&
-      varies_frequency(scene.analysis))
-    fail_missing(document, "structure", "spin_speed",
-                 "a number in rad/s, at which the structure turns along the whole diagram");
 }
 
 /// It is defined for periodic motions that are sought as such.

@@ -1,3 +1,5 @@
+#include <string>
+
 #include "scene/keys/key_tables.hpp"
 
 namespace wavebalance::app {
@@ -49,6 +51,8 @@ std::vector<SceneKey> term_keys(std::size_t index) {
   std::vector<SceneKey> keys;
   const auto part = [index](auto& scene) -> auto& { return scene.forcing.terms[index]; };
   const Section term(keys, "forcing.terms", part);
+  static const std::string term_table_help =
+      std::string(table_help) + "; amplitude is 1 where it is not given";
   term(
       &ForcingTerm::kind, "kind", "",
       "a force, or the motion of supports: a base_displacement moves dofs of matrices, which are then no "
@@ -61,8 +65,7 @@ std::vector<SceneKey> term_keys(std::size_t index) {
       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
   term(&ForcingTerm::unit, "unit", "", "of the amplitude of a base_acceleration: g is 9.80665 m/s^2",
        one_of({"g"}), none_by_default());
-  term(&ForcingTerm::amplitude_table, "amplitude_table", "",
-       std::string(table_help) + "; amplitude is 1 where it is not given", path, none_by_default());
+  term(&ForcingTerm::amplitude_table, "amplitude_table", "", term_table_help, path, none_by_default());
   term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
        derived("1", [](const Scene&) { return std::int64_t{1}; }));
   term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",
