@@ -115,10 +115,8 @@ std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
   const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term)) : "";
-  return fmt::format("           {}: {}{}{}{}{}
-", spaced_words(name_of(term.kind)), series, unit,
-                     table_text(term.amplitude_table),
-                     phase, place.empty() ? "" : " " + place);
+  return fmt::format("           {}: {}{}{}{}{}\n", spaced_words(name_of(term.kind)), series, unit,
+                     table_text(term.amplitude_table), phase, place.empty() ? "" : " " + place);
 }
 
 /// The weight, and what it amounts to.
