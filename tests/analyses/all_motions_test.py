@@ -34,8 +34,9 @@ def eight_starts(seed):
     return {"analysis.seed": seed, "analysis.random_starts": 8}
 
 
-def test_between_the_folds_are_two_stable_motions_and_an_unstable_one():
-    record = motions_with()
+@pytest.mark.parametrize("frequency", [0.1705, 0.18, 0.195])
+def test_between_the_folds_are_two_stable_motions_and_an_unstable_one(frequency):
+    record = motions_with({"forcing.frequency": frequency})
     assert record.converged and record.warnings == []
     motions = record.summary["motions"]
     assert rows_of(motions) == 3
@@ -44,6 +45,7 @@ def test_between_the_folds_are_two_stable_motions_and_an_unstable_one():
     np.testing.assert_array_equal(motions["share_error"], np.sqrt(share * (1.0 - share) / 24.0))
     np.testing.assert_array_equal(share > 0.0, stable)
     np.testing.assert_array_equal(motions["unstable_multipliers"], np.where(stable, 0.0, 1.0))
+    assert np.array(motions["found_by"])[~stable] == ["newton"] and set(motions["period"]) == {1.0}
     assert share.sum() == pytest.approx(1.0, abs=1e-15)
     for file, highest in zip(motions["file"], motions["max_displacement_m"]):
         u = table_of(folder_of(record) / file)["displacement_m"]
@@ -55,8 +57,9 @@ def test_between_the_folds_are_two_stable_motions_and_an_unstable_one():
     assert "not known" not in sentences[2]
 
 
-def test_below_the_folds_there_is_one_motion():
-    motions = motions_with({"forcing.frequency": 0.14}).summary["motions"]
+@pytest.mark.parametrize("frequency", [0.14, 0.1695, 0.1962, 0.25])
+def test_beside_the_folds_there_is_one_motion(frequency):
+    motions = motions_with({"forcing.frequency": frequency, "analysis.random_starts": 4}).summary["motions"]
     assert list(motions["share"]) == [1.0] and list(motions["found_by"]) == ["rest"]
 
 
@@ -83,7 +86,9 @@ def test_motions_are_starts_of_responses_also_the_unstable_one(number):
 
 def test_motions_of_two_periods_are_written_with_their_period():
     record = motions_with({**DOUBLED, "analysis.random_starts": 2})
-    assert list(record.summary["motions"]["period"]) == [2.0, 1.0]
+    motions = record.summary["motions"]
+    assert list(motions["period"]) == [2.0, 1.0]
+    assert motions["stability"][0] == "stable" and motions["found_by"][1] == "newton"
     two = {**STIFF, **DOUBLED, "analysis.subharmonic": 2}
     response = solved(BY_BALANCE, two, start_from=folder_of(record) / "motion_1.csv")
     assert response.converged, response.status

@@ -44,39 +44,6 @@ const CoexistingMotions& between_folds(double frequency) {
   return one->second;
 }
 
-TEST(CoexistingMotions, BetweenTheFoldsAreThreeOfWhichTwoAreStable) {
-  for (const double frequency : {0.1705, 0.18, 0.195}) {
-    const CoexistingMotions& all = between_folds(frequency);
-    EXPECT_EQ(all.status, MotionsStatus::converged);
-    ASSERT_EQ(all.motions.size(), 3u) << frequency;
-    EXPECT_EQ(stable_ones(all), 2);
-    EXPECT_EQ(all.none, 0);
-    EXPECT_EQ(arrivals(all), 12);
-    for (const CoexistingMotion& one : all.motions) {
-      EXPECT_EQ(one.periods, 1);
-      EXPECT_EQ(one.share, one.arrivals / 12.0);
-      EXPECT_EQ(one.share_error, std::sqrt(one.share * (1.0 - one.share) / 12.0));
-      if (one.stability.status == "stable") {
-        EXPECT_GT(one.arrivals, 0);
-      } else {
-        EXPECT_EQ(one.stability.unstable, 1);
-        EXPECT_EQ(one.arrivals, 0);
-        EXPECT_EQ(one.found_by, MotionSource::newton);
-      }
-    }
-  }
-}
-
-TEST(CoexistingMotions, BesideTheFoldsThereIsOne) {
-  for (const double frequency : {0.14, 0.1695, 0.1962, 0.25}) {
-    ContactProblem problem = folded();
-    const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 4});
-    ASSERT_EQ(all.motions.size(), 1u) << frequency;
-    EXPECT_EQ(all.motions[0].found_by, MotionSource::rest);
-    EXPECT_EQ(all.motions[0].arrivals, 4);
-  }
-}
-
 // A static load moves the oscillator and its stop: all else is that of the one without.
 TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
   constexpr double deflection = 40.0;
@@ -105,22 +72,6 @@ TEST(CoexistingMotions, OfLightDampingCountTheStartsThatHaveNearlyArrived) {
   EXPECT_EQ(all.motions[0].stability.status, "stable");
   EXPECT_EQ(all.motions[0].arrivals, 4);
   EXPECT_EQ(all.none, 0);
-}
-
-TEST(CoexistingMotions, OfTwoPeriodsStandBesideTheUnstableOneThatTheyBranchFrom) {
-  const double frequency = 2.6 / two_pi;
-  ContactProblem problem = doubling();
-  const CoexistingMotions all = coexisting_motions(problem, frequency, {.random_starts = 4});
-  ASSERT_EQ(all.motions.size(), 2u);
-  EXPECT_EQ(all.motions[0].periods, 2);
-  EXPECT_EQ(all.motions[0].stability.status, "stable");
-  EXPECT_EQ(all.motions[1].periods, 1);
-  EXPECT_EQ(all.motions[1].found_by, MotionSource::newton);
-  const auto response = problem.phases(problem.respond(frequency));
-  ASSERT_TRUE(response && response->motion.converged());
-  const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
-  const Eigen::MatrixXd expected = response->motion.displacement(times);
-  EXPECT_LE((all.motions[1].motion.displacement(times) - expected).norm(), 1e-8 * expected.norm());
 }
 
 TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
