@@ -6,7 +6,7 @@
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
+#include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
 // What the condensed solver is measured against: the assembled system, time stepping and contact phases.
@@ -66,17 +66,16 @@ std::vector<Point> dense_points(const Study& study, const std::vector<int>& func
 std::vector<Point> time_stepping_points(const Study& study, const std::vector<double>& tolerances) {
   const solvers::LinearStructure structure = app::make_structure(study.scene());
   const solvers::AnyContactLaw law = app::make_law(study.scene().contact);
+  const solvers::CondensedProblem problem = app::make_problem(study.scene());
+  const solvers::ContactDynamics dynamics(structure);
   std::vector<Point> points;
   for (const double tolerance : tolerances) {
     Point point = named("time_stepping", tolerance);
     solvers::TimeSteppingOptions options;
     options.period_tolerance = tolerance;
-    options.step_tolerance = 1e-3 * tolerance;
     solvers::TimeSteppingResult result;
     point.seconds = app::least_seconds(
-        [&] {
-          result = solvers::integrate_to_periodic(structure, law, study.scene().forcing.frequency, options);
-        },
+        [&] { result = solvers::integrate_by_events(problem, dynamics, law, options).stepping; },
         {.max_seconds = 0.2});
     point.status = to_string(result.status);
     point.converged = result.status == solvers::TimeSteppingStatus::converged;

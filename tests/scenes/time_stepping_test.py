@@ -1,6 +1,9 @@
 """Time integration converges to periodic motions to the tolerance that was asked for."""
 
+import numpy as np
 import pytest
+
+import wavebalance as wb
 
 DAMPER = """
 [structure]
@@ -83,3 +86,48 @@ type = "time_stepping"
 tolerance = {tolerance}
 """)
     assert record.summary["status"] == "converged"
+
+
+def stepped(damping, load, omega, contact=None, **analysis):
+    """A mass of 1 kg on a spring of 1 N/m under load cos(omega t)."""
+    return wb.run({
+        "structure": {"type": "matrices", "mass": np.eye(1), "stiffness": np.eye(1), "damping": damping * np.eye(1)},
+        "contact": {"law": "linear", "stiffness": 1.0, "gap": 1e9} | (contact or {}) | {"pairs": [{"dofs": [1]}]},
+        "forcing": {"load_dofs": [1], "amplitude": load, "frequency": omega / (2.0 * np.pi)},
+        "analysis": {"type": "time_stepping"} | analysis})
+
+
+def test_without_contact_it_is_the_closed_form():
+    record = stepped(0.1, 0.8, 1.3, tolerance=1e-9, output_points=64)
+    amplitude = 0.8 / (1.0 - 1.3**2 + 0.13j)
+    turns = np.exp(2j * np.pi * np.arange(64) / 64)
+    assert record.converged
+    assert record.response["displacement_m"] == pytest.approx((amplitude * turns).real, abs=1e-8)
+    assert record.response["velocity_m_per_s"] == pytest.approx((1.3j * amplitude * turns).real, abs=1e-8)
+    assert not np.any(record.response["contact_force_N"])
+
+
+@pytest.mark.parametrize("stiffness, gap, load, omega, tolerance, periods", [
+    (10.0, 0.1, 0.8, 2.7, 1e-7, 2), (10.0, 0.1, 0.8, 2.4, 1e-7, 4),  # between its period doublings
+    (100.0, 0.0, 1.0, 2.4, 1e-6, 3),  # successive periods differ by three values in turn
+])
+def test_subharmonic_motions_name_their_periods(stiffness, gap, load, omega, tolerance, periods):
+    record = stepped(0.1, load, omega, {"stiffness": stiffness, "gap": gap}, tolerance=tolerance)
+    assert record.status == "subharmonic"
+    assert record.summary["attractor_periods"] == periods
+    assert record.summary["residual"] > 0.1
+
+
+def test_a_transient_that_alternates_as_it_decays_is_no_subharmonic_motion():
+    """Driven at twice its natural frequency: a multiplier of -0.995."""
+    record = stepped(0.0032, 0.8, 2.0, tolerance=1e-4)
+    assert record.status == "converged"
+    assert record.summary["attractor_periods"] == 1
+
+
+def test_damping_that_a_stop_limits_may_be_negative():
+    record = stepped(-0.02, 0.5, 0.9, {"law": "kelvin_voigt", "stiffness": 5.0, "damping": 1.0, "gap": 0.5,
+                                       "damping_depth": 0.0})
+    assert record.status == "converged"
+    assert record.summary["contact_fraction"] > 0.1
+    assert abs(complex(record.summary["leading_multiplier_real"], record.summary["leading_multiplier_imag"])) < 1.0

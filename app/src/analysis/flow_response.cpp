@@ -1,6 +1,5 @@
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "analysis/phases_response.hpp"
 #include "analysis/response_parts.hpp"
@@ -12,52 +11,17 @@ namespace {
 
 using solvers::FlowMotion;
 
-// The Fourier coefficients of uniform samples of the forces less those of the holding springs, and of the
-// impulses between them, N, C x count.
-Eigen::MatrixXcd force_harmonics(const FlowMotion& found, double holding, double frequency, int count) {
-  const Eigen::MatrixXd force =
-      found.stepping.contacts.force - holding * found.stepping.contacts.displacement;
-  const auto points = double(force.cols());
-  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(force.rows(), count);
-  for (int n = 0; n < std::min(count, int(force.cols()) / 2); ++n) {
-    const double turn = -2.0 * std::numbers::pi * n, weight = n == 0 ? 1.0 : 2.0;
-    for (Eigen::Index k = 0; k < force.cols(); ++k)
-      result.col(n) += weight / points * std::polar(1.0, turn * double(k) / points) * force.col(k);
-    for (const solvers::FlowEvent& event : found.events)
-      result(found.machines[std::size_t(event.contact)].row, n) +=
-          weight * frequency * event.impulse * std::polar(1.0, turn * event.time * frequency);
+// A motion that is not closed jumps at the end of its period.
+void copy_structure(const solvers::CondensedProblem& problem, const FlowMotion& found, int points,
+                    Response& result) {
+  constexpr double of_rest = 1e-9, of_impacts = 1e-4, of_transient = 1e-3;  // whose harmonics do not decay
+  solvers::StructurePhasesOptions options;
+  options.tolerance = found.impacts.empty() ? of_rest : of_impacts;
+  if (!std::isfinite(found.closed)) {
+    options.tolerance = of_transient;
+    options.max_harmonics = 2 * options.first_harmonics;
   }
-  return result;
-}
-
-// At times between the samples linearly.
-Eigen::MatrixXd displacement_at(const Eigen::MatrixXd& samples, const Eigen::VectorXd& times) {
-  Eigen::MatrixXd result(samples.rows(), times.size());
-  const Eigen::Index points = samples.cols();
-  for (Eigen::Index k = 0; k < times.size(); ++k) {
-    const double at = (times[k] - std::floor(times[k])) * double(points), whole = std::floor(at);
-    const Eigen::Index i = Eigen::Index(whole) % points;
-    result.col(k) = samples.col(i) + (at - whole) * (samples.col((i + 1) % points) - samples.col(i));
-  }
-  return result;
-}
-
-void copy_structure(const solvers::CondensedProblem& problem, double holding, const FlowMotion& found,
-                    int points, Response& result) {
-  const double frequency = problem.frequency();
-  const solvers::ContactSource source{
-      [&](int count) { return force_harmonics(found, holding, frequency, count); },
-      [&](const Eigen::VectorXd& times) {
-        return displacement_at(found.stepping.contacts.displacement, times);
-      },
-      holding};
-  const int most = std::max(1, int(result.contacts.points()) / 2);
-  note_structure(result,
-                 solvers::structure_motion_of(
-                     problem, source, points,
-                     {.tolerance = 1e-3,
-                      .first_harmonics = std::min(solvers::StructurePhasesOptions().first_harmonics, most),
-                      .max_harmonics = most}));
+  note_structure(result, solvers::structure_phases(problem, found.motion, points, options));
 }
 
 }  // namespace
@@ -91,10 +55,10 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.contacts = stepping.contacts;
   result.struck = found.impacts;
   result.moves = !result.contacts.empty() && stepping.status != solvers::TimeSteppingStatus::step_failure;
-  result.contact = leading_contact(result.contacts, model.gaps);
+  result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (found.multipliers.size() > 0) result.stability = solvers::stability_of_multipliers(found.multipliers);
-  if (result.moves && options.structure_points > 0)
-    copy_structure(problem, dynamics.holding(), found, options.structure_points, result);
+  if (found.motion.parts != nullptr && options.structure_points > 0)
+    copy_structure(problem, found, options.structure_points, result);
   result.flow = std::move(found);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -13,7 +13,6 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/problem/phases_along.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -108,17 +107,6 @@ void require_digits(Response& result) {
   const bool inaccurate = result.converged || result.status == to_string(solvers::SolveStatus::inaccurate);
   result.converged = result.moves = false;
   if (inaccurate) result.status = inaccurate_status(result.rounding_error);
-}
-
-/// Whether a reference keeps every degree of freedom.
-bool wants_structure(const Scene& scene, const ResponseOptions& options) {
-  const int points = options.structure_points;
-  if (points != 0 && points != scene.analysis.output_points)
-    throw std::invalid_argument(
-        fmt::format("ResponseOptions: structure_points is {}; of time stepping it must be 0 or "
-                    "analysis.output_points, {}",
-                    points, scene.analysis.output_points));
-  return points > 0;
 }
 
 }  // namespace
@@ -234,41 +222,6 @@ void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Ob
   if (!settled.integrated()) return;
   beside.max_displacement = settled.last.displacement.maxCoeff();
   beside.max_force = settled.last.force.maxCoeff();
-}
-
-Response time_stepping_response(const Scene& scene, const ResponseOptions& options) {
-  return time_stepping_response(scene, make_model(scene, options.observer), options);
-}
-
-Response time_stepping_response(const Scene& scene, const StructureModel& model,
-                                const ResponseOptions& options) {
-  const auto start = Clock::now();
-  solvers::TimeSteppingOptions stepping;
-  stepping.output_points = scene.analysis.output_points;
-  stepping.period_tolerance = scene.analysis.tolerance;
-  constexpr double least = 1e-13, of_tolerance = 1e-2;  // rounding; what 100 steps add
-  stepping.step_tolerance =
-      std::clamp(of_tolerance * scene.analysis.tolerance, least, stepping.step_tolerance);
-  stepping.max_periods = scene.analysis.max_periods;
-  stepping.full_history = wants_structure(scene, options);
-  stepping.observer = options.observer;
-  auto found =
-      solvers::integrate_to_periodic(model.structure, make_laws(scene), scene.forcing.frequency, stepping);
-  Response result;
-  result.wall_seconds = seconds_since(start);
-  result.converged = found.status == solvers::TimeSteppingStatus::converged;
-  result.status = to_string(found.status);
-  result.residual =
-      found.period_error.empty() ? std::numeric_limits<double>::quiet_NaN() : found.period_error.back();
-  result.iterations = found.periods;
-  result.attractor_periods = found.attractor_periods;
-  result.unknowns = 2 * model.size();
-  result.contacts = std::move(found.contacts);
-  result.moves = result.contacts.displacement.allFinite() && result.contacts.force.allFinite() &&
-                 found.status != solvers::TimeSteppingStatus::step_failure;
-  result.contact = leading_contact(scene, result.contacts, model.gaps);
-  result.structure = std::move(found.structure);
-  return result;
 }
 
 }  // namespace wavebalance::app

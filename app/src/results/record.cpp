@@ -79,8 +79,7 @@ std::string stepping_plan(const Scene& scene) {
 
 Record stepping_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {
   const ResponseOptions options = response_options(scene, how.observer);
-  Response response = integrates_by_events(scene) ? flow_response(scene, model, options)
-                                                  : time_stepping_response(scene, model, options);
+  Response response = flow_response(scene, model, options);
   const auto recorded = recorded_motion(scene, model, response, options.observer);
   response.recorded = recorded.has_value();
   Record record = response_record(scene, model, response);

@@ -239,11 +239,6 @@ bool has_friction(const Scene& scene) {
   return std::ranges::any_of(contacts_of(scene), rubs, &SceneContact::law);
 }
 
-bool integrates_by_events(const Scene& scene) {
-  return integrates_in_time(scene.analysis.type) &&
-         (has_friction(scene) || names_coupled_rows(scene.contact) || has_impacts(scene.contact));
-}
-
 double common_gap(const Scene& scene) {
   const std::vector<SceneContact> contacts = contacts_of(scene);
   const bool one = std::all_of(contacts.begin(), contacts.end(), [&](const SceneContact& other) {

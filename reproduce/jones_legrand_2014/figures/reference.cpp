@@ -6,6 +6,7 @@
 #include "motion.hpp"
 #include "readings.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/report/rule.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 app::Response by_stepping(const app::Scene& scene) {
   app::ResponseOptions options;
   options.structure_points = scene.analysis.output_points;
-  app::Response motion = app::time_stepping_response(scene, options);
+  app::Response motion = app::flow_response(scene, app::make_model(scene), options);
   if (!motion.converged) throw report::NotConverged("time stepping: " + motion.status);
   return motion;
 }
@@ -28,10 +29,11 @@ void state_transient(report::Artefact& artefact) {
   std::string text;
   for (const char* name : {"stepping_case1.toml", "stepping_case2.toml"}) {
     const auto scene = artefact.scene(name);
-    const int periods = app::time_stepping_response(scene).iterations;
-    const auto weak = app::time_stepping_response(artefact.scene(
+    const int periods = app::flow_response(scene, app::make_model(scene)).iterations;
+    const auto weak_scene = artefact.scene(
         name, {fmt::format("structure.stiffness_damping={}", share * scene.structure.stiffness_damping),
-               fmt::format("analysis.max_periods={}", longer * periods)}));
+               fmt::format("analysis.max_periods={}", longer * periods)});
+    const auto weak = app::flow_response(weak_scene, app::make_model(weak_scene));
     parts.push_back(report::plain(!weak.converged));
     text += fmt::format("{}{} periods at {:g} Hz; with less damping the last two of {} differ by {}",
                         text.empty() ? "" : ". ", periods, scene.forcing.frequency, weak.iterations,
@@ -60,7 +62,7 @@ void state_repetition(report::Artefact& artefact, const app::Scene& scene, const
        stepping.residual < 1e-7});
 }
 
-/// Two methods that share the equation of motion alone.
+/// Two methods: from event to event in time, and all of the period at once.
 void note_agreement(report::Artefact& artefact, const app::Scene& scene, const app::Response& stepping,
                     const app::Response& phases) {
   const auto distance = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {

@@ -68,6 +68,7 @@ class ContactFlow::Engine {
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
     return {poles_, shape, time_, states_, now_.memory};
   }
+  void set_force_size(const PhasesProblem& problem);
   const detail::PanelShape& shape(int level);
   /// Whether memories turn as fast as forces tell, and at what rate others settle, 1/s.
   struct Moving {

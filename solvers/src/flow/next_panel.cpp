@@ -1,13 +1,26 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "flow/flow_engine.hpp"
+#include "flow/law_machines.hpp"
 #include "linalg/root.hpp"
 
 namespace wavebalance::solvers {
+
+// Forces that move no contact by a thousandth of its length in a period need few digits of their own: those
+// of a power law, which rise as d^1.5 where it is touched, have none.
+void ContactFlow::Engine::set_force_size(const PhasesProblem& problem) {
+  constexpr double share = 1e-3;
+  const double rate = 2.0 * std::numbers::pi * problem.frequency;
+  double mobility = 0.0;  // 1/kg
+  for (int row = 0; row < int(poles_.rows()); ++row)
+    mobility = std::max(mobility, detail::inverse_mass_of(problem.dynamics, row));
+  if (mobility > 0.0) force_size_ = share * length_ * rate * rate / mobility;
+}
 
 // How the memories of the contacts move that do.
 ContactFlow::Engine::Moving ContactFlow::Engine::moving() const {

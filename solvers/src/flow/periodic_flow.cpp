@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "flow/closed_period.hpp"
 #include "flow/flow_phases.hpp"
@@ -19,8 +18,9 @@ Motion empty_motion(Index rows, int points) {
   return {none, none, none};
 }
 
-FlowStatus sampled_period(ContactFlow& flow, Motion& motion, FlowMotion& result) {
+FlowStatus sampled_period(ContactFlow& flow, Motion& motion, PeriodStart& begin, FlowMotion& result) {
   Index k = 0;
+  begin = {0.0, flow.state(), flow.contact_states()};
   result.sampled_states.clear();
   const FlowStatus status = flow.advance_period(motion.points(), [&](const FlowSample& sample) {
     motion.displacement.col(k) = sample.displacement;
@@ -36,8 +36,9 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion, FlowMotion& result)
 
 // Periods one after the other until the motion repeats.
 TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const TimeSteppingOptions& options,
-                       FlowMotion& result) {
-  constexpr double rounding = 1e-7;  // of the motion without contact, where a contact rests
+                       PeriodStart& begin, FlowMotion& result) {
+  constexpr double flow_errors = 1e-8;  // of a period
+  constexpr double rounding = 1e-7;     // of the motion without contact, where a contact rests
   TimeSteppingResult& stepping = result.stepping;
   const Index rows = problem.dynamics.contacts();
   PastPeriods past(options.longest, options.period_tolerance,
@@ -45,8 +46,7 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
   double nearest = std::numeric_limits<double>::infinity();
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
-    const PeriodStart begin{0.0, flow.state(), flow.contact_states()};
-    result.ended = sampled_period(flow, period, result);
+    result.ended = sampled_period(flow, period, begin, result);
     if (result.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
     past.add(period.displacement);
     stepping.contacts = std::move(period);
@@ -64,6 +64,7 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
                                     "relative difference of periods", std::clamp(done, 0.0, 1.0)}))
       return TimeSteppingStatus::cancelled;
   }
+  if (past.change() <= flow_errors) return TimeSteppingStatus::tolerance_missed;
   if (stepping.periods > 2 * options.longest) stepping.attractor_periods = 0;
   return TimeSteppingStatus::iteration_limit;
 }
@@ -85,25 +86,23 @@ void close(ContactFlow& flow, FlowMotion& result) {
 
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow_options, const Eigen::VectorXcd& poles) {
-  options.validate(0);
-  for (const ContactPole& pole : problem.dynamics.poles())
-    if (pole.exponent.real() > 1e-9 * std::abs(pole.exponent))
-      throw std::invalid_argument(
-          "integrate_by_events: motions of the structure grow without contact; its damping must not be negative");
+  options.validate();
   ContactFlow flow(problem, flow_options);
   if (poles.size() > 0) flow.start(poles);
   FlowMotion result;
   result.machines = flow.machines();
-  result.stepping.status = run(flow, problem, options, result);
+  PeriodStart begin;
+  result.stepping.status = run(flow, problem, options, begin, result);
   result.rests = flow.rests();
   result.states = flow.contact_states();
   result.state = flow.state();
   if (result.stepping.status == TimeSteppingStatus::converged) close(flow, result);
   if (std::isfinite(result.closed)) {
     Motion period = empty_motion(problem.dynamics.contacts(), options.output_points);
-    if (sampled_period(flow, period, result) == FlowStatus::converged)
+    if (sampled_period(flow, period, begin, result) == FlowStatus::converged)
       result.stepping.contacts = std::move(period);
   }
+  if (result.ended == FlowStatus::converged) result.motion = detail::motion_of(problem, flow, begin);
   return result;
 }
 

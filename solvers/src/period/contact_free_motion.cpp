@@ -7,6 +7,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "structure/held_structure.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -50,6 +51,20 @@ Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
   return amplitudes;
 }
 
+// The part of a static load that accelerates a structure which is free to move; the rest deforms it.
+Eigen::VectorXd accelerating(const LinearStructure& structure, const Eigen::VectorXd& load) {
+  if (!structure.is_free()) return Eigen::VectorXd::Zero(load.size());
+  const Eigen::VectorXd rigid = structure.rigid_modes.transpose() * load;
+  return structure.mass * (structure.rigid_modes * rigid);
+}
+
+// Of a structure that is free to move, under a load that balances.
+Eigen::VectorXcd static_response(const LinearStructure& structure, const Eigen::VectorXcd& load,
+                                 double frequency) {
+  const HeldStructure held = hold(structure);
+  return contact_free_response(held.with_springs(held.spring_stiffness(frequency)), load, frequency);
+}
+
 }  // namespace
 
 Eigen::MatrixXcd contact_free_response(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
@@ -73,8 +88,13 @@ ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int sample
   const bool forces_alone = structure.load.isZero(0.0) && !structure.forces.empty();
   const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency_)
                                                : every(repeats_, problem.load_harmonics());
-  const Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
-  const Eigen::MatrixXcd responses = contact_free_response(structure, amplitudes, frequency_);
+  Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
+  left_out_ = accelerating(structure, amplitudes.col(0).real());
+  amplitudes.col(0) -= left_out_;
+  const Eigen::VectorXcd at_rest = amplitudes.col(0);
+  if (structure.is_free()) amplitudes.col(0).setZero();
+  Eigen::MatrixXcd responses = contact_free_response(structure, amplitudes, frequency_);
+  if (structure.is_free()) responses.col(0) = static_response(structure, at_rest, frequency_);
   responses_[0] = structure.contact_directions * responses;
   responses_[1] = responses_[0];
   initial_displacement_ = responses.real().rowwise().sum();

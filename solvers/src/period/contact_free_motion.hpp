@@ -13,7 +13,8 @@ Eigen::MatrixXcd contact_free_response(const LinearStructure& structure, const E
                                        double frequency);
 
 /// The motion without contact of a structure under the load of a problem, over one period of the load from a
-/// maximum of the load's first harmonic on: a load that comes later then gives the same motion later.
+/// maximum of the load's first harmonic on: a load that comes later then gives the same motion later. Of a
+/// structure that is free to move without the part of the static load that accelerates it.
 /// Immutable.
 class ContactFreeMotion {
  public:
@@ -32,6 +33,7 @@ class ContactFreeMotion {
     return samples_[std::size_t(derivative)].col(sample);
   }
 
+  const Eigen::VectorXd& left_out() const { return left_out_; }  ///< n, N: that part of the load
   const Eigen::VectorXd& initial_displacement() const { return initial_displacement_; }  ///< n, m
   const Eigen::VectorXd& initial_velocity() const { return initial_velocity_; }          ///< n, m/s
 
@@ -41,7 +43,7 @@ class ContactFreeMotion {
   // By derivative: column n belongs to Re(a exp(2 pi i n t)), t likewise, C x harmonics; and C x samples.
   std::array<Eigen::MatrixXcd, 2> responses_;
   std::array<Eigen::MatrixXd, 2> samples_;
-  Eigen::VectorXd initial_displacement_, initial_velocity_;
+  Eigen::VectorXd left_out_, initial_displacement_, initial_velocity_;
 };
 
 }  // namespace wavebalance::solvers

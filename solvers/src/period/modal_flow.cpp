@@ -78,8 +78,14 @@ ModalFlow ModalFlow::over(double step) const {
   return other;
 }
 
+void ModalFlow::set_constant_load(const Eigen::VectorXd& load) {
+  constant_ = shapes_.transpose() * load;
+  set_step(step_);
+}
+
 // Van Loan's block matrix for a force that is linear in time.
 void ModalFlow::set_step(double step) {
+  step_ = step;
   const Index m = modes(), states = 2 * m, contacts = contact_.rows(), size = states + 2 * contacts;
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
   block.topLeftCorner(states, states) = step * rates_;
@@ -94,10 +100,16 @@ void ModalFlow::set_step(double step) {
   step_compliance_ = static_compliance_;
   for (Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
   step_mobility_ = -contact_ * end_.bottomRows(m);
+  drift_.setZero(states);
+  if (constant_.isZero(0.0)) return;
+  Eigen::MatrixXd driven = Eigen::MatrixXd::Zero(states + 1, states + 1);
+  driven.topLeftCorner(states, states) = step * rates_;
+  driven.col(states).segment(m, m) = step * constant_;
+  drift_ = detail::exponential(driven).col(states).head(states);
 }
 
 Eigen::VectorXd ModalFlow::advance(const Eigen::VectorXd& state, const Eigen::VectorXd& force) const {
-  Eigen::VectorXd next = exponential_ * state;
+  Eigen::VectorXd next = exponential_ * state + drift_;
   if (!force.isZero(0.0)) next.noalias() += begin_ * force;
   return next;
 }
@@ -115,7 +127,7 @@ void ModalFlow::add_contact_displacement(const Eigen::VectorXd& state, Eigen::Ve
 }
 
 void ModalFlow::add_contact_displacement_after(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {
-  to.noalias() += contact_exponential_ * state;
+  to.noalias() += contact_exponential_ * state + to_contact_ * drift_.head(modes());
 }
 
 void ModalFlow::add_contact_velocity(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {

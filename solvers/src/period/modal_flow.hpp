@@ -25,6 +25,8 @@ class ModalFlow {
                                        int max_modes);
   /// The same structure over another step, in s. O(m^3).
   ModalFlow over(double step) const;
+  /// Lets a constant load (n, N) act besides the contact forces. O(m^3).
+  void set_constant_load(const Eigen::VectorXd& load);
 
   Eigen::Index modes() const { return shapes_.cols(); }  ///< m
   Eigen::Index states() const { return 2 * modes(); }
@@ -63,6 +65,8 @@ class ModalFlow {
   Eigen::MatrixXd contact_, to_contact_;  // C x m, of displacements and velocities q and of sigma q
   Eigen::MatrixXd rates_;                 // 2m x 2m, of the first-order form, 1/s
   Eigen::MatrixXd static_compliance_;     // C x C, m/N, of the omitted modes
+  double step_ = 0.0;                     // s
+  Eigen::VectorXd constant_, drift_;      // m, of the load; what it adds to a state in a step
   Eigen::MatrixXd exponential_, contact_exponential_, begin_, end_, step_compliance_, step_mobility_;
 };
 

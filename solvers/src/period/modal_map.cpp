@@ -27,6 +27,7 @@ ModalMap::ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int
       clear_below_(laws.gaps(problem.contacts())),
       depends_on_velocity_(laws.depend_on_velocity()),
       has_memory_(laws.act_over_period()) {
+  flow.set_constant_load(free_.left_out());
   free_state_ = flow.state(free_.initial_displacement(), free_.initial_velocity());
   for (int c = 0; c < problem.contacts(); ++c)
     if (!laws[c].unilateral() || !std::isfinite(clear_below_[c]))  // a spring may have no gap
@@ -35,8 +36,10 @@ ModalMap::ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int
 }
 
 PeriodState ModalMap::state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const {
-  return {flows_.front().state(displacement, velocity) - free_state_,
-          Eigen::VectorXd::Zero(clear_below_.size())};
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(free_.initial_displacement().size());
+  const Eigen::VectorXd begin = flows_.front().state(displacement.size() > 0 ? displacement : rest,
+                                                     velocity.size() > 0 ? velocity : rest);
+  return {begin - free_state_, Eigen::VectorXd::Zero(clear_below_.size())};
 }
 
 // The forces of a motion at an instant, with displacements `before` where laws have memory.
@@ -165,7 +168,7 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
     at = refined(at.end, k * length, 0, allowed, nullptr);
     if (operations_ > max_operations_) return period;
   }
-  period.ended = at.end.motion.allFinite() ? Period::End::complete : Period::End::step_failure;
+  period.complete = at.end.motion.allFinite();
   period.state = std::move(at.end);
   return period;
 }

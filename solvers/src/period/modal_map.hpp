@@ -5,12 +5,32 @@
 
 #include "period/contact_free_motion.hpp"
 #include "period/modal_flow.hpp"
-#include "period/period_map.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::solvers {
 
-/// The map by exact motions of the modes. Between contacts a step is a share of the period. Where contact
+/// A structure at the start of a period of its load.
+struct PeriodState {
+  Eigen::VectorXd motion;  ///< of the modes, so scaled that the norm has a meaning
+  Eigen::VectorXd force;   ///< C, N, of the contacts
+};
+
+/// The errors that steps may have, and the effort after which they end.
+struct StepControl {
+  double tolerance = 0.0;       ///< of a step, relative to the size of the state
+  double max_operations = 0.0;  ///< in one period
+};
+
+/// One period of the load.
+struct Period {
+  bool complete = false;  ///< false where the operations ran out
+  PeriodState state;      ///< at its end; only of a complete period
+  Motion contacts;        ///< at uniform instants from its start on; only of a complete period
+};
+
+/// The map of a structure in contact over a period of its load, state to state with what the contacts do in
+/// between, by exact motions of the modes. Between contacts a step is a share of the period. Where contact
 /// forces act, the step is halved until its result differs little from that of its halves, which are then
 /// extrapolated [E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993,
 /// section II.4]; and where a contact opens or closes, until it differs much less. So an impact of any length
@@ -18,19 +38,22 @@ namespace wavebalance::solvers {
 /// forces at its end are solved for with the resolvents of the laws, so that any law serves, rigid ones too
 /// [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999], and of friction by its return mapping; the memory
 /// of such a law is its force. A period begins at the load's maximum. The motion of a state is the deviation
-/// of the modes from the motion without contact, in the norm of the energy.
-class ModalMap final : public PeriodMap {
+/// of the modes from the motion without contact, in the norm of the energy. A structure that is free to move
+/// has none under static loads, which act on the deviation there. For one thread at a time.
+class ModalMap {
  public:
   /// `laws` are kept by reference. `flow` has the step of a period of the load over `steps`, which are also
   /// the samples.
   ModalMap(const CondensedProblem& problem, const ContactLaws& laws, int steps, ModalFlow flow);
 
-  using PeriodMap::state;
-  PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const override;
-  PeriodState balanced(PeriodState state) const override;
-  double size(const PeriodState& state) const override { return (state.motion + free_state_).norm(); }
-  Period advance(const PeriodState& begin, const StepControl& control) override;
-  double operations() const override { return operations_; }
+  /// The state of a displacement (n, m) and a velocity (n, m/s), empty for rest, without contact forces.
+  PeriodState state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const;
+  /// A state with the forces that the laws have there.
+  PeriodState balanced(PeriodState state) const;
+  /// The norm of the whole motion of a state, to which distances are relative.
+  double size(const PeriodState& state) const { return (state.motion + free_state_).norm(); }
+  Period advance(const PeriodState& begin, const StepControl& control);
+  double operations() const { return operations_; }  ///< of all periods so far
 
   const ContactFreeMotion& free_motion() const { return free_; }
 

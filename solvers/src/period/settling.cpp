@@ -9,7 +9,6 @@
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
-#include "period/bdf_map.hpp"
 #include "period/modal_map.hpp"
 #include "period/repetition.hpp"
 #include "period/settling_returns.hpp"
@@ -42,7 +41,7 @@ void place(const Motion& period, int block, Motion& whole) {
 class Settling {
  public:
   // `load_periods` are those of the problem, which begins `start` periods before the map.
-  Settling(PeriodMap& map, PeriodState begin, int load_periods, double start, bool has_memory,
+  Settling(ModalMap& map, PeriodState begin, int load_periods, double start, bool has_memory,
            const SettlingOptions& options)
       : options_(options),
         map_(map),
@@ -100,7 +99,7 @@ class Settling {
   bool add_period(double tolerance, SettledMotion& result) {
     constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
     Period period = map_.advance(states_.back(), {accuracy * tolerance, limit_ - map_.operations()});
-    if (!period.complete()) return false;
+    if (!period.complete) return false;
     const Motion& contacts = period.contacts;
     if (!result.integrated())
       result.last = {contacts.displacement.replicate(1, load_periods_),
@@ -143,7 +142,7 @@ class Settling {
   std::optional<PeriodState> after_period(PeriodState state, Motion* piece = nullptr) {
     for (int i = 0; i < load_periods_; ++i) {
       Period period = map_.advance(state, {return_tolerance(), return_limit_ - map_.operations()});
-      if (!period.complete()) return std::nullopt;
+      if (!period.complete) return std::nullopt;
       if (piece) place(period.contacts, i, *piece);
       state = std::move(period.state);
     }
@@ -225,7 +224,7 @@ class Settling {
   static constexpr double even_steps = std::numeric_limits<double>::infinity();  // tolerance
 
   const SettlingOptions& options_;
-  PeriodMap& map_;
+  ModalMap& map_;
   int load_periods_;
   double start_;
   bool has_memory_;
@@ -235,40 +234,13 @@ class Settling {
 
 // The state in which the integration begins: at rest without contact forces, or the state of the options with
 // the forces that the laws have there.
-PeriodState initial_state(const PeriodMap& map, int dofs, const SettlingOptions& options) {
+PeriodState initial_state(const ModalMap& map, int dofs, const SettlingOptions& options) {
   constexpr const char* who = "SettlingOptions";
   detail::require_dofs(who, "displacement", options.displacement, dofs);
   detail::require_dofs(who, "velocity", options.velocity, dofs);
-  const PeriodState state = map.state(options.displacement, options.velocity, dofs);
+  const PeriodState state = map.state(options.displacement, options.velocity);
   const bool at_rest = options.displacement.size() == 0 && options.velocity.size() == 0;
   return at_rest ? state : map.balanced(state);
-}
-
-// The load of the problem as that of a structure; nothing where it has no maximum of its first harmonic at t
-// = 0.
-std::optional<LinearStructure> loaded(const CondensedProblem& problem) {
-  Eigen::VectorXcd harmonics = problem.load_harmonics();
-  const Index periods = load_periods(problem);
-  if (periods >= harmonics.size() || harmonics[periods] != 1.0) return std::nullopt;
-  harmonics[periods] = 0.0;
-  if (!harmonics.isZero(0.0)) return std::nullopt;
-  LinearStructure structure = problem.structure();
-  structure.load *= problem.load_factor();
-  for (PeriodicForce& force : structure.forces)
-    if (force.harmonics.size() > 1) force.harmonics.tail(force.harmonics.size() - 1) *= problem.load_factor();
-  return structure;
-}
-
-// A structure that is free to move has no motion without contact, beside which ModalMap integrates.
-SettledMotion settle_free(const CondensedProblem& problem, const ContactLaws& laws,
-                          const SettlingOptions& options, const TakesReturn& takes) {
-  constexpr double step_floor = 1e-2;
-  const auto structure = loaded(problem);
-  if (!structure || laws.act_over_period()) return {};
-  const int periods = load_periods(problem);
-  BdfMap map(*structure, laws, periods * problem.frequency(), options.steps, step_floor);
-  return Settling(map, initial_state(map, structure->size(), options), periods, 0.0, false, options)
-      .run(takes);
 }
 
 }  // namespace
@@ -297,7 +269,7 @@ SettledMotion settle(const CondensedProblem& problem, const ContactLaws& any_law
   laws.require(problem.contacts());
   const LinearStructure& structure = problem.structure();
   if (structure.size() > options.max_size || !laws.advance_in_steps()) return {};
-  if (structure.is_free()) return settle_free(problem, laws, options, takes);
+  if (structure.is_free() && laws.act_over_period()) return {};
   const int steps = laws.act_over_period() ? std::max(1, options.steps / 4) : options.steps;
   const double frequency = load_periods(problem) * problem.frequency();
   auto flow = ModalFlow::make(structure, frequency, 1.0 / (frequency * steps), options.max_modes);

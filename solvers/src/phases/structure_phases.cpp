@@ -63,14 +63,15 @@ double distance_to_contacts(const Eigen::MatrixXd& values, const Eigen::MatrixXd
 // The amplitudes of all degrees of freedom at one harmonic after the other.
 class Harmonics {
  public:
-  Harmonics(const CondensedProblem& problem, const ContactSource& source)
-      : source_(source),
+  Harmonics(const CondensedProblem& problem, const PhaseMotion& motion)
+      : motion_(motion),
         rate_(2.0 * std::numbers::pi * problem.frequency() * imaginary_unit),
         repeats_(load_periods(problem)),
         loads_(detail::loads_of(problem, repeats_)),
-        structure_(detail::held_by_springs(problem.structure(), source.holding)),
+        structure_(detail::held_by_springs(problem.structure(), motion.parts->model.holding)),
         condensation_(structure_) {
-    if (const auto held = detail::held_at_rest(problem.structure(), source.holding)) at_rest_.emplace(*held);
+    if (const auto held = detail::held_at_rest(problem.structure(), motion.parts->model.holding))
+      at_rest_.emplace(*held);
   }
 
   const LinearStructure& structure() const { return structure_; }
@@ -79,7 +80,7 @@ class Harmonics {
   // Those from the number taken before up to `count` - 1.
   template <class Take>
   void take_up_to(int count, const Take& take) {
-    const Eigen::MatrixXcd forces = source_.force_harmonics(count);
+    const Eigen::MatrixXcd forces = motion_.force_harmonics(count);
     for (; taken_ < count; ++taken_) {
       const std::complex<double> s = rate(taken_);
       Condensation& used = taken_ == 0 && at_rest_ ? *at_rest_ : condensation_;
@@ -94,7 +95,7 @@ class Harmonics {
     return loads_.col(harmonic / repeats_);
   }
 
-  const ContactSource& source_;
+  const PhaseMotion& motion_;
   std::complex<double> rate_;
   int repeats_, taken_ = 0;
   Eigen::MatrixXcd loads_;
@@ -147,24 +148,16 @@ void StructurePhasesOptions::validate() const {
 
 StructurePhases structure_phases(const CondensedProblem& problem, const PhaseMotion& motion, int points,
                                  const StructurePhasesOptions& options) {
-  if (motion.parts == nullptr) throw std::invalid_argument("structure_phases: there is no motion");
-  const ContactSource source{[&](int count) { return motion.force_harmonics(count); },
-                             [&](const Eigen::VectorXd& times) { return motion.displacement(times); },
-                             motion.parts->model.holding};
-  return structure_motion_of(problem, source, points, options);
-}
-
-StructurePhases structure_motion_of(const CondensedProblem& problem, const ContactSource& source, int points,
-                                    const StructurePhasesOptions& options) {
   constexpr int least_points = 256;  // at which contacts are compared
+  if (motion.parts == nullptr) throw std::invalid_argument("structure_phases: there is no motion");
   options.validate();
   detail::require_at_least("structure_phases", "points", points, 1);
-  Harmonics harmonics(problem, source);
+  Harmonics harmonics(problem, motion);
   const ContactDirections& directions = problem.structure().contact_directions;
   FoldedSpectrum displacement(problem.structure().size(), points),
       velocity(problem.structure().size(), points), contacts(directions.rows(), least_points);
   const Eigen::MatrixXd exact =
-      source.displacement(Eigen::VectorXd::LinSpaced(least_points, 0.0, 1.0 - 1.0 / least_points));
+      motion.displacement(Eigen::VectorXd::LinSpaced(least_points, 0.0, 1.0 - 1.0 / least_points));
   StructurePhases result;
   for (int count = options.first_harmonics;; count = std::min(2 * count, options.max_harmonics)) {
     harmonics.take_up_to(count, [&](int n, const Eigen::VectorXcd& amplitudes) {

@@ -381,9 +381,4 @@ SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& op
   return solvers::settle(condensed_, laws_, options);
 }
 
-TimeSteppingResult ContactProblem::integrate(double frequency, const TimeSteppingOptions& options) const {
-  require_no_impacts();
-  return integrate_to_periodic(structure(), laws_.at(frequency), frequency, options);
-}
-
 }  // namespace wavebalance::solvers

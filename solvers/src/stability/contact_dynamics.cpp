@@ -53,8 +53,9 @@ struct FirstOrderForm {
 FirstOrderForm first_order_form(const LinearStructure& structure) {
   const Eigen::MatrixXd mass(structure.mass), damping(structure.damping), stiffness(structure.stiffness);
   const Index n = mass.rows();
-  const bool inverse = structure.symmetric() ? detail::cholesky(stiffness).has_value()
-                                             : !detail::Lu<double>(stiffness).is_singular(1e-12);
+  const double least = structure.symmetric() ? 1e-14 : 1e-12;
+  const bool inverse = !detail::Lu<double>(stiffness).is_singular(least) &&
+                       (!structure.symmetric() || detail::cholesky(stiffness).has_value());
   FirstOrderForm form{Eigen::MatrixXd::Zero(2 * n, 2 * n), inverse,
                       detail::Lu<double>(inverse ? stiffness : mass)};
   if (form.metric.is_singular(1e-14))

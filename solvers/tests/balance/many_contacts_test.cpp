@@ -268,7 +268,6 @@ TEST(ManyContactsErrors, NameTheNumberFoundAndWanted) {
   EXPECT_THROW(forced_response(problem, springs({0, 1, 2}), {}, Eigen::VectorXd::Zero(32)),
                std::invalid_argument);
   EXPECT_THROW(ContactLaws(std::vector<AnyContactLaw>{}), std::invalid_argument);
-  EXPECT_THROW(integrate_to_periodic(chain(3), springs({0, 1}), chain_frequency), std::invalid_argument);
   try {
     ContactSystem(problem, springs({0, 1}));
     FAIL();

@@ -93,9 +93,7 @@ CondensedProblem problem_of(const ImpactCase& one, int functions, int points) {
 }
 
 TimeSteppingResult stepped(const ImpactCase& one) {
-  TimeSteppingOptions options;
-  options.period_tolerance = 1e-6;
-  return integrate_to_periodic(one.structure, one.laws, one.frequency, options);
+  return testing::stepped_motion(one.structure, one.laws, one.frequency, 1024);
 }
 
 /// Of exponential_oscillator().

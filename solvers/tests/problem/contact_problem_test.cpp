@@ -155,7 +155,6 @@ TEST(ContactProblem, WithRestitutionHasImpactsAndNothingElse) {
   EXPECT_NEAR(found.motion.impacts.front().velocity_before, 1.69573294, 1e-8);
   EXPECT_THROW(problem.respond(scene.frequency()), std::invalid_argument);
   EXPECT_THROW(problem.settle(scene.frequency()), std::invalid_argument);
-  EXPECT_THROW(problem.integrate(scene.frequency()), std::invalid_argument);
   EXPECT_THROW(ContactProblem(testing::fourier_pair(7, 32), structure, contact::RigidLaw(1.0)),
                std::invalid_argument);
 }

@@ -2,7 +2,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "wavebalance/solvers/period/time_stepping.hpp"
+#include "support/small_problems.hpp"
+#include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
@@ -35,11 +36,14 @@ inline FrequencySweep complete_sweep(CondensedProblem& problem, const ContactLaw
   return sweep;
 }
 
+/// The motion in time from event to event, which no basis in time and no samples take part in.
 inline TimeSteppingResult stepped_motion(const LinearStructure& structure, const ContactLaws& laws,
                                          double frequency, int points) {
+  const CondensedProblem problem = fourier_problem(structure, 7, 32, frequency);
   TimeSteppingOptions options;
   options.output_points = points;
-  TimeSteppingResult result = integrate_to_periodic(structure, laws, frequency, options);
+  TimeSteppingResult result =
+      integrate_by_events(problem, ContactDynamics(structure), laws, options).stepping;
   if (result.status != TimeSteppingStatus::converged)
     throw std::runtime_error("no motion in time: " + std::string(to_string(result.status)));
   return result;

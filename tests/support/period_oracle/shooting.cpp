@@ -210,7 +210,7 @@ ShootingResult shoot(const LinearStructure& structure, const AnyContactLaw& law,
   require_single_contact(structure, "shoot");
   if (law.depends_on_velocity())
     throw std::invalid_argument(
-        "shoot: the force of the law depends on the velocity; integrate_to_periodic takes such laws");
+        "shoot: the force of the law depends on the velocity; integrate_by_events takes such laws");
   return Shooting(structure, law, frequency_hz, options).run();
 }
 

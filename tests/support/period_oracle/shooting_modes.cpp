@@ -32,7 +32,7 @@ void require_modal_damping(const Eigen::MatrixXd& modal) {
   throw std::invalid_argument(
       "shoot: damping couples the undamped modes (largest coupling " + std::to_string(worst) +
       " 1/s, largest modal damping " + std::to_string(largest) +
-      " 1/s); it must be proportional or modal. integrate_to_periodic takes any damping");
+      " 1/s); it must be proportional or modal. integrate_by_events takes any damping");
 }
 
 }  // namespace
@@ -50,11 +50,12 @@ ModalStructure::ModalStructure(const LinearStructure& structure, double frequenc
     throw std::invalid_argument("shoot: mass (" + std::to_string(structure.size()) + " x " +
                                 std::to_string(structure.size()) +
                                 ") is not positive definite; every degree of freedom needs a mass");
-  structure.require_causal_damping("shoot");
+  if (structure.loss_factor != 0.0)
+    throw std::invalid_argument("shoot: structural damping has no equation in time");
   if (!solvers::is_symmetric(structure.stiffness))
     throw std::invalid_argument(
         "shoot: stiffness is not symmetric, so that no real modes decouple the structure; "
-        "integrate_to_periodic takes any damping and stiffness");
+        "integrate_by_events takes any damping and stiffness");
   const auto modes = solvers::detail::symmetric_eigen(Eigen::MatrixXd(structure.stiffness), mass);
   if (!modes)
     throw std::invalid_argument("shoot: no modes found; mass and stiffness must be symmetric and finite");

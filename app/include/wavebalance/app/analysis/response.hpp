@@ -164,11 +164,6 @@ Response phases_response(const Scene& scene, const ResponseOptions& options = {}
 Response phases_response(const Scene& scene, const StructureModel& model,
                          const ResponseOptions& options = {});
 
-/// The scene's response by time stepping until two periods agree to analysis.tolerance.
-Response time_stepping_response(const Scene& scene, const ResponseOptions& options = {});
-Response time_stepping_response(const Scene& scene, const StructureModel& model,
-                                const ResponseOptions& options = {});
-
 /// The motion with impacts that the structure settles to, of scenes with contact.restitution: exact flights
 /// from impact to impact until it nearly repeats, and of forced responses Newton's method on instants and
 /// impulses from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it
@@ -177,8 +172,7 @@ Response time_stepping_response(const Scene& scene, const StructureModel& model,
 Response impacts_response(const Scene& scene, const StructureModel& model,
                           const ResponseOptions& options = {});
 
-/// The scene's response in time from event to event, solvers::integrate_by_events(): of friction, of rebounds
-/// beside other laws, and of both. Once two periods agree to analysis.tolerance the period is closed, so that
+/// The scene's response in time from event to event, solvers::integrate_by_events(). Once two periods agree to analysis.tolerance the period is closed, so that
 /// the motion is exact and has all its multipliers. The status is a solvers::TimeSteppingStatus,
 /// "endless_events" or "no_modes".
 Response flow_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options = {});

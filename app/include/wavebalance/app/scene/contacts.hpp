@@ -76,9 +76,6 @@ double common_gap(const Scene& scene);
 bool has_damped_contact(const Scene& scene);
 /// Whether a contact has friction.
 bool has_friction(const Scene& scene);
-/// Whether time stepping goes from event to event: with friction, in a ring, with other laws beside a rigid
-/// contact, and with impacts of a structure that is free to move.
-bool integrates_by_events(const Scene& scene);
 
 /// The values of [contact] or of a pair that the law takes, its gap included.
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap);

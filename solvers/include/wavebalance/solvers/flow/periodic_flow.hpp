@@ -5,6 +5,7 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/flow/contact_flow.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
+#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
@@ -12,6 +13,7 @@ namespace wavebalance::solvers {
 struct FlowMotion {
   TimeSteppingResult stepping;  ///< the last period, and how it was reached
   FlowStatus ended = FlowStatus::converged;
+  PhaseMotion motion;             ///< the last period; without parts where it was not completed
   std::vector<FlowEvent> events;  ///< of the last period, in s from its beginning
   std::vector<Impact> impacts;    ///< among these, in periods
   std::vector<ContactMachine> machines;
@@ -31,9 +33,8 @@ struct FlowMotion {
 /// Integrates from contacts at rest, and the structure elsewhere in its motion without contact, or from
 /// states of the poles, until two successive periods of the displacements differ by less than
 /// period_tolerance, then closes the period by Newton's method: the motion is then exact to the tolerance of
-/// the panels, and its multipliers are known. Of the options those of steps and of initial values, and
-/// full_history, have no part in it. A slider that does not move keeps its position, which has a multiplier
-/// of 1 that is left out. Throws as ContactFlow does, and for options out of range.
+/// the panels, and its multipliers are known. A slider that does not move keeps its position, which has a
+/// multiplier of 1 that is left out. Throws as ContactFlow does, and for options out of range.
 FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow = {}, const Eigen::VectorXcd& poles = {});
 /// The same of a structure under the load of a problem, at its frequency.

@@ -55,10 +55,9 @@ struct SettledMotion {
 /// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from the state
 /// of the options, at a maximum of the load's first harmonic. A number of periods is one that two of three
 /// integrations agree on, each with a hundredth of the error of the one before. With friction the first has
-/// even steps, a quarter as many, and up to twice as many returns are kept. A structure that is free to move
-/// has no motion without contact beside which it is integrated; it takes the steps of
-/// integrate_to_periodic(), and no friction. Throws std::invalid_argument
-/// for options out of range or not finite. O(n^3) once, O(m^2 + C m) per step.
+/// even steps, a quarter as many, and up to twice as many returns are kept; of a structure that is free to
+/// move none is integrated. Throws std::invalid_argument for options out of range or not finite. O(n^3) once,
+/// O(m^2 + C m) per step.
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 

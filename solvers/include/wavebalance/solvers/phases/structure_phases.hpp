@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
@@ -38,16 +37,5 @@ struct StructurePhases {
 /// points log points)).
 StructurePhases structure_phases(const CondensedProblem& problem, const PhaseMotion& motion, int points,
                                  const StructurePhasesOptions& options = {});
-
-/// A periodic motion of the contacts, whose forces have exact harmonics.
-struct ContactSource {
-  std::function<Eigen::MatrixXcd(int count)> force_harmonics;                 ///< N, C x count
-  std::function<Eigen::MatrixXd(const Eigen::VectorXd& times)> displacement;  ///< m, C x times (periods)
-  double holding = 0.0;  ///< N/m, ContactDynamics::holding() whose springs the forces hold back
-};
-
-/// The same of any such motion.
-StructurePhases structure_motion_of(const CondensedProblem& problem, const ContactSource& source, int points,
-                                    const StructurePhasesOptions& options = {});
 
 }  // namespace wavebalance::solvers

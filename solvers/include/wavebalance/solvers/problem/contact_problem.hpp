@@ -152,9 +152,8 @@ class ContactProblem {
   /// For what has exact motions at a frequency of the load. Throws std::invalid_argument without modes.
   PhasesProblem phases_problem(double frequency);
 
-  /// Motions in time, from rest or the state of the options: settle(), integrate_to_periodic().
+  /// Motions in time, from rest or the state of the options: settle().
   SettledMotion settle(double frequency, const SettlingOptions& options = {});
-  TimeSteppingResult integrate(double frequency, const TimeSteppingOptions& options = {}) const;
 
  private:
   void require_well_posed() const;
