@@ -76,7 +76,7 @@ ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& opt
       fastest_(machines_.size(), 0.0) {
   for (const int row : problem.laws.rigid(int(poles_.rows())))
     if (!problem.laws[row].friction()) rest_position_[row] = std::min(0.0, problem.laws[row].gap());
-  set_force_size(problem);
+  set_small_force(problem);
   end_force_.setZero(poles_.rows());
   end_memory_rate_.setZero(contacts_.memories());
   start();

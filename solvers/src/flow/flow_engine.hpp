@@ -68,7 +68,7 @@ class ContactFlow::Engine {
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
     return {poles_, shape, time_, states_, now_.memory};
   }
-  void set_force_size(const PhasesProblem& problem);
+  void set_small_force(const PhasesProblem& problem);
   const detail::PanelShape& shape(int level);
   /// Whether memories turn as fast as forces tell, and at what rate others settle, 1/s.
   struct Moving {
@@ -122,7 +122,7 @@ class ContactFlow::Engine {
 
   double span_ = 0.0;  // s, of the period
   double length_ = 0.0, moving_ = 0.0, time_ = 0.0, until_ = 0.0, first_sample_ = 0.0, force_size_ = 0.0,
-         unresolved_ = 0.0;
+         small_force_ = 0.0, unresolved_ = 0.0;
   /// The least value of a guard in the last period, and its slope by the memory.
   struct Margin {
     double least, by_memory;

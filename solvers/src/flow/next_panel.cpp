@@ -11,15 +11,15 @@
 
 namespace wavebalance::solvers {
 
-// Forces that move no contact by a thousandth of its length in a period need few digits of their own: those
-// of a power law, which rise as d^1.5 where it is touched, have none.
-void ContactFlow::Engine::set_force_size(const PhasesProblem& problem) {
+// Forces that move no contact by a thousandth of its length in a period need few digits of their own. The
+// first ones of a power law, which rise as d^1.5 where it is touched, have none on any panel.
+void ContactFlow::Engine::set_small_force(const PhasesProblem& problem) {
   constexpr double share = 1e-3;
   const double rate = 2.0 * std::numbers::pi * problem.frequency;
   double mobility = 0.0;  // 1/kg
   for (int row = 0; row < int(poles_.rows()); ++row)
     mobility = std::max(mobility, detail::inverse_mass_of(problem.dynamics, row));
-  if (mobility > 0.0) force_size_ = share * length_ * rate * rate / mobility;
+  if (mobility > 0.0) small_force_ = share * length_ * rate * rate / mobility;
 }
 
 // How the memories of the contacts move that do.
@@ -80,7 +80,10 @@ std::optional<ContactFlow::Engine::Solved> ContactFlow::Engine::solve_next() {
     if (rough < 0.01 * options_.tolerance && turns < 0.5) level_ = std::max(level_ - 1, coarsest_);
     return Solved{&panel, std::move(found.values)};
   }
-  return std::nullopt;
+  if (force_size_ >= small_force_) return std::nullopt;
+  force_size_ = small_force_;
+  level_ = coarsest_;
+  return solve_next();
 }
 
 // A panel ends where equations become singular, if that is within one that it makes too long.
