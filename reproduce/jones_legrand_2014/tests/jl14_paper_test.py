@@ -53,8 +53,8 @@ def test_references_are_contact_phases_that_time_stepping_comes_near(results, ca
     phases, stepping = results.table(f"{stem}.csv"), results.table(f"{stem}_time_stepping.csv")
     for name in ("displacement_m", "velocity_m_per_s", "contact_force_N"):
         distance = relative_rms_error(stepping.numbers(name), phases.numbers(name))
-        assert distance < 1e-5, name
-        assert distance > 1e-12, f"two methods do not share their digits: {name}"
+        assert distance < 1e-8, name
+        assert distance > 1e-15, f"two methods do not share their digits: {name}"
     assert relative_rms_error(exact.response["displacement_m"], phases.numbers("displacement_m")) < 1e-12
 
 

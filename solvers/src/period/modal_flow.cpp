@@ -101,11 +101,13 @@ void ModalFlow::set_step(double step) {
   for (Index c = 0; c < contacts; ++c) step_compliance_.col(c) -= contact_displacement(end_.col(c));
   step_mobility_ = -contact_ * end_.bottomRows(m);
   drift_.setZero(states);
+  contact_drift_.setZero(contacts);
   if (constant_.isZero(0.0)) return;
   Eigen::MatrixXd driven = Eigen::MatrixXd::Zero(states + 1, states + 1);
   driven.topLeftCorner(states, states) = step * rates_;
   driven.col(states).segment(m, m) = step * constant_;
   drift_ = detail::exponential(driven).col(states).head(states);
+  contact_drift_ = contact_displacement(drift_);
 }
 
 Eigen::VectorXd ModalFlow::advance(const Eigen::VectorXd& state, const Eigen::VectorXd& force) const {
@@ -127,7 +129,8 @@ void ModalFlow::add_contact_displacement(const Eigen::VectorXd& state, Eigen::Ve
 }
 
 void ModalFlow::add_contact_displacement_after(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {
-  to.noalias() += contact_exponential_ * state + to_contact_ * drift_.head(modes());
+  to += contact_drift_;
+  to.noalias() += contact_exponential_ * state;
 }
 
 void ModalFlow::add_contact_velocity(const Eigen::VectorXd& state, Eigen::VectorXd& to) const {

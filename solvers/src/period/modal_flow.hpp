@@ -66,7 +66,7 @@ class ModalFlow {
   Eigen::MatrixXd rates_;                 // 2m x 2m, of the first-order form, 1/s
   Eigen::MatrixXd static_compliance_;     // C x C, m/N, of the omitted modes
   double step_ = 0.0;                     // s
-  Eigen::VectorXd constant_, drift_;      // m, of the load; what it adds to a state in a step
+  Eigen::VectorXd constant_, drift_, contact_drift_;  // m, of the load; what it adds to a state in a step
   Eigen::MatrixXd exponential_, contact_exponential_, begin_, end_, step_compliance_, step_mobility_;
 };
 
