@@ -172,9 +172,9 @@ Response phases_response(const Scene& scene, const StructureModel& model,
 Response impacts_response(const Scene& scene, const StructureModel& model,
                           const ResponseOptions& options = {});
 
-/// The scene's response in time from event to event, solvers::integrate_by_events(). Once two periods agree to analysis.tolerance the period is closed, so that
-/// the motion is exact and has all its multipliers. The status is a solvers::TimeSteppingStatus,
-/// "endless_events" or "no_modes".
+/// The scene's response in time from event to event, solvers::integrate_by_events(). Once two periods agree
+/// to analysis.tolerance the period is closed, so that the motion is exact and has all its multipliers. The
+/// status is a solvers::TimeSteppingStatus, "endless_events" or "no_modes".
 Response flow_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options = {});
 
 }  // namespace wavebalance::app
