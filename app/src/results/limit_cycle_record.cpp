@@ -35,7 +35,7 @@ Record limit_cycle_record(const Scene& scene, const StructureModel& model, const
   Record record = response_record(moving, model, solved.response);
   record.interrupted = solved.found.status == solvers::LimitCycleStatus::cancelled;
   if (record.interrupted) record.status = "interrupted";
-  if (!start.source.empty()) record.add(quantities::start_from, start.source);
+  if (!how.start.source.empty()) record.add(quantities::start_from, how.start.source);
   if (solved.response.moves)
     record.cycle = {.contacts = solved.response.contacts, .frequency = solved.frequency};
   record.add("period_s", 1.0 / solved.frequency);

@@ -10,7 +10,7 @@
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/slip_points.hpp"
-#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {

@@ -8,7 +8,7 @@
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
-#include "wavebalance/solvers/stability/branches.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 
 namespace wavebalance::solvers {
 namespace {

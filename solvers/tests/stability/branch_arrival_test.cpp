@@ -1,4 +1,4 @@
-#include "stability/branch_arrival.hpp"
+#include "branches/branch_arrival.hpp"
 
 #include <gtest/gtest.h>
 

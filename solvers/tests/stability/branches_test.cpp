@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/stability/branches.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 
 #include <utility>
 

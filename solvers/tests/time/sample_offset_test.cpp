@@ -1,4 +1,4 @@
-#include "stability/perturbation.hpp"
+#include "branches/perturbation.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
@@ -8,8 +8,8 @@
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
-#include "wavebalance/solvers/stability/branches.hpp"
-#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 
 // Samples at the middles of the intervals, t_l = (l + 1/2) / N.
 namespace wavebalance::solvers {

@@ -15,7 +15,7 @@
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/stability/branches.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 
 namespace wavebalance::app {
 

@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/stability/branches.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
-#include "stability/branch_arrival.hpp"
-#include "stability/perturbation.hpp"
+#include "branches/branch_arrival.hpp"
+#include "branches/perturbation.hpp"
 
 namespace wavebalance::solvers {
 namespace {

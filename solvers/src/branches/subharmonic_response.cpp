@@ -1,4 +1,4 @@
-#include "wavebalance/solvers/stability/subharmonic_response.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "linalg/option_checks.hpp"
-#include "stability/branch_arrival.hpp"
-#include "stability/perturbation.hpp"
+#include "branches/branch_arrival.hpp"
+#include "branches/perturbation.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::solvers {

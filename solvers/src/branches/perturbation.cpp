@@ -1,4 +1,4 @@
-#include "stability/perturbation.hpp"
+#include "branches/perturbation.hpp"
 
 #include <cmath>
 #include <complex>
