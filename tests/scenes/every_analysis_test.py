@@ -41,6 +41,7 @@ def test_a_sweep_over_the_frequency_has_the_oscillators_peak():
 
 def test_an_exact_motion_is_in_time_stepping_and_alone_among_all_motions():
     exact = solve("forced_response", STOP, {"method": "exact"})["max_displacement_m"]
+    assert solve("shooting", STOP)["max_displacement_m"] == exact
     assert solve("time_stepping", STOP)["max_displacement_m"] == pytest.approx(exact, rel=1e-6)
     assert solve("forced_response", STOP, BASES)["max_displacement_m"] == pytest.approx(exact, rel=1e-3)
     found = solve("motions", STOP, random_starts=4)

@@ -36,6 +36,7 @@ SWEEPS = {
     "frequency_sweep": "frequency_from = 3.0\nfrequency_to = 3.1\nmax_points = 5",
     "amplitude_sweep": "amplitude_from = 1.0\namplitude_to = 1.1\nmax_points = 5",
     "time_stepping": "max_periods = 5",
+    "shooting": "",
     "motions": "random_starts = 1",
 }
 
@@ -53,7 +54,7 @@ def verdicts(matrices, command, run, tmp_path):
     """What check and then run say of a scene."""
 
     def ask(contact, structure="contact_dofs = [2]", analysis="forced_response", *arguments, set=(), solve=True):
-        bases = "" if "restitution" in contact or analysis in ("time_stepping", "motions") else BASES
+        bases = "" if "restitution" in contact or analysis in ("time_stepping", "shooting", "motions") else BASES
         text = SCENE.format(structure=structure, contact=contact, time=bases, analysis=analysis, more=SWEEPS[analysis],
                             amplitude=1.0 if analysis == "amplitude_sweep" else 5.0,
                             frequency="" if analysis == "frequency_sweep" else "frequency = 3.0")

@@ -30,9 +30,10 @@ def test_bases_are_refused_where_motions_are_integrated(refused, law, key):
     assert f"time.{key} = " in message and "does not belong" in message
 
 
-def test_motions_by_phases_take_a_tolerance_and_no_bases(refused):
-    assert "time.functions" in refused(LAWS["linear"], 'type = "motions"\n', time="[time]\nfunctions = 31\n")
-    assert not refused(LAWS["linear"], 'type = "motions"\n', time="[time]\ntolerance = 1e-6\n")
+@pytest.mark.parametrize("analysis", ["motions", "shooting"])
+def test_motions_by_phases_take_a_tolerance_and_no_bases(refused, analysis):
+    assert "time.functions" in refused(LAWS["linear"], f'type = "{analysis}"\n', time="[time]\nfunctions = 31\n")
+    assert not refused(LAWS["linear"], f'type = "{analysis}"\n', time="[time]\ntolerance = 1e-6\n")
 
 
 def test_modes_take_bases_where_these_have_an_effect(refused):

@@ -8,7 +8,7 @@
 /// the program needs of it.
 namespace wavebalance::app {
 
-/// Of forced_response.
+/// Of forced_response and shooting.
 Record forced_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
 /// Of frequency_sweep and amplitude_sweep, with stability, phases and isolas.
 Record curve_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
@@ -38,11 +38,12 @@ struct AnalysisPart {
   Record (*record)(const Scene&, const StructureModel&, const AnalysisOptions&);
   std::string (*plan)(const Scene&) = nullptr;  ///< none where equations of functions or modes are solved
 };
-inline constexpr std::array<AnalysisPart, 8> analysis_parts{{
+inline constexpr std::array<AnalysisPart, 9> analysis_parts{{
     {AnalysisType::forced_response, forced_record},
     {AnalysisType::frequency_sweep, curve_record},
     {AnalysisType::amplitude_sweep, curve_record},
     {AnalysisType::time_stepping, stepping_record, stepping_plan},
+    {AnalysisType::shooting, forced_record},
     {AnalysisType::motions, motions_record, motions_plan},
     {AnalysisType::nonlinear_mode, mode_record},
     {AnalysisType::limit_cycle, limit_cycle_record, limit_cycle_plan},

@@ -184,7 +184,8 @@ bool names_exact_method(const Scene& scene) {
 bool solves_by_phases(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (moves_by_events(scene))
-    return type == AnalysisType::forced_response || kind_of(type).motions_by == MotionsBy::events;
+    return type == AnalysisType::shooting || type == AnalysisType::forced_response ||
+           kind_of(type).motions_by == MotionsBy::events;
   return names_exact_method(scene);
 }
 

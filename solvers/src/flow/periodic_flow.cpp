@@ -55,14 +55,16 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
       nearest = past.change();
       result.nearest = begin;
     }
-    if (const int repeats = past.repeats(); repeats > 0) {
+    const int repeats = past.repeats();
+    const double closer = std::log(past.change()) / std::log(options.period_tolerance),
+                 done = repeats > 0 ? 1.0 : std::clamp(closer, 0.0, 1.0);
+    const bool wanted = goes_on(options.observer, {"time stepping", stepping.periods, past.change(),
+                                                   "relative difference of periods", done});
+    if (repeats > 0) {
       stepping.attractor_periods = repeats;
       return repeats == 1 ? TimeSteppingStatus::converged : TimeSteppingStatus::subharmonic;
     }
-    const double done = std::log(past.change()) / std::log(options.period_tolerance);
-    if (!goes_on(options.observer, {"time stepping", stepping.periods, past.change(),
-                                    "relative difference of periods", std::clamp(done, 0.0, 1.0)}))
-      return TimeSteppingStatus::cancelled;
+    if (!wanted) return TimeSteppingStatus::cancelled;
   }
   if (past.change() <= flow_errors) return TimeSteppingStatus::tolerance_missed;
   if (stepping.periods > 2 * options.longest) stepping.attractor_periods = 0;

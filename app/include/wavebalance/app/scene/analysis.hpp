@@ -13,6 +13,7 @@ enum class AnalysisType {
   frequency_sweep,
   amplitude_sweep,
   time_stepping,
+  shooting,
   motions,
   nonlinear_mode,
   limit_cycle,
@@ -36,7 +37,7 @@ struct AnalysisKind {
 
   bool is_exact() const { return motions_by == MotionsBy::phases || motions_by == MotionsBy::events; }
 };
-inline constexpr std::array<AnalysisKind, 8> analysis_kinds{{
+inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
     {AnalysisType::forced_response, "forced_response", "Forced response", MotionsBy::equations, true, true,
      false, true},
     {AnalysisType::frequency_sweep, "frequency_sweep", "Frequency response", MotionsBy::equations, true,
@@ -45,6 +46,8 @@ inline constexpr std::array<AnalysisKind, 8> analysis_kinds{{
      MotionsBy::equations, true, true, true, true},
     {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", MotionsBy::time, true, true,
      false, true},
+    {AnalysisType::shooting, "shooting", "Response by contact phases", MotionsBy::phases, true, true, false,
+     true},
     {AnalysisType::motions, "motions", "Coexisting motions", MotionsBy::phases, true, true, true, true},
     {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", MotionsBy::equations, false, false,
      false, false},

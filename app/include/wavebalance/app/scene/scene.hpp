@@ -96,7 +96,8 @@ bool seeks_by_events(const Scene& scene);
 /// impacts.
 bool names_exact_method(const Scene& scene);
 /// Whether its motion is solved for exactly, without functions and points of its own: time.method,
-/// analysis.type = "motions", and responses that moves_by_events().
+/// analysis.type = "shooting", which is another name for the same, "motions", and responses that
+/// moves_by_events().
 bool solves_by_phases(const Scene& scene);
 
 /// At which matrices with gyroscopic or spin_stiffness turn, rad/s; 0 for other structures.
