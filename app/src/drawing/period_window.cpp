@@ -36,7 +36,9 @@ std::pair<std::size_t, std::size_t> longest_open_run(const std::vector<bool>& cl
 
 }  // namespace
 
-PeriodWindow::PeriodWindow(const Response& response) : periods_(response.periods) {
+PeriodWindow::PeriodWindow(const Response& response)
+    : periods_(response.periods), repeats_(!response.recorded) {
+  if (!repeats_) return;
   const std::vector<bool> closed = closed_instants(response);
   const auto [begin, length] = longest_open_run(closed);
   const std::size_t n = closed.size();
@@ -63,8 +65,9 @@ Axis PeriodWindow::axis() const {
 Series PeriodWindow::curve(const Eigen::VectorXd& values) const {
   const Eigen::Index n = values.size();
   const auto first = static_cast<Eigen::Index>(std::llround(start_ * double(n)));
-  Eigen::VectorXd times(n + 1), rotated(n + 1);
-  for (Eigen::Index l = 0; l <= n; ++l) {
+  const Eigen::Index points = repeats_ ? n + 1 : n;
+  Eigen::VectorXd times(points), rotated(points);
+  for (Eigen::Index l = 0; l < points; ++l) {
     times[l] = double(first + l) / double(n);
     rotated[l] = values[(first + l + n) % n];
   }

@@ -12,13 +12,15 @@ namespace wavebalance::app {
 /// is cut in two by the edges of the picture.
 class PeriodWindow {
  public:
-  /// That of the contact that `response` leads with; from 0 on where it is always open or always closed.
+  /// That of the contact that `response` leads with; from 0 on where it is always open or always closed, and
+  /// of a motion that does not repeat.
   explicit PeriodWindow(const Response& response);
 
   /// Where it begins, in [-0.5, 0.5), a multiple of 1 / points.
   double start() const { return start_; }
   Axis axis() const;  ///< "Time (fraction of a period)"
-  /// `values` at uniform instants of the period from 0 on, with the first one again at the end.
+  /// `values` at uniform instants of the period from 0 on, with the first one again at the end where the
+  /// motion repeats.
   Series curve(const Eigen::VectorXd& values) const;
   /// A fraction of the period as the instant of the window.
   double instant(double fraction) const;
@@ -27,6 +29,7 @@ class PeriodWindow {
 
  private:
   int periods_;
+  bool repeats_;
   double start_ = 0.0;
 };
 

@@ -235,7 +235,7 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
 void append_outputs(Record& record, const Scene& scene, const StructureModel& model,
                     const Response& response) {
   const std::vector<Output> outputs = outputs_of(scene);
-  if (outputs.empty() || !response.moves || response.contacts.empty()) return;
+  if (outputs.empty() || !response.moves || response.recorded || response.contacts.empty()) return;
   const Eigen::MatrixXd motion =
       values_of_outputs(outputs, scene, model, response.contacts, response.structure, response.periods);
   const int harmonics = scene.analysis.output_harmonics;
@@ -251,6 +251,24 @@ void append_outputs(Record& record, const Scene& scene, const StructureModel& mo
              measures_table(outputs, measured, exact_outputs(scene, model, response, outputs), harmonics));
   record.output_pictures.push_back(
       {"outputs", outputs_figure(outputs, motion, PeriodWindow(response)), "the motion of each output"});
+}
+
+void append_outputs(Record& record, const Scene& scene, const RecordedMotion& motion) {
+  const std::vector<Output> outputs = outputs_of(scene);
+  Summary entries;
+  for (std::size_t i = 0; i < scene.analysis.outputs.size(); ++i) {
+    const Output& output = outputs[i];
+    const auto of = [&](const char* quantity) {
+      return motion.of(output.name, quantity).value / output.size;
+    };
+    if (output.names_quantity() || !std::isfinite(of("mean"))) continue;
+    entries.emplace_back(output.column_of("max"), of("max"));
+    entries.emplace_back(output.column_of("min"), of("min"));
+    entries.emplace_back(output.column_of("half_peak_to_peak"), 0.5 * (of("max") - of("min")));
+    entries.emplace_back(output.column_of("rms"), of("vibration_rms"));
+    entries.emplace_back(output.column_of("mean"), of("mean"));
+  }
+  if (!entries.empty()) insert_outputs(record.summary, scene, outputs, std::move(entries));
 }
 
 void lead_with_output(Record& record, const Scene& scene) {

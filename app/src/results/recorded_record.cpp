@@ -8,6 +8,7 @@
 #include "drawing/diagram_figure.hpp"
 #include "files/missing.hpp"
 #include "plot/unit_prefix.hpp"
+#include "results/output_record.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
@@ -193,11 +194,13 @@ void add_files(Record& record, const RecordedMotion& motion) {
 
 }  // namespace
 
-void append_recorded(Record& record, const RecordedMotion& motion, double frequency, int contact) {
+void append_recorded(Record& record, const RecordedMotion& motion, const Scene& scene, int contact) {
+  const double frequency = scene.forcing.frequency;
   if (motion.is_aperiodic()) record.status = quantities::aperiodic;
   replace(record.summary, quantities::status, record.status);
   const MotionPlace& leading = motion.places[std::size_t(contact)];
   replace_values(record, motion, leading.name);
+  append_outputs(record, scene, motion);
   record.sentences = sentences_of(motion, frequency, leading, record.summary);
   record.add("motion_kind", name_of(motion.kind));
   record.add(quantities::lyapunov_exponent, motion.exponent.value);
