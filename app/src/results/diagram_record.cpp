@@ -216,6 +216,8 @@ std::string exact_sentence(const Diagram& diagram) {
   const std::string &status = diagram.exact_status, &back = diagram.exact_status_back;
   if (status == "reached_end" || status == "closed")
     return "Lines are exact periodic solutions, dashed where they are unstable.";
+  if (status == "not_sought" && diagram.places[std::size_t(diagram.place)].output)
+    return "Exact curves stand over sections of contacts alone.";
   if (status == "not_sought" || status.empty()) return "";
   if (status == "refused") return "There is no exact curve of this scene.";
   return "Lines are exact periodic solutions, dashed where they are unstable, from one end of the interval (" +
