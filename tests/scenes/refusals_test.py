@@ -132,6 +132,8 @@ def test_a_coefficient_of_friction_is_at_most_a_thousand(verdicts):
 @pytest.mark.parametrize("change, meant", [
     ("analysis.frequency_start=3.0", "analysis.frequency_from"),
     ("time.harmonics=5", "time.functions = 2 x harmonics + 1"),
+    ("time.points=64", "time.quadrature_points"),
+    ("contact.side=both", "contact.pairs, each with a side"),
     ("contact.law=penalty", '"linear"'),
     ("contact.law=unilateral", '"linear"'),
 ])

@@ -55,6 +55,8 @@ std::string_view name_for(std::string_view place, std::string_view word) {
                                     {"analysis", "amplitude_end", "amplitude_to"},
                                     {"time", "harmonics", "functions = 2 x harmonics + 1"},
                                     {"time", "samples", "quadrature_points"},
+                                    {"time", "points", "quadrature_points"},
+                                    {"contact", "side", "pairs, each with a side"},
                                     {"method", "phases", "exact"},
                                     {"law", "unilateral", "linear"},
                                     {"law", "penalty", "linear"},
