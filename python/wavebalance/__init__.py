@@ -54,6 +54,7 @@ from .scenes import check, complete, run
 from .structure import Pair, Structure
 from .studies import Study, study
 from .sweeps import Sweep, amplitude_sweep, frequency_sweep, overlay
+from .vector_laws import VectorFunction
 
 __all__ = [
     "Backbone",
@@ -87,6 +88,7 @@ __all__ = [
     "Study",
     "Sweep",
     "Table",
+    "VectorFunction",
     "__version__",
     "amplitude_sweep",
     "backbone",

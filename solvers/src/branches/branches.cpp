@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "linalg/enum_table.hpp"
-#include "linalg/option_checks.hpp"
 #include "branches/branch_arrival.hpp"
 #include "branches/perturbation.hpp"
+#include "linalg/enum_table.hpp"
+#include "linalg/option_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {

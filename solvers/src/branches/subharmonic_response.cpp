@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "linalg/option_checks.hpp"
 #include "branches/branch_arrival.hpp"
 #include "branches/perturbation.hpp"
+#include "linalg/option_checks.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::solvers {

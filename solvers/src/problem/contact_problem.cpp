@@ -6,11 +6,11 @@
 
 #include "phases/phase_loads.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 #include "wavebalance/solvers/response/curve_responses.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/stability/slip_points.hpp"
-#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 #include "wavebalance/solvers/structure/contact_mass.hpp"
 
 namespace wavebalance::solvers {

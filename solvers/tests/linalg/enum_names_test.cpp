@@ -4,11 +4,11 @@
 
 #include "enumerators.hpp"
 #include "linalg/enum_table.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
-#include "wavebalance/solvers/branches/branches.hpp"
 
 namespace wavebalance::solvers {
 namespace {

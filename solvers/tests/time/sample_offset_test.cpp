@@ -5,11 +5,11 @@
 #include "support/solved.hpp"
 #include "testing.hpp"
 #include "wavebalance/contact/rigid_law.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
+#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
-#include "wavebalance/solvers/branches/branches.hpp"
-#include "wavebalance/solvers/branches/subharmonic_response.hpp"
 
 // Samples at the middles of the intervals, t_l = (l + 1/2) / N.
 namespace wavebalance::solvers {

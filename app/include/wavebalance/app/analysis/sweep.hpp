@@ -11,11 +11,11 @@
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/branches/branches.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/branches/branches.hpp"
 
 namespace wavebalance::app {
 

@@ -39,8 +39,8 @@ enum class MotionKind {
 };
 std::string name_of(MotionKind kind);
 
-/// Of the size of a section: how far its points may lie off a closed curve that it is told to be,
-/// solvers::InvariantCurve::residual.
+/// The largest solvers::InvariantCurve::residual, relative to the size of the section, of a quasi-periodic
+/// motion.
 inline constexpr double largest_curve_residual = 1e-3;
 
 /// A motion that did not repeat, over many periods.

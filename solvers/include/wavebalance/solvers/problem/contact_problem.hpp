@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "wavebalance/solvers/branches/branches.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
@@ -15,7 +16,6 @@
 #include "wavebalance/solvers/problem/structure_dynamics.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
-#include "wavebalance/solvers/branches/branches.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 
 namespace wavebalance::solvers {

@@ -56,8 +56,8 @@ class ContactDynamics {
   static ContactDynamics undamped(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXd& shapes,
                                   Eigen::Index dynamic);
 
-  /// The same with springs, constant(), in place of the poles beyond a modulus (1/s). Exact in statics; what is
-  /// neglected grows with the square of a frequency over that modulus. O(poles C^2).
+  /// The same with springs, constant(), in place of the poles beyond a modulus (1/s). Exact in statics; what
+  /// is neglected grows with the square of a frequency over that modulus. O(poles C^2).
   ContactDynamics with_springs_beyond(double modulus) const;
 
   int contacts() const { return static_cast<int>(constant_.rows()); }  ///< C
