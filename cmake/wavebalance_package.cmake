@@ -118,12 +118,14 @@ endfunction()
 function(wavebalance_install_pages)
   file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/*/*.md
     ${PROJECT_SOURCE_DIR}/reproduce/*/README.md ${PROJECT_SOURCE_DIR}/reproduce/*/modes/README.md)
-  foreach(page IN LISTS pages ITEMS CITATION.cff reproduce/picture.png reproduce/speed.png)
+  foreach(page IN LISTS pages ITEMS CITATION.cff docs/did_not_converge.rst docs/limits.rst app/aperiodic.png app/overlay.png
+          reproduce/picture.png reproduce/speed.png)
     get_filename_component(folder ${page} DIRECTORY)
     install(FILES ${PROJECT_SOURCE_DIR}/${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT doc)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/reproduce/scenes DESTINATION ${CMAKE_INSTALL_DOCDIR}/reproduce COMPONENT doc)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/recipes DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/recipes ${PROJECT_SOURCE_DIR}/docs/theory
+    DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 endfunction()
 
 # wavebalance_add_other_packages(): the target wavebalance_packages makes what stands beside the Debian package: a package of

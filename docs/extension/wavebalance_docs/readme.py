@@ -1,6 +1,7 @@
 """`.. readme:: app/LAWS.md` shows a file in Markdown of the sources as part of a page, or with `:section:` the part below one
-of its headings, so that a reference stands in one place only. It reads what these files use: headings, paragraphs,
-lists, tables, blocks of code, pictures, and in a line code, links, bold and slanted text."""
+of its headings, so that a reference is in one place only. It reads what these files use: headings, paragraphs, lists,
+tables, blocks of code, pictures, and in a line code, links, bold and slanted text. A link to a file that a page of the
+site shows leads to that page."""
 
 import re
 from pathlib import Path
@@ -11,6 +12,7 @@ from sphinx.errors import ExtensionError
 
 from wavebalance_docs.commands import picture, table
 
+WHOLE = re.compile(r"^\.\. readme:: (\S+)\n(?! +:section:)", re.M)
 INLINE = re.compile(r"`([^`]+)`|!\[([^\]]*)\]\(([^)]+)\)|\[([^\]]+)\]\(([^)]+)\)|\*\*([^*]+)\*\*|(?<![\w*])\*([^*\s][^*]*)\*")
 
 
@@ -31,11 +33,30 @@ def part_below(text, heading):
     return None
 
 
-class Markdown:
-    """Docutils nodes of Markdown; `address` gives the address of a link, or nothing for plain text."""
+def slug(heading):
+    """The anchor of a heading, as GitHub makes it."""
+    return re.sub(r"[^\w\- ]", "", heading.strip("# ").lower()).replace(" ", "-")
 
-    def __init__(self, address, image):
-        self.address, self.image = address, image
+
+def pages_of_files(env):
+    """The page that shows each whole file, and each page itself: docnames by path."""
+    if not hasattr(env.app, "wavebalance_pages"):
+        pages = {}
+        for page in sorted(env.found_docs):
+            source = Path(env.doc2path(page))
+            pages[source.resolve()] = page
+            for name in WHOLE.findall(source.read_text()):
+                pages[(Path(env.app.config.wavebalance_source) / name).resolve()] = page
+        env.app.wavebalance_pages = pages
+    return env.app.wavebalance_pages
+
+
+class Markdown:
+    """Docutils nodes of Markdown; `address` gives the address of a link, or nothing for plain text, and `anchor` the
+    anchor of a heading, if it has one."""
+
+    def __init__(self, address, image, anchor=None):
+        self.address, self.image, self.anchor = address, image, anchor
 
     def inline(self, text):
         result, place = [], 0
@@ -48,7 +69,8 @@ class Markdown:
             elif link:
                 target = self.address(link)
                 inner = self.inline(label)
-                result += [nodes.reference("", "", *inner, refuri=target)] if target else inner
+                inside = not (target or "").startswith(("https://", "http://"))
+                result += inner if target is None else [nodes.reference("", "", *inner, refuri=target, internal=inside)]
             elif bold:
                 result.append(nodes.strong("", "", *self.inline(bold)))
             elif slanted:
@@ -82,7 +104,8 @@ class Markdown:
                 result.append(nodes.literal_block(text, text, language="text"))
                 i = end
             elif line.startswith("#"):
-                result.append(nodes.rubric("", "", *self.inline(line.lstrip("# "))))
+                ids = {"ids": [self.anchor(line)]} if self.anchor else {}
+                result.append(nodes.rubric("", "", *self.inline(line.lstrip("# ")), **ids))
                 i += 1
             elif line.startswith("|"):
                 end = self.end(lines, i, lambda one: one.startswith("|"))
@@ -132,11 +155,25 @@ class Readme(Directive):
             lines = part_below(text, self.options["section"])
         if not lines:
             raise ExtensionError(f"{env.docname}: {file} has no section '{self.options.get('section')}'")
-        return Markdown(self.address, lambda link, alt: picture(env, file.parent / link, alt, [])).blocks(lines)
+        return Markdown(lambda link: self.address(env, file, link), lambda link, alt: picture(env, file.parent / link, alt, []),
+                        lambda heading: self.anchor(file, heading)).blocks(lines)
 
     @staticmethod
-    def address(link):
-        return link if link.startswith(("https://", "http://")) else None
+    def anchor(file, heading):
+        """Unique among the files of a page."""
+        return f"{file.parent.name}-{file.stem}-{slug(heading)}".lower()
+
+    @classmethod
+    def address(cls, env, file, link):
+        if link.startswith(("https://", "http://")):
+            return link
+        name, _, heading = link.partition("#")
+        target = (file.parent / name).resolve() if name else file.resolve()
+        page = pages_of_files(env).get(target)
+        if page is None:
+            return None
+        whole = target.suffix == ".md"
+        return env.app.builder.get_relative_uri(env.docname, page) + (f"#{cls.anchor(target, heading)}" if heading and whole else "")
 
 
 def setup(app):
