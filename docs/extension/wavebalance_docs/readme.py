@@ -155,8 +155,9 @@ class Readme(Directive):
             lines = part_below(text, self.options["section"])
         if not lines:
             raise ExtensionError(f"{env.docname}: {file} has no section '{self.options.get('section')}'")
-        return Markdown(lambda link: self.address(env, file, link), lambda link, alt: picture(env, file.parent / link, alt, []),
-                        lambda heading: self.anchor(file, heading)).blocks(lines)
+        page = Markdown(lambda link: self.address(env, file, link), lambda link, alt: picture(env, file.parent / link, alt, []),
+                        lambda heading: self.anchor(file, heading))
+        return page.blocks(lines)
 
     @staticmethod
     def anchor(file, heading):
@@ -172,8 +173,8 @@ class Readme(Directive):
         page = pages_of_files(env).get(target)
         if page is None:
             return None
-        whole = target.suffix == ".md"
-        return env.app.builder.get_relative_uri(env.docname, page) + (f"#{cls.anchor(target, heading)}" if heading and whole else "")
+        uri = env.app.builder.get_relative_uri(env.docname, page)
+        return f"{uri}#{cls.anchor(target, heading)}" if heading and target.suffix == ".md" else uri
 
 
 def setup(app):
