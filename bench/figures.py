@@ -273,7 +273,7 @@ def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
             f"| error of the displacement, 127 / 1023 functions | {error_text(v['fourier_127_error'])} in "
             f"{time_text(v['fourier_127_ms'])} / {error_text(v['fourier_1023_error'])} in {time_text(v['fourier_1023_ms'])} | "
             f"time stepping: {error_text(v['stepping_error'])} in {time_text(v['stepping_ms'])} |",
-            f"| contact phases to 1e-8 / 1e-12 from a balance of 63 functions, second load case | {time_text(v['phases_2_8_ms'])} / "
+            f"| exact periodic solution to 1e-8 / 1e-12, from 63 functions, second load case | {time_text(v['phases_2_8_ms'])} / "
             f"{time_text(v['phases_2_12_ms'])} | first load case: {time_text(v['phases_1_8_ms'])} / {time_text(v['phases_1_12_ms'])} |",
             f"| tolerances 1e-1 to 1e-8, 17 motions | true error at most {v['tolerance_ratio']:.2g} times that asked for | "
             f"200 random motions: at most {v['tolerance_random_ratio']:.2g} times |",
