@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 
+#include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -119,6 +120,24 @@ void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
                                 (sizes.contacts > 1.0 ? longest_structure_curve : 0.0);
 }
 
+/// Beside a response: Newton steps of the exact motion, of unknowns that only the search shows. What is not
+/// found by phases is sought by the flow with as many operations.
+void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
+  if (is_sweep(scene.analysis) || !scene.analysis.phases) return;
+  constexpr double rate = 5e9;  // operations per second
+  constexpr double least_steps = 10.0, most_steps = 60.0, nodes = 12.0, most_nodes = 24.0, cut_panels = 60.0;
+  const auto step = [&](double unknowns) {
+    return unknowns * unknowns * (unknowns / 1.5 + 4.0 * sizes.degrees);
+  };
+  const double contacts = sizes.contacts;
+  const double panels = std::max(3.0 * contacts, std::min(cut_panels, contacts * contacts));
+  const double allowed = 2.0 * most_operations_of_phases(contact_count(scene));
+  const double most = std::min(most_steps * step(most_nodes * panels), allowed) / rate;
+  if (most < 1.0) return;
+  cost.least_exact_seconds = std::min(least_steps * step((nodes + 2.0) * contacts), allowed) / rate;
+  cost.most_exact_seconds = most;
+}
+
 std::string duration_text(double seconds) {
   if (seconds >= 120.0) return fmt::format("{:.0f} min", seconds / 60.0);
   return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
@@ -157,6 +176,7 @@ CostEstimate estimate_cost(const Scene& scene) {
   cost.seconds = responses(scene.analysis) * response_seconds(sizes) + modes + reduction +
                  3e-6 * sizes.contacts * sizes.output_points;
   add_stability(scene, sizes, cost);
+  add_exact_motion(scene, sizes, cost);
   if (cost.unforeseen) cost.seconds = std::numeric_limits<double>::quiet_NaN();
   return cost;
 }
@@ -165,10 +185,13 @@ std::string cost_text(const CostEstimate& cost) {
   const std::string memory = memory_text(cost.bytes) + " of memory";
   if (cost.unforeseen) return "a time that cannot be foreseen with friction, and about " + memory;
   if (std::isnan(cost.seconds)) return "about " + memory;
-  if (!(cost.most_stability_seconds > 0.0)) return "about " + duration_text(cost.seconds) + " and " + memory;
-  return fmt::format("about {} for the curve, {} to {} for its stability, and {}",
-                     duration_text(cost.seconds), duration_text(cost.least_stability_seconds),
-                     duration_text(cost.most_stability_seconds), memory);
+  const bool exact = cost.most_exact_seconds > 0.0;
+  const double least = exact ? cost.least_exact_seconds : cost.least_stability_seconds;
+  const double most = exact ? cost.most_exact_seconds : cost.most_stability_seconds;
+  if (!(most > 0.0)) return "about " + duration_text(cost.seconds) + " and " + memory;
+  return fmt::format("about {} for the {}, {} to {} for its {}, and {}", duration_text(cost.seconds),
+                     exact ? "response" : "curve", duration_text(least), duration_text(most),
+                     exact ? "exact motion" : "stability", memory);
 }
 
 std::string slow_stepping_advice(const Scene& scene) {

@@ -22,13 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Seconds of one processor for a few contacts, which take a thousandth of that or less where a motion is
-// near, and less than a minute for 100, whose phases take as long.
-double most_operations_of_phases(int contacts) {
-  constexpr double of_few = 4e10, few_contacts = 16.0, most = 7.0;
-  return of_few * std::clamp(contacts / few_contacts, 1.0, most);
-}
-
 constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
 
 double seconds_since(Clock::time_point start) {
@@ -110,6 +103,11 @@ void require_digits(Response& result) {
 }
 
 }  // namespace
+
+double most_operations_of_phases(int contacts) {
+  constexpr double of_few = 4e10, few_contacts = 16.0, most = 7.0;
+  return of_few * std::clamp(contacts / few_contacts, 1.0, most);
+}
 
 solvers::RefinementResult solve_to_tolerance(const Scene& scene, const StructureModel& model,
                                              const solvers::ContactLaws& laws, const ResponseOptions& options,

@@ -40,6 +40,12 @@ TEST(CostText, SaysSecondsAndMemory) {
   EXPECT_EQ(cost_text({.seconds = 0.2, .bytes = 21e6}), "about 0.2 s and 21 MB of memory");
 }
 
+TEST(CostText, GivesTheExactMotionOfAResponseARange) {
+  EXPECT_EQ(
+      cost_text({.seconds = 0.2, .least_exact_seconds = 0.5, .most_exact_seconds = 24.0, .bytes = 21e6}),
+      "about 0.2 s for the response, 0.5 s to 24 s for its exact motion, and 21 MB of memory");
+}
+
 TEST(AvailableMemory, IsThatOfTheMachineAtMost) {
   EXPECT_GT(available_memory(), 1e6);
   EXPECT_LE(available_memory(),

@@ -21,8 +21,8 @@ struct CondensedProblem::Work {
       : fft(points), spectrum(points / 2 + 1), translates(static_cast<std::size_t>(contacts)) {}
   spectral::RealFft fft;
   Eigen::VectorXcd spectrum;
-  std::vector<Eigen::VectorXcd> translates;  // one spectrum per contact; empty where no force acts
-  Eigen::VectorXcd product;
+  std::vector<Eigen::VectorXcd> translates;  // one spectrum per contact
+  Eigen::MatrixXcd products;                 // one column per contact
 };
 
 namespace {
@@ -214,25 +214,30 @@ Eigen::VectorXd CondensedProblem::contact_free_response_by_scale() {
 }
 
 void CondensedProblem::apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
-                                    const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis,
-                                    Eigen::VectorXd& out) {
+                                    const Eigen::MatrixXcd& kernel, bool adjoint,
+                                    const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out) {
   const AliasMap index{pair_.functions(), points()};
   const double scale = double(pair_.functions()) / points() / points() / points();
+  const bool exchanged = adjoint && !harmonics_->symmetric();
+  work_->products.setZero(pair_.spectrum_size(), contacts());
   for (int d = 0; d < contacts(); ++d) {
-    Eigen::VectorXcd& translates = work_->translates[static_cast<std::size_t>(d)];
-    translates.resize(0);
     if (contacts() > 1 && in.segment(d * points(), points()).isZero(0.0)) continue;
     work_->fft.forward(block_of(in, d, points()), span_of(work_->spectrum));
+    Eigen::VectorXcd& translates = work_->translates[static_cast<std::size_t>(d)];
     index.fold(analysis, work_->spectrum, translates);
     translates *= scale;
+    // In the order of the kernel, which of many contacts is larger than caches.
+    for (int c = 0; c < contacts(); ++c) {
+      const auto column = kernel.col(exchanged ? d + contacts() * c : c + contacts() * d);
+      if (adjoint)
+        work_->products.col(c) += column.conjugate().cwiseProduct(translates);
+      else
+        work_->products.col(c) += column.cwiseProduct(translates);
+    }
   }
   out.resize(samples());
   for (int c = 0; c < contacts(); ++c) {
-    work_->product.setZero(pair_.spectrum_size());
-    for (int d = 0; d < contacts(); ++d)
-      if (const auto& translates = work_->translates[static_cast<std::size_t>(d)]; translates.size() > 0)
-        work_->product += kernel.col(c + contacts() * d).cwiseProduct(translates);
-    index.replicate(synthesis, work_->product, work_->spectrum);
+    index.replicate(synthesis, work_->products.col(c), work_->spectrum);
     work_->fft.inverse(span_of(std::as_const(work_->spectrum)), block_of(out, c, points()));
   }
 }
@@ -247,16 +252,13 @@ void CondensedProblem::apply_slope(const Eigen::VectorXd& force, Eigen::VectorXd
 
 void CondensedProblem::apply(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force,
                              Eigen::VectorXd& displacement) {
-  apply_kernel(force, pair_.weight_spectrum(), compliance, pair_.trial_spectrum(), displacement);
+  apply_kernel(force, pair_.weight_spectrum(), compliance, false, pair_.trial_spectrum(), displacement);
 }
 
 // Exchanging the two bases and the contacts transposes K; a symmetric compliance needs no exchange of these.
 void CondensedProblem::apply_transposed(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& values,
                                         Eigen::VectorXd& result) {
-  Eigen::MatrixXcd transposed = compliance.conjugate();
-  for (int c = 0; c < contacts() && !harmonics_->symmetric(); ++c)
-    for (int d = 0; d < c; ++d) transposed.col(c + contacts() * d).swap(transposed.col(d + contacts() * c));
-  apply_kernel(values, pair_.trial_spectrum(), transposed, pair_.weight_spectrum(), result);
+  apply_kernel(values, pair_.trial_spectrum(), compliance, true, pair_.weight_spectrum(), result);
 }
 
 // <p, force> of each contact into translates.
@@ -278,8 +280,8 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::MatrixXcd& complian
                                                 const Eigen::VectorXd& force) {
   project(force);
   Eigen::MatrixXcd spectra = load_response_;
-  for (int c = 0; c < contacts(); ++c)
-    for (int d = 0; d < contacts(); ++d)
+  for (int d = 0; d < contacts(); ++d)
+    for (int c = 0; c < contacts(); ++c)
       spectra.col(c) -=
           compliance.col(c + contacts() * d).cwiseProduct(work_->translates[static_cast<std::size_t>(d)]);
   return spectra;

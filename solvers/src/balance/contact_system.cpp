@@ -91,6 +91,17 @@ void ContactSystem::evaluate_laws(const Eigen::VectorXd& displacement) {
   if (given_.follow_frequency()) evaluated_ = displacement;
   if (rates_) rates_->apply(displacement, operator_.problem().frequency(), velocity_);
   laws_.evaluate(operator_.problem().contacts(), displacement, velocity_, forces_);
+  if (force_share_ != 1.0) scale_forces();
+}
+
+void ContactSystem::scale_forces() {
+  forces_.force *= force_share_;
+  forces_.slopes.displacement *= force_share_;
+  forces_.slopes.velocity *= force_share_;
+  for (SlopeEntry& entry : forces_.slopes.others) {
+    entry.slope *= force_share_;
+    entry.damping *= force_share_;
+  }
 }
 
 double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {

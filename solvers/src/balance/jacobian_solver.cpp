@@ -73,7 +73,9 @@ void JacobianSolver::count_dense(const ContactOperator& contact) {
 void JacobianSolver::count_krylov(const ContactOperator& contact, int iterations) {
   const double points = contact.problem().points();
   const double contacts = contact.problem().contacts(), coarse = double(krylov_.size());
-  operations_ += 2.0 / 3.0 * coarse * coarse * coarse + 4.0 * contacts * coarse * coarse;
+  const int made = krylov_.renewals() - counted_renewals_;
+  counted_renewals_ = krylov_.renewals();
+  operations_ += made * (2.0 / 3.0 * coarse * coarse * coarse + 4.0 * contacts * coarse * coarse);
   operations_ += (10.0 * points * std::log2(points + 1.0) * contacts) * iterations;
 }
 

@@ -29,7 +29,7 @@ class JacobianSolver {
              Eigen::VectorXd& x, double& y);
 
   /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when there is no LU of it.
-  int determinant_sign() const {
+  int determinant_sign() {
     return used_ == Used::dense ? dense_.determinant_sign() : krylov_.determinant_sign();
   }
 
@@ -55,6 +55,7 @@ class JacobianSolver {
   ActiveSlopes active_;
   bool remembers_ = false;  // whether forces depend on other samples than their own
   int krylov_failures_ = 0;
+  int counted_renewals_ = 0;  // of the preconditioner, in operations_
   double operations_ = 0.0;
   SampleReduction samples_;
   FunctionReduction functions_;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr int max_iterations = 200;
 
+// The same with a preconditioner of a state before, after which it is made anew.
+constexpr int max_kept_iterations = 60;
+
 // GMRES starts anew from the true residual where rounding has separated it from the one that it updates.
 constexpr int max_refinements = 2;
 
@@ -33,16 +36,43 @@ CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequenc
 
 }  // namespace
 
-bool KrylovBlock::prepare(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes) {
-  active_ = &active;
-  weighted_.setZero(slopes.displacement.size());
-  largest_gain_ = smallest_gain_ = 0.0;
-  if (!std::isfinite(active.scale().squaredNorm())) return false;
-  set_coarse(contact, slopes);
+// Operations of a preconditioner over those of an iteration, whose products with K wait for memory.
+double KrylovBlock::iterations_of_renewal(const ContactOperator& contact) const {
+  constexpr double of_kernel = 24.0, of_samples = 400.0;
+  const CondensedProblem& problem = contact.problem();
+  const double size = double(coarse_.size()), contacts = problem.contacts();
+  const double renewal = size * size * (size / 1.5 + 4.0 * contacts) + 8.0 * contacts * contacts * size;
+  const double iteration = of_kernel * contacts * contacts * problem.pair().spectrum_size() +
+                           of_samples * contacts * problem.points() + 2.0 * size * size;
+  return renewal / iteration;
+}
+
+bool KrylovBlock::may_be_kept(const ContactOperator& contact) const {
+  constexpr double least_worth = 4.0, share = 0.5;  // of a renewal, that more iterations may take
+  if (!made_ || border_.exists() != made_with_border_ || iterations_ > max_kept_iterations) return false;
+  const double worth = iterations_of_renewal(contact);
+  return worth >= least_worth && iterations_ - least_iterations_ <= share * worth;
+}
+
+bool KrylovBlock::renew() {
+  ++renewals_;
+  set_coarse(*contact_, *slopes_);
   const Eigen::Index size = coarse_.size() + (border_.exists() ? 1 : 0);
   matrix_.resize(size, size);
-  coarse_.fill(slopes, contact.problem().frequency(), matrix_);
-  return true;
+  coarse_.fill(*slopes_, contact_->problem().frequency(), matrix_);
+  if (border_.exists()) {
+    active_->write(active_column_, weighted_);
+    coarse_.respond(weighted_, coefficients_);
+    matrix_.col(size - 1).head(size - 1) = coefficients_;
+    matrix_.row(size - 1) = border_row().transpose();
+  }
+  lu_.compute(matrix_);
+  made_ = !lu_.is_singular();
+  made_with_border_ = border_.exists();
+  kept_ = false;
+  iterations_ = 0;
+  least_iterations_ = max_iterations;
+  return made_;
 }
 
 // To choose the directions of many contacts takes as long as to solve with them. They are chosen anew at each
@@ -59,26 +89,54 @@ void KrylovBlock::set_coarse(ContactOperator& contact, const PeriodSlopes& slope
 
 bool KrylovBlock::factorize(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes,
                             Border border) {
+  contact_ = &contact;
+  active_ = &active;
+  slopes_ = &slopes;
   border_ = std::move(border);
-  if (!prepare(contact, active, slopes)) return false;
-  if (border_.exists()) add_border(contact);
-  lu_.compute(matrix_);
-  return !lu_.is_singular();
+  weighted_.setZero(slopes.displacement.size());
+  largest_gain_ = smallest_gain_ = 0.0;
+  if (!std::isfinite(active.scale().squaredNorm())) return false;
+  if (border_.exists()) read_border();
+  return (may_be_kept(contact) && keep()) || renew();
+}
+
+void KrylovBlock::read_border() {
+  contact_->apply_transposed(border_.row, samples_);
+  active_row_ = -samples_(active_->samples()).cwiseProduct(active_->scale());
+  active_column_ = active_->read(border_.column);
 }
 
 // With x = r - K S z - b y the last row is -(S K^T c).z + (d - c.b) y = s - c.r. With the preconditioner's
 // z = v - B (U g + b y) it becomes an equation for y and g = V S z.
-void KrylovBlock::add_border(ContactOperator& contact) {
-  contact.apply_transposed(border_.row, samples_);
-  active_row_ = -samples_(active_->samples()).cwiseProduct(active_->scale());
-  active_column_ = active_->read(border_.column);
-  const Eigen::Index size = coarse_.size();
-  active_->write(active_column_, weighted_);
-  coarse_.respond(weighted_, coefficients_);
-  matrix_.col(size).head(size) = coefficients_;
+Eigen::VectorXd KrylovBlock::border_row() {
   coarse_.analyse(active_->read_transposed(active_row_, weighted_.size()), coefficients_);
-  matrix_.row(size).head(size) = -coefficients_.transpose();
-  matrix_(size, size) = border_.corner - border_.row.dot(border_.column) - active_row_.dot(active_column_);
+  Eigen::VectorXd row = -coefficients_;
+  row.conservativeResize(coarse_.size() + 1);
+  row[coarse_.size()] = border_.corner - border_.row.dot(border_.column) - active_row_.dot(active_column_);
+  return row;
+}
+
+// Of the state before all stays but the last row, which holds exactly: a change of rank one of its LU.
+bool KrylovBlock::keep() {
+  kept_ = true;
+  if (!border_.exists()) return true;
+  const Eigen::Index last = coarse_.size();
+  row_change_ = border_row() - matrix_.row(last).transpose();
+  row_influence_ = lu_.solve(Eigen::VectorXd(Eigen::VectorXd::Unit(last + 1, last)));
+  row_pivot_ = 1.0 + row_change_.dot(row_influence_);
+  constexpr double least = 1e-6;
+  return std::abs(row_pivot_) > least * (1.0 + row_change_.norm() * row_influence_.norm());
+}
+
+Eigen::VectorXd KrylovBlock::solve_coarse(const Eigen::VectorXd& right) const {
+  Eigen::VectorXd solution = lu_.solve(right);
+  if (kept_ && border_.exists()) solution -= row_change_.dot(solution) / row_pivot_ * row_influence_;
+  return solution;
+}
+
+int KrylovBlock::determinant_sign() {
+  if (kept_) renew();
+  return lu_.determinant_sign();
 }
 
 // (z, y) = P^-1 (v, s).
@@ -89,7 +147,7 @@ void KrylovBlock::precondition(const Eigen::VectorXd& v, double s, Unknown& unkn
     coefficients_.conservativeResize(coarse_.size() + 1);
     coefficients_[coarse_.size()] = s - active_row_.dot(v);
   }
-  const Eigen::VectorXd solution = lu_.solve(coefficients_);
+  const Eigen::VectorXd solution = solve_coarse(coefficients_);
   coarse_.synthesise(solution, samples_);
   unknown.z = v - active_->read(samples_);
   unknown.y = border_.exists() ? solution[coarse_.size()] : 0.0;
@@ -132,7 +190,8 @@ KrylovBlock::Outcome KrylovBlock::solve_active(ContactOperator& contact, const E
     const double size = size_of_terms(right, unknown.z);
     outcome.solved = !(size > 0.0) || remainder.norm() / size <= reduction;
     if (outcome.solved || round == max_refinements) break;
-    const GmresResult found = gmres(map, remainder, 0.5 * reduction * size, max_iterations, v);
+    const GmresResult found =
+        gmres(map, remainder, 0.5 * reduction * size, kept_ ? max_kept_iterations : max_iterations, v);
     outcome.iterations += found.iterations;
     if (found.iterations == 0 || !v.allFinite()) break;
     precondition(v, 0.0, step);
@@ -172,6 +231,14 @@ KrylovBlock::Outcome KrylovBlock::solve(ContactOperator& contact, const Eigen::V
   y = unknown.y;
   if (border_.exists()) reduced -= y * border_.column;
   complete(contact, reduced, reduction, unknown.z, x, outcome);
+  if (!outcome.solved && kept_ && renew()) {
+    const int before = outcome.iterations;
+    outcome = solve(contact, r, s, reduction, x, y);
+    outcome.iterations += before;
+    return outcome;
+  }
+  iterations_ = outcome.iterations;
+  least_iterations_ = std::min(least_iterations_, iterations_);
   return outcome;
 }
 

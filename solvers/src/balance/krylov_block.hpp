@@ -20,7 +20,9 @@ namespace wavebalance::solvers {
 /// size s of the coarse space. What it leaves is then small and compact, and the number of iterations does
 /// not grow with the number of samples or contacts. In I + V D U the entries of D beside those of a sample by
 /// its own motion are left out.
-/// An iteration costs two products with K, factorize() O(C N log N + C^2 M + C s^2 + s^3).
+/// An iteration costs two products with K, a new preconditioner O(C N log N + C^2 M + C s^2 + s^3). That of a
+/// state before, whose frequency and slopes were others, is kept as long as the iterations that it takes more
+/// cost less than a new one, which of one contact is never: GMRES solves with J as it is now.
 class KrylovBlock {
  public:
   struct Outcome {
@@ -28,8 +30,9 @@ class KrylovBlock {
     int iterations = 0;  ///< products of GMRES
   };
 
-  /// Makes the preconditioner for D = `slopes`, of which `active` was set and must outlive the solves, at the
-  /// frequency of the problem. False when it is singular to working precision or D is not finite.
+  /// Makes the preconditioner for D = `slopes`, of which `active` was set, at the frequency of the problem,
+  /// or keeps the last one. `contact`, `active` and `slopes` must outlive the solves as they are. False when
+  /// it is singular to working precision or D is not finite.
   bool factorize(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes, Border border);
   const Border& border() const { return border_; }
   /// x = J^-1 r and y = 0 until the residual on the active samples is at most `reduction` of r; it vanishes
@@ -38,15 +41,17 @@ class KrylovBlock {
   Outcome solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
                 Eigen::VectorXd& x, double& y);
 
-  /// 1 or -1: the sign of det P. That of det J is the same where K - U V is small.
-  int determinant_sign() const { return lu_.determinant_sign(); }
+  /// 1 or -1: the sign of det P, which is made anew where it was kept. That of det J is the same where K - U
+  /// V is small.
+  int determinant_sign();
   /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
   /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation, and of a few power iterations
   /// with J and P^-1. Three further products.
   double condition(ContactOperator& contact);
 
-  /// Unknowns of the preconditioner.
+  /// Unknowns of the preconditioner, and how often it was made.
   Eigen::Index size() const { return coarse_.size(); }
+  int renewals() const { return renewals_; }
 
  private:
   /// Active values z and, when bordered, y.
@@ -55,9 +60,14 @@ class KrylovBlock {
     double y = 0.0;
   };
 
-  bool prepare(ContactOperator& contact, ActiveSlopes& active, const PeriodSlopes& slopes);
+  double iterations_of_renewal(const ContactOperator& contact) const;
+  bool may_be_kept(const ContactOperator& contact) const;
+  bool renew();
+  bool keep();
   void set_coarse(ContactOperator& contact, const PeriodSlopes& slopes);
-  void add_border(ContactOperator& contact);
+  void read_border();
+  Eigen::VectorXd border_row();
+  Eigen::VectorXd solve_coarse(const Eigen::VectorXd& right) const;
   void precondition(const Eigen::VectorXd& v, double s, Unknown& unknown);
   void multiply(ContactOperator& contact, const Unknown& unknown, Eigen::VectorXd& product);
   Outcome solve_active(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
@@ -66,12 +76,18 @@ class KrylovBlock {
   void complete(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
                 const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome);
 
+  ContactOperator* contact_ = nullptr;
   ActiveSlopes* active_ = nullptr;
+  const PeriodSlopes* slopes_ = nullptr;
   HarmonicCoarseSpace coarse_;
   double coarse_frequency_ = 0.0;  // Hz, at which the coarse space was set
   CoarseSize coarse_wanted_;
   Eigen::MatrixXd matrix_;
   detail::Lu<double> lu_;
+  bool made_ = false, made_with_border_ = false, kept_ = false;  // kept_: made for a state before
+  int renewals_ = 0, iterations_ = 0, least_iterations_ = 0;     // of the last solve, and least with this LU
+  Eigen::VectorXd row_change_, row_influence_;                   // of the last row since, with a border
+  double row_pivot_ = 1.0;
   Eigen::VectorXd weighted_, samples_, coefficients_;  // work
   double largest_gain_ = 0.0, smallest_gain_ = 0.0;    // extremes of ||J z|| / ||z||
   Border border_;                                      // over all samples

@@ -12,6 +12,7 @@
 #include "linalg/safe_norm.hpp"
 #include "period/settling_returns.hpp"
 #include "response/free_balance.hpp"
+#include "response/stiffness_continuation.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
 namespace wavebalance::solvers {
@@ -130,6 +131,20 @@ Candidate try_homotopy(const Task& task, const Eigen::VectorXd& series_flexibili
   return candidate;
 }
 
+/// Continuation in the stiffness of the contacts, from the contact-free motion.
+Candidate try_stiffness(const Task& task, const Eigen::VectorXd& series_flexibility) {
+  ContactSystem system = task.system(series_flexibility);
+  Candidate candidate = no_solution(SolveStatus::stalled, series_flexibility, {});
+  NewtonOptions newton_options = task.options.newton;
+  newton_options.observer = task.options.observer;
+  newton_options.max_operations = std::min(newton_options.max_operations, task.fallback_operations);
+  const detail::StiffnessPath path = detail::follow_stiffness(system, candidate.unknown, newton_options);
+  candidate.newton.status = path.status;
+  candidate.iterations = path.iterations;
+  if (path.status != SolveStatus::converged) return candidate;
+  return improve(task, system, std::move(candidate), Strategy::stiffness_continuation);
+}
+
 /// Continuation in the gaps: the obstacles are lowered onto the contact-free motion u0. With gaps larger by h
 /// no contact closes, and u0 - h solves the balance up to the residual -h. The smallest such h is the start.
 Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
@@ -211,6 +226,10 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, int& att
   const Task task = with_room_for_iterations(at_first, best);
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
+  if (form.size() == 0 && !task.problem.is_free()) {
+    best = better(std::move(best), try_stiffness(task, form));
+    if (best.ended()) return best;
+  }
   // A continuation in the load passes through sticking and slipping sample by sample.
   if (task.laws.act_over_period())
     return solve_settled(task, form, first, std::move(best), attractor_periods);

@@ -10,6 +10,7 @@ std::string_view to_string(Strategy strategy) {
   using enum Strategy;
   return detail::name_in<Strategy>({{none, "none"},
                                     {newton, "newton"},
+                                    {stiffness_continuation, "stiffness_continuation"},
                                     {gap_continuation, "gap_continuation"},
                                     {load_continuation, "load_continuation"},
                                     {settling, "settling"},

@@ -241,21 +241,40 @@ void Condensation::condense_by_method(const StiffnessSpectrum& factors, const St
   rounding_ = relative_errors(result, load);
 }
 
+namespace {
+
+// Rows of results from `first` on. Of many contacts several are written together, since each number of a row
+// lies in another line of the cache.
+void write_rows(const std::vector<CondensedPoint>& points, Index first, CondensedSpectrum& result) {
+  const auto write = [&](auto member, auto& rows) {
+    for (Index i = 0; i < rows.cols(); ++i)
+      for (std::size_t j = 0; j < points.size(); ++j)
+        rows(first + Index(j), i) = (points[j].*member).data()[i];
+  };
+  write(&CondensedPoint::compliance, result.compliance);
+  write(&CondensedPoint::load_response, result.load_response);
+  write(&CondensedPoint::compliance_slope, result.compliance_slope);
+  write(&CondensedPoint::load_response_slope, result.load_response_slope);
+  write(&CondensedPoint::compliance_error, result.compliance_error);
+  write(&CondensedPoint::load_response_error, result.load_response_error);
+}
+
+}  // namespace
+
 void Condensation::Method::condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                                     CondensedSpectrum& result) {
+  constexpr Index many_entries = 1024, in_a_line = 4;
   const Index points = factors[0].size();
+  const Index together = result.compliance.cols() >= many_entries ? in_a_line : 1;
   make_twins(points);
   const int workers = static_cast<int>(std::min<Index>(threads_, Index(twins_.size()) + 1));
-  parallel_for(workers, points, [&](int worker, Index k) {
+  parallel_for(workers, (points + together - 1) / together, [&](int worker, Index part) {
     Method& method = worker == 0 ? *this : *twins_[static_cast<std::size_t>(worker) - 1];
-    const CondensedPoint point =
-        method.dynamic_compliance(coefficients_at(factors, k), coefficients_at(derivatives, k));
-    result.compliance.row(k) = point.compliance.reshaped().transpose();
-    result.load_response.row(k) = point.load_response.transpose();
-    result.compliance_slope.row(k) = point.compliance_slope.reshaped().transpose();
-    result.load_response_slope.row(k) = point.load_response_slope.transpose();
-    result.compliance_error.row(k) = point.compliance_error.transpose();
-    result.load_response_error.row(k) = point.load_response_error.transpose();
+    std::vector<CondensedPoint> found;
+    for (Index k = part * together; k < std::min(points, (part + 1) * together); ++k)
+      found.push_back(
+          method.dynamic_compliance(coefficients_at(factors, k), coefficients_at(derivatives, k)));
+    write_rows(found, part * together, result);
   });
   for (const auto& other : twins_) {
     record(other->condition());

@@ -36,6 +36,9 @@ class Condensation::Method {
   void reset_condition() { condition_ = 0.0; }
 
  protected:
+  Method() = default;
+  /// Of a twin, which has none itself.
+  Method(const Method&) {}
   void record(double condition) { condition_ = std::max(condition_, condition); }
 
  private:

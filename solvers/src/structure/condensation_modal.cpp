@@ -43,6 +43,12 @@ class ModalMethod final : public Condensation::Method {
   int size() const override { return static_cast<int>(loads_.rows()); }
   int contacts() const override { return static_cast<int>(contacts_.rows()); }
 
+  std::unique_ptr<Method> twin() const override {
+    constexpr Index least = 100'000;  // entries of the product of a point over contacts
+    if (contacts_.rows() * contacts_.size() < least) return nullptr;
+    return std::make_unique<ModalMethod>(*this);
+  }
+
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives) override {
     const Eigen::ArrayXcd compliance = combine(factors).inverse();

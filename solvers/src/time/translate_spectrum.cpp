@@ -28,7 +28,7 @@ int fine_points(const AnyTimeBasis& basis, int points) {
 
 }  // namespace
 
-void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& translates,
+void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::Ref<const Eigen::VectorXcd>& translates,
                          Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1;
   out.resize(size);

@@ -119,6 +119,39 @@ TEST_P(ManyContacts, LaterLoadShiftsTheResponse) {
                   1e-8 * a.displacement.norm());
 }
 
+// GMRES keeps a preconditioner of many contacts from one frequency and state to the next.
+TEST(ManyContactsSolver, SolvesWithThePreconditionerOfAStateBeforeAsLuDoes) {
+  constexpr int contacts = 24;
+  std::mt19937 generator(17);
+  LinearStructure structure = testing::random_chain(30, generator);
+  std::vector<int> dofs(contacts);
+  std::iota(dofs.begin(), dofs.end(), 3);
+  structure.contact_directions = contact_rows(dofs, structure.size());
+  CondensedProblem problem = make_problem(testing::fourier_pair(31, 64), structure);
+  ContactSystem by_gmres(problem, LinearContact{200.0, 0.5}), by_lu(problem, LinearContact{200.0, 0.5});
+  by_gmres.set_linear_solver(LinearSolver::krylov);
+  by_lu.set_linear_solver(LinearSolver::dense);
+  const Eigen::VectorXd state = testing::random_vector(problem.samples(), generator),
+                        change = testing::random_vector(problem.samples(), generator),
+                        b = testing::random_vector(problem.samples(), generator),
+                        r = testing::random_vector(problem.samples(), generator);
+  int step = 0;
+  for (const double frequency : {0.05, 0.0501, 0.0502, 0.0502, 0.06}) {
+    problem.set_frequency(frequency);
+    const Eigen::VectorXd u = state + 0.02 * step++ * change, c = (b + 0.1 * step * r) / double(u.size());
+    Eigen::VectorXd x, exact;
+    double y = 0.0, exact_y = 0.0;
+    for (ContactSystem* system : {&by_gmres, &by_lu}) system->evaluate(u);
+    ASSERT_TRUE(by_gmres.factorize_bordered(b, c, 0.3) && by_lu.factorize_bordered(b, c, 0.3));
+    ASSERT_TRUE(by_gmres.solve_bordered(r, 0.7, x, y, 1e-10));
+    by_lu.solve_bordered(r, 0.7, exact, exact_y);
+    const double error = 1e-10 * by_lu.condition() * exact.norm();
+    EXPECT_LE((x - exact).norm(), error) << frequency;
+    EXPECT_NEAR(y, exact_y, error);
+    if (step > 2) EXPECT_EQ(by_gmres.determinant_sign(), by_lu.determinant_sign()) << frequency;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(PairKinds, ManyContacts, ::testing::Range(0, testing::pair_kind_count));
 
 // Two oscillators that nothing couples, in one structure and each alone; the contact of `first` comes first.

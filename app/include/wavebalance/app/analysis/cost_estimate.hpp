@@ -10,6 +10,9 @@ struct CostEstimate {
   double seconds = 0.0;  ///< processor time of a response or a curve; NaN where only the solution shows it
   /// That of the stability and the structure's own curve beside a curve, at least and at most; zero without.
   double least_stability_seconds = 0.0, most_stability_seconds = 0.0;
+  /// That of the exact motion near a response, with its stability, at least and at most; zero without, or
+  /// below a second.
+  double least_exact_seconds = 0.0, most_exact_seconds = 0.0;
   double bytes = 0.0;       ///< resident memory at its peak
   bool unforeseen = false;  ///< the time is NaN since it depends on how often contacts slip, stick and open
 };
@@ -30,11 +33,15 @@ struct CostEstimate {
 /// points, memory was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Stability
 /// with the structure's own curve took 0.1 to 9 times the time of the curve in ten sweeps of one contact. Of
 /// three contacts it had taken 170 times when it was stopped, as that curve may have many phases; it is
-/// bounded by the operations that it may take, here estimated at 300 s. Responses that Newton's method does
-/// not find take more time. Sizes that a tolerance chooses, periods of time stepping and points of a mode are
-/// not known, and with friction curves take more time by factors that differ widely: the time is NaN, and
-/// memory that of the structure and the output. With laws of the velocity at 10 to 200 contacts memory was
-/// within a factor of 1.5, too. O(1), but matrices that have not been read are read.
+/// bounded by the operations that it may take, here estimated at 300 s. The exact motion beside a response
+/// takes steps of n^2 (n / 1.5 + 4 poles) operations at 5e9 per second: ten with n = 14 C unknowns at least,
+/// at most sixty with 24 nodes on each panel, or all that the searches by phases and by the flow may take; it
+/// is said where it may exceed a second. Of 24 contacts it took 0.5 to 10 s where 0.04 to 24 s are said.
+/// Responses that Newton's method does not find take more time. Sizes that a tolerance chooses, periods of
+/// time stepping and points of a mode are not known, and with friction curves take more time by factors that
+/// differ widely: the time is NaN, and memory that of the structure and the output. With laws of the velocity
+/// at 10 to 200 contacts memory was within a factor of 1.5, too. O(1), but matrices that have not been read
+/// are read.
 CostEstimate estimate_cost(const Scene& scene);
 
 /// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes
@@ -48,7 +55,8 @@ double available_memory();
 /// "3.2 GB", "15 MB"
 std::string memory_text(double bytes);
 
-/// "about 0.2 s for the curve, 0.02 s to 2 s for its stability, and 21 MB of memory"
+/// "about 0.2 s for the curve, 0.02 s to 2 s for its stability, and 21 MB of memory"; of a response "for its
+/// exact motion".
 std::string cost_text(const CostEstimate& cost);
 
 /// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than

@@ -176,7 +176,8 @@ class CondensedProblem {
  private:
   Eigen::VectorXd median_compliance(int harmonics) const;
   void apply_kernel(const Eigen::VectorXd& in, const Eigen::VectorXcd& analysis,
-                    const Eigen::MatrixXcd& kernel, const Eigen::VectorXcd& synthesis, Eigen::VectorXd& out);
+                    const Eigen::MatrixXcd& kernel, bool adjoint, const Eigen::VectorXcd& synthesis,
+                    Eigen::VectorXd& out);
   void synthesize(const Eigen::MatrixXcd& spectra, Eigen::VectorXd& samples);
   void project(const Eigen::VectorXd& force);
   void set_unit_loads();

@@ -99,6 +99,10 @@ class ContactSystem {
   /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }
 
+  /// Scales the contact forces and their slopes at each evaluation, to follow a solution from soft to stiff
+  /// contacts in the displacement form; 1 at first.
+  void set_force_share(double share) { force_share_ = share; }
+
   /// Adds to `slope` the derivative by frequency (m/Hz) that a residual at fixed samples has through the
   /// velocities. It is zero where no law depends on them.
   void add_velocity_slope(Eigen::VectorXd& slope);
@@ -140,6 +144,7 @@ class ContactSystem {
  private:
   double evaluate_residual(const Eigen::VectorXd& displacement);
   void evaluate_laws(const Eigen::VectorXd& displacement);
+  void scale_forces();
   void take_laws();
   void follow_frequency();
   void take_side(int sample, const ForceSlopes& side);
@@ -153,6 +158,7 @@ class ContactSystem {
   std::vector<std::vector<LawKink>> kinks_;  // of each contact
   std::vector<int> rest_pieces_;
   Eigen::VectorXd added_motion_;
+  double force_share_ = 1.0;
   double relative_residual_ = 0.0;
   double column_scale_ = 1.0, row_scale_ = 1.0;  // of the border last factorized
   double products_ = 0.0;                        // operations of products with K

@@ -10,8 +10,10 @@ namespace wavebalance::solvers {
 
 /// What found a periodic response, in the order in which they are tried.
 enum class Strategy {
-  none,               ///< no response was found
-  newton,             ///< Newton's method from the start given, or no contact at all
+  none,    ///< no response was found
+  newton,  ///< Newton's method from the start given, or no contact at all
+  /// Newton's method at growing shares of the contact force, from the motion without contact
+  stiffness_continuation,
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
   load_continuation,  ///< arc length in the load, from rest, of laws that act on both sides
   settling,           ///< Newton's method from the motion that the structure at rest settles to

@@ -18,7 +18,7 @@ struct AliasMap {
   int points;     ///< N
 
   /// out[n] = factor[n] c(n mod M), n = 0..N/2. O(N).
-  void replicate(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& translates,
+  void replicate(const Eigen::VectorXcd& factor, const Eigen::Ref<const Eigen::VectorXcd>& translates,
                  Eigen::VectorXcd& out) const;
   /// out[k] = sum over n = k mod M, both signs of n, of conj(factor[n]) samples[n], k = 0..M/2. O(N).
   void fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples, Eigen::VectorXcd& out) const;
