@@ -176,7 +176,8 @@ def measure(options):
                     for what in options.what:
                         for contacts in options.contacts:
                             with tempfile.TemporaryDirectory() as folder:
-                                scene = write_scene(structure, contacts, folder, friction, what != "response", functions, points)
+                                scene = write_scene(structure, contacts, folder, friction, what.startswith("sweep"), functions,
+                                                    points)
                                 more = ["--set", f"analysis.stability={'true' if what == 'sweep with stability' else 'false'}"]
                                 if what == "balance":
                                     more += ["--set", "analysis.phases=false"]

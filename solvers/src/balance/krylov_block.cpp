@@ -11,7 +11,7 @@ namespace {
 constexpr int max_iterations = 200;
 
 // The same with a preconditioner of a state before, after which it is made anew.
-constexpr int max_kept_iterations = 60;
+constexpr int max_kept_iterations = 40;
 
 // GMRES starts anew from the true residual where rounding has separated it from the one that it updates.
 constexpr int max_refinements = 2;
@@ -49,6 +49,9 @@ double KrylovBlock::iterations_of_renewal(const ContactOperator& contact) const 
 
 bool KrylovBlock::may_be_kept(const ContactOperator& contact) const {
   constexpr double least_worth = 4.0, share = 0.5;  // of a renewal, that more iterations may take
+  constexpr double most = 2.0;                      // by which slopes may have grown or fallen
+  const double slopes = active_->scale().norm();
+  if (!(slopes <= most * made_slopes_) || !(most * slopes >= made_slopes_)) return false;
   if (!made_ || border_.exists() != made_with_border_ || iterations_ > max_kept_iterations) return false;
   const double worth = iterations_of_renewal(contact);
   return worth >= least_worth && iterations_ - least_iterations_ <= share * worth;
@@ -69,6 +72,7 @@ bool KrylovBlock::renew() {
   lu_.compute(matrix_);
   made_ = !lu_.is_singular();
   made_with_border_ = border_.exists();
+  made_slopes_ = active_->scale().norm();
   kept_ = false;
   iterations_ = 0;
   least_iterations_ = max_iterations;

@@ -87,12 +87,12 @@ class KrylovBlock {
   bool made_ = false, made_with_border_ = false, kept_ = false;  // kept_: made for a state before
   int renewals_ = 0, iterations_ = 0, least_iterations_ = 0;     // of the last solve, and least with this LU
   Eigen::VectorXd row_change_, row_influence_;                   // of the last row since, with a border
-  double row_pivot_ = 1.0;
-  Eigen::VectorXd weighted_, samples_, coefficients_;  // work
-  double largest_gain_ = 0.0, smallest_gain_ = 0.0;    // extremes of ||J z|| / ||z||
-  Border border_;                                      // over all samples
-  Eigen::VectorXd active_column_;                      // B b
-  Eigen::VectorXd active_row_;                         // c^T (x - r) of the active values: -S K^T c
+  double row_pivot_ = 1.0, made_slopes_ = 0.0;                   // the latter: the norm of S then
+  Eigen::VectorXd weighted_, samples_, coefficients_;            // work
+  double largest_gain_ = 0.0, smallest_gain_ = 0.0;              // extremes of ||J z|| / ||z||
+  Border border_;                                                // over all samples
+  Eigen::VectorXd active_column_;                                // B b
+  Eigen::VectorXd active_row_;                                   // c^T (x - r) of the active values: -S K^T c
 };
 
 }  // namespace wavebalance::solvers

@@ -137,7 +137,8 @@ Candidate try_stiffness(const Task& task, const Eigen::VectorXd& series_flexibil
   Candidate candidate = no_solution(SolveStatus::stalled, series_flexibility, {});
   NewtonOptions newton_options = task.options.newton;
   newton_options.observer = task.options.observer;
-  newton_options.max_operations = std::min(newton_options.max_operations, task.fallback_operations);
+  constexpr double runs = 3.0;  // of Newton's method
+  newton_options.max_operations = std::min(newton_options.max_operations, runs * task.fallback_operations);
   const detail::StiffnessPath path = detail::follow_stiffness(system, candidate.unknown, newton_options);
   candidate.newton.status = path.status;
   candidate.iterations = path.iterations;
