@@ -97,12 +97,12 @@ def record_backbone(columns: dict[str, Any], ax: Any = None) -> Any:
     ax = axes(ax)
     if "amplitude_ratio" in columns:
         ax.semilogx(columns["amplitude_ratio"], columns["damping_ratio"])
-        ax.set_xlabel("Amplitude over that at which a contact first acts")
+        ax.set_xlabel("Amplitude / amplitude of first contact or slip")
         ax.set_ylabel("Damping ratio")
         return ax
     ax.semilogx(columns["energy_ratio"], columns["frequency_ratio"])
-    ax.set_xlabel("Energy over that of grazing")
-    ax.set_ylabel("Frequency over that of the linear mode")
+    ax.set_xlabel("Energy / grazing energy")
+    ax.set_ylabel("Frequency / linear frequency")
     return ax
 
 

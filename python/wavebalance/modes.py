@@ -78,7 +78,7 @@ class Backbone(_Points):
         """Draws the frequency over the energy with Matplotlib, and returns the axes."""
         ax = _plots.axes(ax)
         ax.semilogx(self.energy_ratio, np.where(self.accepted, self.frequency, np.nan))
-        ax.set_xlabel("Energy over that of grazing")
+        ax.set_xlabel("Energy / grazing energy")
         ax.set_ylabel("Frequency (Hz)")
         return ax
 

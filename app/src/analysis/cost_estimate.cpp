@@ -183,7 +183,7 @@ CostEstimate estimate_cost(const Scene& scene) {
 
 std::string cost_text(const CostEstimate& cost) {
   const std::string memory = memory_text(cost.bytes) + " of memory";
-  if (cost.unforeseen) return "a time that cannot be foreseen with friction, and about " + memory;
+  if (cost.unforeseen) return "not predictable with friction, and about " + memory;
   if (std::isnan(cost.seconds)) return "about " + memory;
   const bool exact = cost.most_exact_seconds > 0.0;
   const double least = exact ? cost.least_exact_seconds : cost.least_stability_seconds;
@@ -201,8 +201,8 @@ std::string slow_stepping_advice(const Scene& scene) {
     return "";
   const bool balances = accepts(scene, as_response(scene));
   return fmt::format(
-      "time stepping follows all {} modes, and stiff contacts may make its steps short; structure.kept_modes = 8 "
-      "takes the lowest{}",
+      "time stepping follows all {} modes, and stiff contacts need short steps. "
+      "structure.kept_modes = 8 keeps the lowest{}",
       reduced_size(scene), balances ? ", and analysis.type = \"forced_response\" needs no steps" : "");
 }
 
@@ -221,9 +221,9 @@ void check_memory(const Scene& scene, double max_gigabytes) {
   const double limit = max_gigabytes > 0.0 ? 1e9 * max_gigabytes : available_memory();
   if (needed <= limit) return;
   const std::string there = max_gigabytes > 0.0 ? "--max-memory allows " : "there are ";
-  throw std::invalid_argument("this scene would take about " + memory_text(needed) + " of memory and " +
+  throw std::invalid_argument("this scene would need about " + memory_text(needed) + " of memory and " +
                               there + memory_text(limit) +
-                              "; fewer functions, quadrature_points or output_points take less");
+                              "; fewer functions, quadrature_points or output_points need less");
 }
 
 }  // namespace wavebalance::app

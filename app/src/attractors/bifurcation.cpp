@@ -49,9 +49,8 @@ class PassedValues {
     options.recorded = scene_.analysis.section_points;
     options.points = samples_of_a_period;
     options.observer = [&](const Progress& progress) {
-      return solvers::goes_on(
-          observer_, {"bifurcation diagram", progress.step, value,
-                      forwards ? "on the way there" : "on the way back", done + share * progress.done});
+      return solvers::goes_on(observer_, {"bifurcation diagram", progress.step, value,
+                                          forwards ? "forward" : "backward", done + share * progress.done});
     };
     DiagramValue result{.value = value, .forwards = forwards};
     const solvers::LongMotion motion = solvers::long_motion(

@@ -12,11 +12,13 @@
 #include "command/next_steps.hpp"
 #include "files/contains.hpp"
 #include "report/run_record.hpp"
+#include "report/run_words.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -46,8 +48,23 @@ std::string summary_text(const Summary& summary) {
   return text;
 }
 
+/// The opening of the report, a line per sentence, and where to read on.
+std::string outcome_text(const RunArguments& arguments, const Scene& scene, const Record& record) {
+  const Summary& summary = record.summary;
+  std::string text;
+  for (const auto& sentences :
+       {record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
+                                 : record.sentences,
+        stability_sentences(summary, record.axis)})
+    for (const std::string& one : sentences) text += one + "\n";
+  const auto path = [&](const char* name) { return (arguments.output / name).string(); };
+  return text + (arguments.report
+                     ? "Report: " + path("report.html") + "; all values: summary.json, --verbose\n"
+                     : "All values: " + path("summary.json") + "\n");
+}
+
 void say_not_converged(const Scene& scene, const std::string& status) {
-  std::fprintf(stderr, "wavebalance: not converged (%s); the record says so\n", status.c_str());
+  std::fprintf(stderr, "wavebalance: not converged (%s)\n", status.c_str());
   std::string texts;
   for (const NextStep& step : next_steps(scene, status)) texts += (texts.empty() ? "" : "; ") + step.text;
   if (!texts.empty()) std::fprintf(stderr, "wavebalance: what may help: %s\n", texts.c_str());
@@ -55,13 +72,14 @@ void say_not_converged(const Scene& scene, const std::string& status) {
 
 void report(const RunArguments& arguments, const Scene& scene, const Record& record,
             const std::vector<RecordFile>& files) {
-  if (!arguments.quiet) {
-    std::fputs(summary_text(record.summary).c_str(), stdout);
-    std::printf("written to %s: %s\n", arguments.output.c_str(), names_of(files).c_str());
-  }
+  if (!arguments.quiet && arguments.verbose)
+    std::printf("%swritten to %s: %s\n", summary_text(record.summary).c_str(), arguments.output.c_str(),
+                names_of(files).c_str());
+  else if (!arguments.quiet)
+    std::fputs(outcome_text(arguments, scene, record).c_str(), stdout);
   say_warnings(record.warnings);
   if (record.interrupted)
-    std::fputs("wavebalance: interrupted; the record holds what was found so far\n", stderr);
+    std::fputs("wavebalance: interrupted; the results so far are written\n", stderr);
   else if (!record.converged)
     say_not_converged(scene, record.status);
 }

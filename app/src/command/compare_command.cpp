@@ -33,14 +33,13 @@ std::vector<RecordFile> files_of(const RunArguments& arguments, const Scene& sce
                                  const ComparisonRecord& record) {
   const bool report = arguments.report;
   std::vector<RecordFile> files, inputs;
-  if (report)
-    files.push_back({"report.html", "", "what to take and how each pair did, to read in a browser"});
+  if (report) files.push_back({"report.html", "", "the report of this comparison"});
   const Scene written = scene_of_record(arguments, scene, inputs);
   files.push_back({"scene.toml", write_scene(written), "the scene that was compared"});
   for (RecordFile& input : inputs) files.push_back(std::move(input));
   if (!record.table.empty())
     files.push_back({"comparison.csv", csv_text(record.table), "a row for each solve"});
-  files.push_back({"comparison.md", record.markdown, "what to take, and how each pair did"});
+  files.push_back({"comparison.md", record.markdown, "the recommendation and the results of each pair"});
   say_no_picture(append_pictures(files, record.pictures, report));
   return files;
 }
@@ -78,10 +77,9 @@ void say(const CompareArguments& arguments, const ComparisonRecord& record,
   }
   say_warnings(record.warnings);
   if (record.interrupted)
-    std::fputs("wavebalance: interrupted; the record holds what was measured so far\n", stderr);
+    std::fputs("wavebalance: interrupted; the results so far are written\n", stderr);
   else if (!record.converged)
-    std::fprintf(stderr, "wavebalance: nothing to compare with (%s); the record says so\n",
-                 record.status.c_str());
+    std::fprintf(stderr, "wavebalance: no reference to compare with (%s)\n", record.status.c_str());
 }
 
 }  // namespace

@@ -22,9 +22,9 @@ namespace {
 using namespace wavebalance::app;
 
 constexpr const char* description =
-    "Periodic vibrations of structures that touch an obstacle, in any time basis: Fourier (harmonic\n"
-    "balance), Haar, Daubechies or B-spline (wavelet balance). A scene is a TOML file that says what\n"
-    "vibrates, what it touches, what drives it and how the period is discretised.";
+    "Periodic vibrations of structures with contact, friction and impacts, by harmonic balance (Fourier)\n"
+    "and wavelet balance (Haar, Daubechies, B-spline). A scene is a TOML file with the structure, the\n"
+    "contacts, the forcing, the time discretisation and the analysis.";
 
 std::string footer() {
   return "A scene (the bar of Jones & Legrand 2014, case 1; `wavebalance keys` explains every key):\n\n" +
@@ -49,7 +49,7 @@ std::string footer() {
          "Exit codes:\n"
          "  0    The scene is solved.\n"
          "  2    The input is wrong, or the output cannot be written. Nothing is written.\n"
-         "  3    The solution has not converged. The record is written and says so.\n"
+         "  3    The solution has not converged. The results are written, with \"converged\": false.\n"
          "  130  The command was interrupted (Ctrl-C). Sweeps, searches for motions, comparisons and studies write\n"
          "       what they have, with the status \"interrupted\". Other analyses write nothing. A second Ctrl-C ends\n"
          "       all of them at once, and nothing is written.";
@@ -66,12 +66,11 @@ void add_list(CLI::App& command, const std::string& name, std::vector<std::strin
 void add_scene(CLI::App& command, RunArguments& arguments) {
   command.add_option("SCENE", arguments.scene, "scene file (TOML)")->required();
   add_list(command, "--set", arguments.overrides, "KEY=VALUE",
-           "section.key=value in place of what the file says");
+           "section.key=value instead of the value in the file");
   add_list(command, "--unset", arguments.removed, "KEY", "leave section.key of the file out, before --set");
   command
-      .add_option(
-          "--analysis", arguments.analysis,
-          "another analysis.type than the file says; keys of the file that do not belong to it are left out")
+      .add_option("--analysis", arguments.analysis,
+                  "another analysis.type; keys of the file that do not belong to it are left out")
       ->type_name("TYPE");
 }
 
@@ -107,7 +106,7 @@ void add_output(CLI::App& command, std::filesystem::path& output,
 }
 
 void add_quiet(CLI::App& command, bool& quiet) {
-  command.add_flag("--quiet,-q", quiet, "say nothing unless something is wrong");
+  command.add_flag("--quiet,-q", quiet, "print only warnings and errors");
 }
 
 void add_report(CLI::App& command, bool& report) {
@@ -120,16 +119,18 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
   add_output(command, arguments.run.output);
   command
       .add_option("--pairs", arguments.pairs,
-                  "pairs of bases, fourier:fourier,haar:fourier; without it every admissible one of "
+                  "pairs of bases, fourier:fourier,haar:fourier; default: every admissible pair of "
                   "fourier, haar, bspline and daubechies6, and two of daubechies10")
       ->type_name("TRIAL:WEIGHT,...");
   command
-      .add_option("--error", arguments.error,
-                  "which error decides: displacement, force or both, the larger; without it both, where that "
-                  "of the force is defined")
+      .add_option(
+          "--error", arguments.error,
+          "error that decides: displacement, force or both (the larger one); default: both, where the "
+          "force has an error")
       ->type_name("NAME");
-  command.add_option("--budget", arguments.budget, "time for all of it, 10 without it")->type_name("SECONDS");
-  add_threads(command, arguments.run.threads, "pairs that are solved side by side; one per core without it");
+  command.add_option("--budget", arguments.budget, "time for the whole comparison; default: 10")
+      ->type_name("SECONDS");
+  add_threads(command, arguments.run.threads, "pairs solved in parallel; default: one per core");
   add_copy_inputs(command, arguments.run);
   add_report(command, arguments.run.report);
   add_quiet(command, arguments.run.quiet);
@@ -138,9 +139,9 @@ void add_compare(CLI::App& command, CompareArguments& arguments) {
 void add_study(CLI::App& command, StudyArguments& arguments) {
   command.add_option("STUDY", arguments.study, "study file (TOML), see app/STUDIES.md")->required();
   add_output(command, arguments.output,
-             "folder of the results, made if missing; a study that was begun there goes on");
+             "folder of the results, made if missing; a study that was started there continues");
   add_threads(command, arguments.threads,
-              "runs that are solved side by side; without it one per core, below mpirun one per process");
+              "runs solved in parallel; default: one per core, with mpirun one per process");
   add_report(command, arguments.report);
   add_quiet(command, arguments.quiet);
 }
@@ -153,15 +154,16 @@ void add_overlay(CLI::App& command, OverlayArguments& arguments) {
       .add_option(
           "--quantity", arguments.quantity,
           "max, min, max_abs or rms of the displacement of contacts, or the vibration of an output, as \"row 19\"; "
-          "without it that of the leading output where all have it, else max")
+          "default: the first output where all have it, else max")
       ->type_name("NAME");
   add_quiet(command, arguments.quiet);
 }
 
 void add_init(CLI::App& command, InitArguments& arguments) {
-  command.add_option("KIND", arguments.kind, joined(starter_kinds()) + "; bar without it");
+  command.add_option("KIND", arguments.kind, joined(starter_kinds()) + "; default: bar");
   command
-      .add_option("--output,-o", arguments.output, "the scene, in place of KIND.toml; no file is overwritten")
+      .add_option("--output,-o", arguments.output,
+                  "the scene file; default: KIND.toml; no file is overwritten")
       ->type_name("FILE");
 }
 
@@ -179,8 +181,8 @@ void add_keys(CLI::App& command, std::vector<std::string>& filters, bool& names)
   command.add_option(
       "FILTER", filters,
       "a section (contact), a key (contact.gap) or a choice (structure.type=matrices), which leaves "
-      "out what such a scene may not hold; several sections and keys are all listed");
-  command.add_flag("--names", names, "the names alone, each with the texts that it may be");
+      "out keys that do not apply; several sections and keys are all listed");
+  command.add_flag("--names", names, "only the names, each with its choices");
 }
 
 std::vector<std::string> names_of_commands(const CLI::App& app) {
@@ -222,7 +224,7 @@ std::string usage_text(const CLI::App& app, const CLI::ParseError& error, int ar
   const std::string what = nearest.empty()
                                ? std::string(error.what())
                                : "there is no option " + misspelt + " (did you mean " + nearest + "?)";
-  return what + "; `" + name + " --help` says what it takes";
+  return what + "; `" + name + " --help` lists its options";
 }
 
 int dispatch(int argc, char** argv) {
@@ -236,15 +238,16 @@ int dispatch(int argc, char** argv) {
   add_output(run, arguments.output);
   add_start(run, arguments);
   run.add_option("--max-memory", arguments.max_memory,
-                 "refuse a scene that is expected to take more; without it, more than the machine has")
+                 "refuse a scene that is expected to need more; default: the memory of the machine")
       ->type_name("GB")
       ->check(CLI::PositiveNumber);
   add_threads(run, arguments.threads,
-              "harmonics that are condensed side by side, with the same digits; one per core without it");
+              "harmonics condensed in parallel, with the same digits; default: one per core");
   add_copy_inputs(run, arguments);
   add_report(run, arguments.report);
   add_quiet(run, arguments.quiet);
-  CLI::App& check = *app.add_subcommand("check", "validate a scene and say what would be solved");
+  run.add_flag("--verbose,-v", arguments.verbose, "print all values of summary.json, not sentences");
+  CLI::App& check = *app.add_subcommand("check", "validate a scene and describe the problem");
   add_scene(check, arguments);
   CompareArguments comparison;
   CLI::App& compare = *app.add_subcommand("compare", "which basis and how many functions for this scene");

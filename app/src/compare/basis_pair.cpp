@@ -78,7 +78,7 @@ std::string name_of(const BasisPair& pair) {
 }
 
 std::string label_of(const BasisPair& pair) {
-  if (pair.is_phases()) return "contact phases";
+  if (pair.is_phases()) return "exact solution";
   return basis_label(pair.trial) + ":" + basis_label(pair.weight);
 }
 
@@ -111,9 +111,9 @@ solvers::Admissibility admissibility_of(const BasisPair& pair, const Scene& scen
   tried.quadrature_points = 4 * tried.functions;
   const bool damped = make_laws(scene).depend_on_velocity();
   if (damped && make_basis(pair.trial, tried.functions).pointwise_derivatives() < 1)
-    return {false,
-            "the force of the contact law depends on the velocity, and the trial functions have no "
-            "derivative at points"};
+    return {
+        false,
+        "the contact force depends on the velocity, and the trial functions have no pointwise derivative"};
   return pair_admissibility(tried);
 }
 

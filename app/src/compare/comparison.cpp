@@ -83,9 +83,9 @@ class ResponseComparison {
       if (!(found_.reference.motion.force.squaredNorm() > 0.0))
         found_.without_force = "no contact force acts";
       else if (!std::isfinite(of_force))
-        found_.without_force = "the error of the reference's force is not known";
+        found_.without_force = "the force error of the reference is not known";
       else if (!found_.force_asked && of_force > known_share * largest)
-        found_.without_force = fmt::format("the error of the reference's force is about {:.0e}", of_force);
+        found_.without_force = fmt::format("the force error of the reference is about {:.0e}", of_force);
       if (!found_.without_force.empty()) found_.measure = displacement;
     }
     measured_.measure = found_.measure;
@@ -178,12 +178,12 @@ void check_scene_type(const Scene& scene) {
                                 "\"frequency_sweep\" or an \"amplitude_sweep\"");
   if (has_impacts(scene.contact))
     throw std::invalid_argument(
-        "contact.restitution is given, and motions with impacts have no functions to compare; expected none, or "
-        "wavebalance run");
+        "contact.restitution is given, and motions with impacts have no bases to compare; "
+        "expected none, or wavebalance run");
   if (names_friction_of_states(scene.contact))
     throw std::invalid_argument(
-        "friction of surface_speed, static_friction, tangential_damping or normal_damping has no balance to "
-        "compare; expected none of them, or wavebalance run");
+        "friction with surface_speed, static_friction, tangential_damping or normal_damping is "
+        "solved exactly, without bases to compare; expected none of them, or wavebalance run");
   if (scene.analysis.subharmonic != 1)
     throw std::invalid_argument("analysis.subharmonic = " + std::to_string(scene.analysis.subharmonic) +
                                 ": motions of one period of the load are compared; expected 1");

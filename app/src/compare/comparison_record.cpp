@@ -45,21 +45,21 @@ std::string markdown_table(const std::vector<std::string>& columns, const Table&
 }
 
 std::string reference_sentence(const Reference& reference) {
-  if (!reference.converged) return "No reference was found within its share of the budget.";
+  if (!reference.converged) return "No reference was found within its part of the budget.";
   std::string text =
-      fmt::format("The reference is {}; its own error is about {:.0e}", reference.text, reference.error);
+      fmt::format("The reference is {}, accurate to {:.0e} in displacement", reference.text, reference.error);
   if (std::isfinite(reference.force_error))
-    text += fmt::format(", that of its force {:.0e}", reference.force_error);
+    text += fmt::format(", to {:.0e} in force", reference.force_error);
   const std::string& stability = reference.stability.status;
-  if (stability == "stable" || stability == "unstable") text += ", its motion is " + stability;
+  if (stability == "stable" || stability == "unstable") text += "; its motion is " + stability;
   return text + ".";
 }
 
 /// Which error decides.
 std::string measure_sentence(const Comparison& comparison) {
   if (comparison.measure == ErrorMeasure::both)
-    return "Errors are the larger of those of displacement and force.";
-  std::string text = "Errors are those of " + subject_of(comparison.measure);
+    return "The error is the larger one of displacement and force.";
+  std::string text = "The error is measured in " + subject_of(comparison.measure);
   if (!comparison.without_force.empty()) text += ", because " + comparison.without_force;
   return text + ".";
 }
@@ -91,19 +91,18 @@ std::string recommendations_text(const std::vector<Recommendation>& recommendati
 std::string start_sentence(const Comparison& comparison) {
   if (!comparison.from_reference) return "";
   return comparison.reference.reached_directly
-             ? "Each solve begins with the motion of the reference.\n"
-             : "Each solve begins with the motion of the reference, since Newton's method from the response "
-               "without contact finds none with few functions.\n";
+             ? "Each solve starts from the motion of the reference.\n"
+             : "Each solve starts from the motion of the reference, because few functions do not "
+               "converge from the linear response.\n";
 }
 
 std::vector<std::string> warnings_of(const Comparison& comparison) {
   std::vector<std::string> warnings;
   if (comparison.force_asked && !comparison.without_force.empty())
-    warnings.push_back("errors are those of the displacement, because " + comparison.without_force);
+    warnings.push_back("the error is measured in the displacement, because " + comparison.without_force);
   if (comparison.reference.stability.status == "unstable")
     warnings.emplace_back(
-        "the motion of the reference is unstable: the structure settles to another one, and a solver may "
-        "find either");
+        "the motion of the reference is unstable: the attractor is another one, and a solver may find either");
   constexpr int many_functions = 64;
   constexpr double far = 0.1;
   const auto others =
@@ -112,8 +111,8 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
       });
   if (others > 0)
     warnings.push_back(
-        fmt::format("converged solves with {} functions or more that differ from the reference by "
-                    "more than {}: {}; there may be another motion",
+        fmt::format("converged solves with {} functions or more that differ from the reference by more than "
+                    "{}: {}; another motion may exist",
                     many_functions, far, others));
   for (const Recommendation& one : comparison.recommendations)
     if (one.stability == "unstable" && comparison.reference.stability.status != "unstable")
@@ -149,7 +148,7 @@ std::string inadmissible_text(const std::vector<PairResult>& pairs) {
 }
 
 const std::string no_time_text =
-    "\nNo time was left to compare pairs with it, so that nothing is recommended. A larger --budget helps.\n";
+    "\nNo time was left to compare pairs, so nothing is recommended. A larger --budget helps.\n";
 
 const std::string title = "# Which basis for this scene?\n\n";
 
@@ -254,9 +253,9 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
   if (!envelope(comparison.points).empty()) {
     record.pictures.push_back(
         {"error_over_time", error_over_time(comparison),
-         "errors over solve times of the six pairs with the most points on the front of all, which is grey"});
+         "errors over solve times of the six pairs with the most points on the Pareto front (grey)"});
     record.pictures.push_back({"error_over_functions", error_over_functions(comparison),
-                               "errors over functions, the best number of points of each"});
+                               "errors over functions, with the best number of points for each"});
   }
   const std::string opening = reference_sentence(comparison.reference) + "\n" +
                               (comparison.reference.converged ? measure_sentence(comparison) + "\n" : "") +
@@ -289,14 +288,13 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
   if (comparison.exact) {
     const ComparedCurve& exact = *comparison.exact;
     record.text += fmt::format(
-        "The exact curve, by contact phases, took {:.2g} s: its peak is {:.6g} m at {:.6g} {}, and it turns {} "
-        "times.\n",
+        "The exact curve took {:.2g} s. Its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
         exact.seconds, exact.peak, exact.peak_at, comparison.unit, exact.turning_points);
   }
   if (comparison.finest) {
     const ComparedCurve& finest = comparison.curves[*comparison.finest];
     record.text += fmt::format(
-        "The finest is {} with {} functions: its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
+        "The finest curve is {} with {} functions. Its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
         label_of(finest.pair), finest.functions, finest.peak, finest.peak_at, comparison.unit,
         finest.turning_points);
     record.pictures.push_back(

@@ -21,7 +21,7 @@ constexpr std::array<PhaseLevel, 4> phase_levels{{{1e-6, 8}, {1e-9, 8}, {1e-12, 
 constexpr double coarsest_reference = 1e-6;  // with a larger error a refined balance is as good
 constexpr double least_error = 1e-14;        // rounding
 // Where there is one motion alone, of which an estimate may say too little.
-constexpr const char* unchecked = "no time was left to check them with more nodes";
+constexpr const char* unchecked = "no time was left to check it with more nodes";
 constexpr int most_divided = 64;  // panels: rounding may keep the estimate above the tolerance
 
 struct NamedStatus {
@@ -35,15 +35,15 @@ NamedStatus named(solvers::PhasesStatus status) {
   using enum solvers::PhasesStatus;
   static constexpr std::array<NamedStatus, 10> statuses{
       {{rigid_contact, true, "the contact is rigid and has mass"},
-       {velocity_and_no_mass, true, "a force of the velocity acts at a contact without mass"},
-       {resonant, true, "the structure has a motion of this period without contact"},
+       {velocity_and_no_mass, true, "a rate-dependent force acts at a massless contact"},
+       {resonant, true, "the linear structure has a free motion of this period"},
        {structural_damping, true, "a loss factor has no equation in time"},
        {slip_in_a_plane, true, "a contact has rigid friction along two tangents"},
-       {law_over_period, true, "a law acts over the period and has no states"},
-       {tolerance_missed, false, "their error stays above 1e-6"},
-       {too_many_phases, false, "they have too many unknowns"},
-       {not_found, false, "no motion of the structure is found near the balance"},
-       {cancelled, false, "no time was left for them"}}};
+       {law_over_period, true, "a law acts over the whole period and has no states"},
+       {tolerance_missed, false, "its error stays above 1e-6"},
+       {too_many_phases, false, "it has too many unknowns"},
+       {not_found, false, "none is found near the computed response"},
+       {cancelled, false, "no time was left for it"}}};
   const auto found = std::ranges::find(statuses, status, &NamedStatus::status);
   return found == statuses.end() ? NamedStatus{status, false, ""} : *found;
 }

@@ -38,7 +38,7 @@ class PhaseStudy {
  private:
   bool goes_on(int functions, double tolerance) const {
     return solvers::goes_on(
-        options_.observer, {fmt::format("contact phases to {:.0e} from {} functions", tolerance, functions)});
+        options_.observer, {fmt::format("exact solution to {:.0e} from {} functions", tolerance, functions)});
   }
 
   /// The one from which the phases are found soonest.

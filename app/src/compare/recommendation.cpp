@@ -53,29 +53,29 @@ std::string outcome_of(const SolvePoint& point) {
 }
 
 std::string errors_of(const SolvePoint& point) {
-  std::string text = "error " + error_text(point.displacement_error) + " of the displacement";
-  if (!std::isnan(point.force_error)) text += ", " + error_text(point.force_error) + " of the force";
+  std::string text = "error " + error_text(point.displacement_error) + " in displacement";
+  if (!std::isnan(point.force_error)) text += ", " + error_text(point.force_error) + " in force";
   return text;
 }
 
-/// "1e-2 of displacement and force"
+/// "1e-2 in displacement and force"
 std::string asked_text(const Recommendation& found) {
-  return error_text(found.error, 0) + " of " + subject_of(found.measure);
+  return error_text(found.error, 0) + " in " + subject_of(found.measure);
 }
 
 std::string first_sentence(const Recommendation& found, bool steady) {
   std::string text =
-      fmt::format("For an error of {} the cheapest is {}: {} per solve ({})", asked_text(found),
+      fmt::format("For an error of {} the cheapest pair is {}: {} per solve ({})", asked_text(found),
                   choice_text(*found.choice), duration_text(found.choice->seconds), errors_of(*found.choice));
-  if (!steady) text += ", but the next size does not keep to it";
+  if (!steady) text += ", but the next size is less accurate";
   if (found.near_miss) text += "; " + choice_text(*found.near_miss) + " has " + outcome_of(*found.near_miss);
   return text + ".";
 }
 
 /// "takes 1.3 times as long"
 std::string ratio_text(double ratio) {
-  if (std::abs(ratio - 1.0) < noise - 1.0) return "takes as long";
-  return fmt::format("takes {:.{}f} times as long", ratio, ratio < 9.95 ? 1 : 0);
+  if (std::abs(ratio - 1.0) < noise - 1.0) return "needs as long";
+  return fmt::format("needs {:.{}f} times as long", ratio, ratio < 9.95 ? 1 : 0);
 }
 
 /// The second sentence where the choice is Fourier:Fourier: it names the best other pair.
@@ -83,11 +83,11 @@ std::string runner_up_sentence(const Recommendation& found) {
   if (!found.runner_up) return "No other pair reaches it within the budget.";
   const double ratio = found.runner_up->seconds / found.choice->seconds;
   if (found.runner_up->error > found.error)
-    return fmt::format("The basis matters little: the next, {}, has {}.", choice_text(*found.runner_up),
+    return fmt::format("The basis matters little: the next pair, {}, has {}.", choice_text(*found.runner_up),
                        outcome_of(*found.runner_up));
   const char* opening = ratio <= little_ratio ? "The basis matters little" : "The basis matters";
-  return fmt::format("{}: the next, {}, {} ({}).", opening, choice_text(*found.runner_up), ratio_text(ratio),
-                     duration_text(found.runner_up->seconds));
+  return fmt::format("{}: the next pair, {}, {} ({}).", opening, choice_text(*found.runner_up),
+                     ratio_text(ratio), duration_text(found.runner_up->seconds));
 }
 
 /// Where Fourier:Fourier is late or never reaches the error, but misses it by little.
@@ -125,8 +125,8 @@ std::string displacement_sentence(const Recommendation& found, std::vector<Solve
   for (SolvePoint& point : points) point.error = point.displacement_error;
   const auto able = cheapest(points, found.error);
   if (!able) return "";
-  return fmt::format(" Of the displacement alone, {} reaches it in {} (--error displacement).",
-                     choice_text(*able), duration_text(able->seconds));
+  return fmt::format(" In displacement only, {} reaches it in {} (--error displacement).", choice_text(*able),
+                     duration_text(able->seconds));
 }
 
 /// Why there is no choice, and what came nearest.
@@ -146,10 +146,10 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
   const auto below = cheapest(points, reference_error);  // how far below is not known
   if (reference_error > known_share * found.error)
     return fmt::format(
-        "Whether a pair reaches an error of {} is not known, as that of the reference is about {}; a larger "
-        "budget refines it. {}",
+        "Whether a pair reaches an error of {} is not known, because the reference has an error "
+        "of about {}. A larger budget refines it. {}",
         which, error_text(reference_error),
-        below ? fmt::format("{} is below that in {}.", choice_text(*below), duration_text(below->seconds))
+        below ? fmt::format("{} is below this in {}.", choice_text(*below), duration_text(below->seconds))
               : nearest);
   return "No pair reaches an error of " + which + " within the budget. " + nearest +
          displacement_sentence(found, points);
@@ -159,10 +159,10 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
 std::string phases_sentence(const Recommendation& found) {
   const SolvePoint& phases = *found.phases;
   return fmt::format(
-      " Contact phases {}: {} from a balance of {} Fourier functions and {} points ({}). A run "
-      "with that balance gives the instants of contact, the errors of the response and the stability of "
-      "the motion.",
-      found.choice ? "are faster" : "reach it", duration_text(phases.seconds), phases.functions,
+      " The exact solution {}: {} from harmonic balance with {} functions and {} points ({}). "
+      "A run with these sizes also reports the contact intervals, the errors of the response "
+      "and its stability.",
+      found.choice ? "is faster" : "reaches it", duration_text(phases.seconds), phases.functions,
       phases.points, errors_of(phases));
 }
 

@@ -134,7 +134,7 @@ class ReferenceSearch {
     const Response response = weighted_residual_response(three, model_, options);
     if (!response.converged) return std::nullopt;
     constexpr double rounding = 1e-14;
-    Reference reference = found_reference("linear", "the exact linear solution, since contact never closes",
+    Reference reference = found_reference("linear", "the exact linear response, because no contact closes",
                                           std::max(rounding, response.rounding_error), response.contacts);
     if (response.stability) reference.stability = *response.stability;
     return reference;
@@ -214,7 +214,8 @@ class ReferenceSearch {
   }
 
   Reference by_phases(PhaseReference found, Guide& guide) {
-    Reference reference = found_reference("phases", "contact phases", found.error, std::move(found.contacts));
+    Reference reference =
+        found_reference("phases", "the exact periodic solution", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
     if (scene_.analysis.stability)
       reference.stability = guide.problem.stability(guide.response, &found.motion);
@@ -234,11 +235,10 @@ class ReferenceSearch {
   /// takes longer than the solution.
   Reference by_balance(Guide& counted) {
     const Guide& last = guides_.back();
-    Reference reference =
-        found_reference("finer_balance",
-                        "the balance with " + std::to_string(last.functions) + " Fourier functions and " +
-                            std::to_string(last.points) + " points",
-                        last.estimated_error, last.contacts);
+    Reference reference = found_reference("finer_balance",
+                                          "harmonic balance with " + std::to_string(last.functions) +
+                                              " functions and " + std::to_string(last.points) + " points",
+                                          last.estimated_error, last.contacts);
     if (guides_.size() > 1)
       reference.force_error = force_error(guides_[guides_.size() - 2].contacts, last.contacts);
     if (scene_.analysis.stability && !interrupted_)

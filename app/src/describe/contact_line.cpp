@@ -19,7 +19,7 @@ std::string sides_text(const Scene& scene) {
   const auto both = std::count_if(pairs.begin(), pairs.end(),
                                   [](const auto& one) { return one.side == ObstacleSide::both; });
   if (both == 0) return "";
-  return "; two each of the " + count_text(both, "direction") + " with obstacles on both sides";
+  return "; two contacts for each of the " + count_text(both, "direction") + " with obstacles on both sides";
 }
 
 std::string contact_place(const Scene& scene) {
@@ -50,7 +50,7 @@ std::string acting_text(const std::vector<SceneContact>& contacts) {
   if (std::none_of(contacts.begin(), contacts.end(), frictional)) return "which acts everywhere";
   if (std::all_of(contacts.begin(), contacts.end(), opens)) return "open where the normal force is 0";
   if (std::any_of(contacts.begin(), contacts.end(), opens))
-    return "open where the normal force is 0, those with a normal direction";
+    return "open where the normal force is 0, if it has a normal direction";
   return std::all_of(contacts.begin(), contacts.end(), frictional) ? "always closed"
                                                                    : "which acts everywhere";
 }

@@ -153,8 +153,8 @@ std::string isolas_line(const Analysis& analysis) {
   const double interval = std::abs(analysis.frequency_to - analysis.frequency_from);
   const double frequencies = std::ceil(interval / analysis.isola_spacing * (1.0 - 1e-9));
   return fmt::format(
-      "isolas     sought at {:.0f} frequenc{}, from rest and {} random states each: {:.0f} motions in time, of up to "
-      "seconds each, which the cost below leaves out\n",
+      "isolas     searched for at {:.0f} frequenc{}, from rest and {} random states each: "
+      "{:.0f} time integrations of up to seconds each, not in the cost below\n",
       frequencies, frequencies > 1.0 ? "ies" : "y", analysis.isola_starts,
       frequencies * (1 + analysis.isola_starts));
 }
@@ -195,8 +195,9 @@ std::string nyquist_text(const Time& time) {
 }
 
 std::string phases_line(const Time& time) {
-  return fmt::format("time       phases of contact to a relative error of {}, from a coarse balance\n",
-                     number_text(time.tolerance));
+  return fmt::format(
+      "time       exact periodic solution to a relative error of {}, started from harmonic balance\n",
+      number_text(time.tolerance));
 }
 
 std::string time_lines(const Time& time) {
@@ -213,21 +214,20 @@ std::string time_lines(const Time& time) {
 std::string exact_line(const Scene& scene) {
   const Time& time = scene.time;
   return fmt::format(
-      "time       exact periodic solutions, whose start is sought near a balance of {}:{}, {} functions and {} "
-      "quadrature points\n",
+      "time       exact periodic solutions, started from {}:{} with {} functions and {} quadrature points\n",
       time.trial, time.weight, time.functions, time.quadrature_points);
 }
 
 std::string impacts_line(const Scene& scene) {
   const bool sweep = scene.analysis.type != AnalysisType::forced_response;
-  return fmt::format("time       instants and impulses of impacts{}\n",
-                     sweep ? ", followed by arc length" : ", from the motion that the structure settles to");
+  return fmt::format("time       exact periodic solutions with impacts{}\n",
+                     sweep ? ", followed by arc length" : ", started from time integration");
 }
 
 std::string method_lines(const Scene& scene) {
   if (solves_by_impacts(scene)) return impacts_line(scene);
   if (moves_by_events(scene))
-    return "time       exact motions, from what the structure settles to from event to event\n";
+    return "time       exact periodic solutions, started from event-driven time integration\n";
   if (scene.analysis.exact) return exact_line(scene);
   return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
 }
@@ -236,7 +236,7 @@ std::string size_line(const Scene& scene) {
   const bool has_no_functions = solves_by_phases(scene) || solves_by_impacts(scene) || scene.analysis.exact;
   if (has_no_functions || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
-  return fmt::format("size       {} unknowns after condensation on the contact ({} before)\n",
+  return fmt::format("size       {} unknowns after exact dynamic condensation ({} before)\n",
                      contact_count(scene) * functions, reduced_size(scene) * functions);
 }
 
@@ -258,13 +258,13 @@ std::string mode_lines(const Scene& scene) {
     const Time time = mode_time(scene);
     const std::int64_t functions = time.functions;
     return fmt::format(
-        "mode       {}, {}\n{}size       {} unknowns after condensation on the contact ({} before)\n",
+        "mode       {}, {}\n{}size       {} unknowns after exact dynamic condensation ({} before)\n",
         analysis.mode, range, time_lines(time), contact_count(scene) * functions,
         reduced_size(scene) * functions);
   }
   return fmt::format(
-      "mode       {}, {}\ntime       Fourier series, {} harmonics{}\n"
-      "size       {} contact forces after condensation on the contact ({} unknowns before)\n",
+      "mode       {}, {}\ntime       Fourier series, {} harmonics{}\nsize       {} contact "
+      "forces after exact dynamic condensation ({} unknowns before)\n",
       analysis.mode, range, analysis.harmonics, analysis.cosine_only ? " (cosines only)" : "",
       std::int64_t{contact_count(scene)} * analysis.samples,
       std::int64_t{reduced_size(scene)} * (2 * analysis.harmonics + 1));

@@ -49,7 +49,7 @@ Panel section_panel(const Diagram& diagram) {
   panel.title = "Poincaré section of " + plain(place.name);
   panel.x.label = diagram.axis.label();
   panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
-  Series there = dots("on the way there", Colour::blue), back = dots("on the way back", Colour::orange);
+  Series there = dots("forward", Colour::blue), back = dots("backward", Colour::orange);
   for (const DiagramValue& one : diagram.values)
     for (int k = 0; k < points_shown(one); ++k)
       (one.forwards ? there : back).append(one.value, scale.factor * one.displacement(diagram.place, k));
@@ -62,11 +62,11 @@ Panel section_panel(const Diagram& diagram) {
 
 Panel period_panel(const Diagram& diagram) {
   Panel panel;
-  panel.title = "Periods of the load after which the motion repeats (0: none)";
+  panel.title = "Period of the motion in forcing periods (0: none)";
   panel.x.label = diagram.axis.label();
   panel.y.label = "Periods";
   panel.y.lower = -0.5;
-  Series there = dots("on the way there", Colour::blue), back = dots("on the way back", Colour::orange);
+  Series there = dots("forward", Colour::blue), back = dots("backward", Colour::orange);
   int most = 1;
   for (const DiagramValue& one : diagram.values) {
     if (!one.failure.empty()) continue;

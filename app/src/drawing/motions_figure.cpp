@@ -42,7 +42,7 @@ Figure motions_figure(const Scene& scene, const Motions& all) {
   figure.panel_height = 320;
   Panel over_time, portrait;
   over_time.title = "Displacement" + name;
-  over_time.x.label = "Time (periods of the load)";
+  over_time.x.label = "Time (forcing periods)";
   over_time.y.label = portrait.x.label = "Displacement (" + length.prefix + unit + ")";
   portrait.title = "Velocity over displacement";
   portrait.y.label = "Velocity (" + speed.prefix + unit + "/s)";

@@ -166,7 +166,7 @@ void add_each_contact(Figure& figure, const Sweep& sweep, const std::vector<Scen
     const auto found = std::ranges::find(each, contacts[k].number, &ContactWork::number);
     return found == each.end() ? nullptr : &*found;
   };
-  add_contact_panel(figure, sweep, contacts, "Work of friction in a period", "Work", "J",
+  add_contact_panel(figure, sweep, contacts, "Energy dissipated by friction per period", "Work", "J",
                     [&](std::size_t i, std::size_t k) {
                       const ContactWork* one = friction(i, k);
                       return one == nullptr ? none : one->work;
@@ -218,8 +218,7 @@ Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::opti
 
 Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
                       const std::vector<SceneContact>& contacts) {
-  Figure figure =
-      empty_figure("Vibration of each output, half its peak-to-peak value", outputs.outputs.size());
+  Figure figure = empty_figure("Vibration of each output, half peak to peak", outputs.outputs.size());
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
   for (std::size_t i = 0; i < std::min(outputs.outputs.size(), most_drawn_outputs); ++i) {
     const Scale scale = scale_of(lines, i, outputs.outputs[i].unit);

@@ -53,7 +53,7 @@ PeriodWindow::PeriodWindow(const Response& response)
 }
 
 Axis PeriodWindow::axis() const {
-  const std::string what = periods_ == 1 ? "a period" : std::to_string(periods_) + " periods of the load";
+  const std::string what = periods_ == 1 ? "a period" : std::to_string(periods_) + " forcing periods";
   return {.label = "Time (fraction of " + what + ")",
           .lower = start_,
           .upper = start_ + 1.0,

@@ -194,7 +194,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   Figure figure;
   figure.title = method_title(scene) + ", " + frequency_text(frequency);
   if (response.recorded)
-    figure.title += ", the last period before the record";
+    figure.title += ", the last period before recording";
   else if (!response.converged)
     figure.title += " (NOT CONVERGED)";
   figure.panel_height = 240;
@@ -241,11 +241,11 @@ Figure backbone_figure(const Scene& scene, const Table& backbone) {
   figure.panel_height = 420;
   Panel& panel = figure.add_panel();
   panel.x.label = scene.analysis.reference_length > 0.0
-                      ? "Energy over that of the linear mode at the reference length"
-                      : "Energy over that of linear grazing";
+                      ? "Energy / energy of the linear mode at the reference length"
+                      : "Energy / grazing energy of the linear mode";
   panel.x.lower = 0.0;
   panel.x.upper = shown_energy(column("energy_ratio", false), scene.analysis.largest_energy);
-  panel.y.label = "Frequency over the linear one";
+  panel.y.label = "Frequency / linear frequency";
   // Points: neighbours may lie either side of an internal resonance.
   panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
   panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
@@ -265,8 +265,8 @@ Figure damped_figure(const Scene& scene, const Table& backbone) {
   for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
                                              {"Damping", "damping_ratio", "Damping ratio"}}) {
     Panel& panel = figure.add_panel(title);
-    panel.x.label =
-        has_friction(scene) ? "Amplitude over that of first slip" : "Amplitude over that of first contact";
+    panel.x.label = has_friction(scene) ? "Amplitude / amplitude of slip onset"
+                                        : "Amplitude / amplitude of first contact";
     panel.x.logarithmic = true;
     panel.y.label = label;
     Series series("", backbone, "amplitude_ratio", column);
@@ -318,7 +318,7 @@ void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector
     draw_by_stability(panel, largest, line.stability.points, special);
     return label_once(panel, before);
   }
-  Series rms = line.series("rms with its mean",
+  Series rms = line.series("rms including mean",
                            values_along(line.curve, &solvers::SweepPoint::rms_displacement), factor);
   rms.colour = Colour::orange;
   add_curve(panel, largest, line.stability.points, special);

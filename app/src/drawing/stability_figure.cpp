@@ -16,8 +16,8 @@ constexpr std::array<std::pair<Type, const char*>, 8> kinds{{{Type::fold, "fold"
                                                              {Type::neimark_sacker, "Neimark-Sacker point"},
                                                              {Type::branch, "branch point"},
                                                              {Type::grazing, "grazing"},
-                                                             {Type::slip, "first slip"},
-                                                             {Type::stick, "onset of sticking"},
+                                                             {Type::slip, "slip onset"},
+                                                             {Type::stick, "stick onset"},
                                                              {Type::krein_collision, "Krein collision"}}};
 
 struct Vertex {

@@ -16,6 +16,7 @@ struct RunArguments {
   double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
   int threads = 0;                     ///< AnalysisOptions::threads, ComparisonOptions::threads
   bool quiet = false;
+  bool verbose = false;      ///< prints all values of the summary, not sentences
   bool report = true;        ///< whether report.html is written
   bool copy_inputs = false;  ///< whether the record gets copies of the files that the scene names
 };

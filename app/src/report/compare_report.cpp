@@ -58,26 +58,26 @@ std::string recommendations(const ComparisonRecord& record, const Summary& summa
   std::string html, before;
   for (const Recommendation& one : record.recommendations) {
     html +=
-        fmt::format("<h3>For an error of {} of {}</h3>\n", error_text(one.error), subject_of(one.measure));
+        fmt::format("<h3>For an error of {} in {}</h3>\n", error_text(one.error), subject_of(one.measure));
     html += paragraph({one.sentences});
     if (one.stability == "stable" || one.stability == "unstable")
-      html += paragraph({"Its motion is " + one.stability + "."});
+      html += paragraph({"The motion is " + one.stability + "."});
     if (one.time_table.empty()) continue;
     html +=
         one.time_table == before ? "<p>The [time] table is the one above.</p>\n" : code_html(one.time_table);
     before = one.time_table;
   }
   const std::vector<std::pair<std::string, std::string>> columns{
-      {"error", "error asked for"},
+      {"error", "requested error"},
       {"pair", "pair"},
       {"functions", "functions"},
       {"quadrature_points", "points"},
       {"seconds", "time (s)"},
       {"displacement_error", "error of the displacement"},
       {"force_error", "error of the force"},
-      {"fourier_time_ratio", "time of Fourier:Fourier over it"},
-      {"phases_seconds", "time of contact phases, where less (s)"}};
-  return html + "<h3>Side by side</h3>\n" + columns_html(with_pairs(*table), columns);
+      {"fourier_time_ratio", "time of Fourier:Fourier relative to it"},
+      {"phases_seconds", "time of the exact solution, where less (s)"}};
+  return html + "<h3>Comparison</h3>\n" + columns_html(with_pairs(*table), columns);
 }
 
 /// Each reason once, with the pairs that it excludes.
@@ -105,7 +105,7 @@ std::string pairs(const Summary& summary) {
                                                            {"smallest_error", "smallest error"},
                                                            {"order", "order"},
                                                            {"force_order", "order of the force"},
-                                                           {"failures", "what failed"}});
+                                                           {"failures", "failures"}});
   if (!others.empty()) html += "<h3>Not admissible</h3>\n" + excluded_pairs(others);
   return html;
 }
@@ -120,25 +120,23 @@ std::string curves(const ComparisonRecord& record, const Summary& summary) {
                                                  {record.peak_column, "at (" + record.peak_unit + ")"},
                                                  {"turning_points", "turns"},
                                                  {"distance_from_finest", "distance from the finest"},
-                                                 {"distance_from_exact", "distance from the exact one"},
+                                                 {"distance_from_exact", "distance from the exact curve"},
                                                  {"status", "status"}});
 }
 
 std::string reference_html(const Reference& reference) {
   if (reference.text.empty()) return "";
   if (!std::isfinite(reference.error))
-    return paragraph({"No reference was found within its share of the budget."});
+    return paragraph({"No reference was found within its part of the budget."});
   std::vector<std::string> sentences{
-      fmt::format("Errors are those against {}. Its own error is about {:.0e}; smaller differences from it "
-                  "say nothing.",
-                  reference.text, reference.error)};
+      fmt::format("Reference: {}, accurate to {:.0e} in displacement.", reference.text, reference.error)};
   if (std::isfinite(reference.force_error))
-    sentences.push_back(fmt::format("That of its force is about {:.0e}.", reference.force_error));
+    sentences.push_back(fmt::format("Its contact force is accurate to {:.0e}.", reference.force_error));
   const std::string& stability = reference.stability.status;
   if (stability == "stable" || stability == "unstable")
-    sentences.push_back("Its motion is " + stability + ".");
+    sentences.push_back("The motion is " + stability + ".");
   else if (!stability.empty())
-    sentences.push_back("Whether its motion is stable is not known (" + stability + ").");
+    sentences.push_back("Its stability is not known (" + stability + ").");
   return paragraph(sentences);
 }
 
@@ -150,15 +148,15 @@ std::string comparison_report(const CompareArguments& arguments, const Scene& sc
   const bool sweep = table_of(summary, "curves") != nullptr;
   std::string outcome = record.converged
                             ? recommendations(record, summary)
-                            : paragraph({"Nothing was compared to the end: " + record.status + "."});
+                            : paragraph({"The comparison is not complete: " + record.status + "."});
   if (sweep) outcome += paragraph({record.text.substr(0, record.text.find("\n\n"))});
   const std::string name = arguments.run.scene.stem().string();
   const std::string heading = "Which basis for " + (name.empty() ? "this scene" : name) + "?";
   PageParts page{.title = heading + " Wavebalance"};
-  page.body = section_html("What to take", outcome) +
+  page.body = section_html("Recommendation", outcome) +
               section_html("Pictures", pictures_html(record.pictures, files)) +
-              section_html("How each pair did", sweep ? curves(record, summary) : pairs(summary)) +
-              section_html("The reference", reference_html(record.reference)) +
+              section_html("Results of each pair", sweep ? curves(record, summary) : pairs(summary)) +
+              section_html("Reference", reference_html(record.reference)) +
               last_sections(record.warnings,
                             "<p>The command:</p>\n" + code_html(command_of(arguments)) +
                                 folded("The scene that was compared", code_html(write_scene(scene))),

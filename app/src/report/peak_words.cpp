@@ -22,10 +22,10 @@ int digits_of(double value, double resolution, int most) {
 /// How many digits of a peak that was solved for are true, where the error of the motion is known.
 std::string digits_sentence(double digits, bool exact) {
   return fmt::format(
-      "This peak is solved for between the points of the curve; {}",
-      exact ? fmt::format("{:.0f} digit{} of it {} those of the nearest exact periodic solution.", digits,
-                          digits == 1.0 ? "" : "s", digits == 1.0 ? "is" : "are")
-            : fmt::format("the search resolves {:.0f} digits of it.", digits));
+      "The peak was solved for between the points of the curve. {}",
+      exact ? fmt::format("It has {:.0f} digit{} that {} confirmed by the nearest exact periodic solution.",
+                          digits, digits == 1.0 ? "" : "s", digits == 1.0 ? "is" : "are")
+            : fmt::format("It is resolved to {:.0f} digits.", digits));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ RunFiles result_files(const RunArguments& arguments, const Scene& scene, const R
   const bool report = arguments.report;
   RunFiles run;
   std::vector<RecordFile>& files = run.files;
-  if (report) files.push_back({report_name, "", "what was asked and what came out, to read in a browser"});
+  if (report) files.push_back({report_name, "", "the report of this run"});
   files.push_back({"scene.toml", write_scene(scene), "the scene as it was solved"});
   for (RecordFile& input : inputs) files.push_back(std::move(input));
   for (const auto& [name, table, about] : record_tables)

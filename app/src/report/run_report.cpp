@@ -100,7 +100,7 @@ std::string motions_of_points(const Record& record, const std::vector<RecordFile
       if (file.name == motion.stem + ".svg")
         pictures += "<h3>" + escaped(motion.figure.title) + "</h3>\n" +
                     picture(files, file.name, motion.figure.title);
-  return pictures.empty() ? "" : pictures + folded_table(summary, "phases", "Instants of contact");
+  return pictures.empty() ? "" : pictures + folded_table(summary, "phases", "Contact intervals");
 }
 
 /// The box in which motion.js moves the bar, where its data are among the files.
@@ -140,7 +140,7 @@ std::string facts_html(const std::string& description) {
 }
 
 std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {
-  return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>What it solves:</p>\n" +
+  return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>The problem:</p>\n" +
          facts_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
 }
 
@@ -157,7 +157,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   }
   page.body =
       section_html(
-          "What came out",
+          "Results",
           paragraph(record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
                                              : record.sentences) +
               (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
@@ -166,14 +166,15 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
               folded_table(summary, "statistics", "Statistics") +
               folded_table(summary, "period_intervals", "Intervals of one period") +
               folded_table(summary, "hysteresis", "Hysteresis") + motions_of_record(scene, summary)) +
-      section_html("Stability",
-                   sentences_html(stability_sentences(summary, record.axis)) +
-                       folded_table(summary, "structure_special_points", "Special points of the structure") +
-                       folded_table(summary, "special_points", "Special points") +
-                       folded_table(summary, "isolas", "Isolas") +
-                       folded_table(summary, "special_points_of_isolas", "Special points of isolas")) +
+      section_html(
+          "Stability",
+          sentences_html(stability_sentences(summary, record.axis)) +
+              folded_table(summary, "structure_special_points", "Exact bifurcation and grazing points") +
+              folded_table(summary, "special_points", "Bifurcation and grazing points") +
+              folded_table(summary, "isolas", "Isolated branches (isolas)") +
+              folded_table(summary, "special_points_of_isolas", "Bifurcation and grazing points of isolas")) +
       section_html("Outputs", outputs_of_record(record, files, summary)) +
-      section_html("Motions of points of the curve", motions_of_points(record, files, summary)) +
+      section_html("Motions at points of the curve", motions_of_points(record, files, summary)) +
       last_sections(record.warnings, asked(arguments, scene, scene_text), files, summary);
   return report_page(std::move(page), heading);
 }

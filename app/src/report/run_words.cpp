@@ -38,59 +38,65 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share
 /// Errors below this are rounding.
 std::string shown_error(double error) {
   constexpr double least = 1e-10;
-  return error < least ? "below " + percent(least) : percent(error);
+  return error < least ? "< 1e-8 %" : percent(error);
 }
 
 /// Why a response by phases was not found, and what to take instead; empty for other statuses.
 std::string phases_sentence(const std::string& status) {
   static const std::map<std::string, std::string> known{
       {"no_start",
-       "No balance with up to 511 functions converged, and no integration gave a start: time.method = \"balance\" with "
-       "more functions may lead to a motion."},
+       "No start was found: harmonic balance with up to 511 functions and time integration did "
+       "not converge. time.method = \"balance\" with more functions may help."},
       {"not_found",
-       "The search by phases ended without a motion; whether the structure has one is not known. time.method = "
-       "\"balance\" with more functions solves for the samples alone."},
-      {"tolerance_missed",
-       "The phases do not come as near as time.tolerance demands: a larger one takes the motion found."},
+       "No exact periodic solution was found, and whether one exists is not known. time.method "
+       "= \"balance\" with more functions satisfies the contact law at its time samples only."},
+      {"tolerance_missed", "The error stays above time.tolerance. A larger tolerance accepts this solution."},
       {"rigid_contact",
-       "Phases do not take a rigid contact with mass, or with a structure that is free to move: time.method = "
-       "\"balance\" does."},
+       "Exact solutions do not support a rigid contact with mass or on a free structure: "
+       "time.method = \"balance\" does."},
       {"velocity_and_no_mass",
-       "Phases do not take a force of the velocity at a contact without mass: time.method = \"balance\" does."},
+       "Exact solutions do not support rate-dependent forces at a massless contact: time.method "
+       "= \"balance\" does."},
       {"resonant",
-       "The structure without contact has a motion of this period of its own: another frequency, or damping, takes "
-       "it away."},
+       "The linear structure has an undamped free motion of this period: another frequency or "
+       "damping removes it."},
       {"structural_damping",
-       "A loss factor has no equation in time, by which phases are solved: time.method = \"balance\" takes it, and "
-       "modal_damping = loss_factor / 2 in its place gives phases."},
+       "A loss factor has no equation in time, which exact solutions require. time.method = "
+       "\"balance\" supports it; modal_damping = loss_factor / 2 is a viscous replacement."},
       {"chattering",
-       "From where it begins impacts follow each other ever faster until the contact stays closed, which is solved for "
-       "without rebound alone. Other states may lead to a motion: analysis.type = \"motions\" seeks them. "
-       "contact.restitution = 0, or a stiff \"linear\" law, takes it."},
+       "Impacts follow each other ever faster until the contact stays closed. Sustained contact "
+       "requires contact.restitution = 0 or a stiff \"linear\" law. Other initial states may lead "
+       "to a motion: analysis.type = \"motions\" searches for it."},
       {"lasting_contact",
-       "An impact without rebound leaves the contact closed, and no periodic motion with it was found: a stiff "
-       "\"linear\" law may lead to one."},
+       "After an impact without rebound the contact stays closed, and no periodic motion with "
+       "it was found: a stiff \"linear\" law may lead to one."},
       {"not_settled",
-       "The motion from rest did not repeat within the periods integrated: it is aperiodic, has more than 16 periods of "
-       "the load, or has not settled yet. Other motions were not sought."},
+       "Time integration from rest did not converge to a periodic motion: it is aperiodic, has "
+       "more than 16 forcing periods, or needs more time. Other motions were not searched for."},
       {"at_rest",
-       "Every start came to rest. That is no proof that there is no limit cycle: other states or analysis.random_starts "
-       "may lead to one."},
+       "Every start came to rest. Limit cycles may still exist: other initial states or more "
+       "analysis.random_starts may lead to one."},
       {"grows",
-       "Motions grow without end from some starts, as nothing in the scene limits them, and none led to a limit "
-       "cycle."},
+       "Some starts grow without bound, since nothing in the scene limits them. No start led to "
+       "a limit cycle."},
       {"no_return",
-       "The motion did not come back to a state within the periods integrated: it is aperiodic, or has not settled yet; "
-       "a larger analysis.max_periods may let it."},
+       "The motion did not repeat within the integrated periods: it is aperiodic or needs a "
+       "larger analysis.max_periods."},
       {"not_solved",
-       "The motion repeats, and its equations were not solved to the tolerance: a larger time.tolerance may do."},
-      {"grazing", "A contact touches its obstacle so slightly that it cannot be told whether it does."},
-      {"too_many_impacts", "There are more than 2000 impacts in a period of the load."},
+       "The motion repeats, but its equations were not solved to the tolerance: a larger "
+       "time.tolerance may help."},
+      {"grazing", "A contact is at grazing: whether it touches its obstacle is within the error."},
+      {"too_many_impacts", "There are more than 2000 impacts per forcing period."},
       {"no_modes",
-       "The modes of the structure, by which phases are solved, could not be computed: time.method = \"balance\" needs "
-       "none."}};
+       "The modes of the structure, which exact solutions require, could not be computed: "
+       "time.method = \"balance\" needs none."}};
   const auto found = known.find(status);
   return found == known.end() ? "" : " " + found->second;
+}
+
+std::string shown_residual(double residual) {
+  constexpr double rounding = 1e-12;
+  return residual < rounding ? "< 1e-12" : fmt::format("of {:.2g}", residual);
 }
 
 std::string solution_sentence(const Summary& summary) {
@@ -98,18 +104,17 @@ std::string solution_sentence(const Summary& summary) {
   const std::string seconds = with_unit(summary, quantities::wall_seconds);
   const double residual = number_in(summary, quantities::residual);
   const std::string ending =
-      std::isfinite(residual)
-          ? fmt::format(", in {}; the largest relative residual is {:.2g}.", seconds, residual)
-          : fmt::format(", in {}.", seconds);
-  if (converged != nullptr && *converged) return "The scene was solved" + ending;
+      seconds + (std::isfinite(residual) ? ", with a relative residual " + shown_residual(residual) : "") +
+      ".";
+  if (converged != nullptr && *converged) return "The scene was solved in " + ending;
   if (text_in(summary, quantities::status) == "unbalanced")
     return "No periodic motion exists: the structure is free to move, and no contact force balances its static load.";
   const std::string status = text_in(summary, quantities::status);
   if (number_in(summary, quantities::points) > 0.0)
-    return "The curve is not complete (" + spaced_words(status) + ")" + ending +
+    return "The curve is not complete (" + spaced_words(status) + ") after " + ending +
            " Its points up to there are solutions.";
   const bool shown = std::isfinite(number_in(summary, quantities::max_displacement));
-  return "The scene was not solved (" + spaced_words(status) + ")" + ending +
+  return "The scene was not solved (" + spaced_words(status) + ") after " + ending +
          (shown ? " The motion below is not a solution." : " There is no motion to show.") +
          phases_sentence(status);
 }
@@ -136,8 +141,8 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
   const std::string largest = quantity(impulse, "N s");
   if (std::isfinite(count))
     sentences.push_back(
-        fmt::format("There {} {:.0f} impact{} in the period of the motion, at up to {}; the largest "
-                    "impulse is {}, and impacts dissipate {} in a period of the load.",
+        fmt::format("There {} {:.0f} impact{} in the period of the motion, at up to {}. The largest impulse "
+                    "is {}. Impacts dissipate {} per forcing period.",
                     count == 1.0 ? "is" : "are", count, count == 1.0 ? "" : "s",
                     with_unit(summary, quantities::max_impact_velocity), largest,
                     with_unit(summary, quantities::impact_energy)));
@@ -145,7 +150,7 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
     sentences.push_back(fmt::format("Impacts have speeds of up to {} and impulses of up to {}.",
                                     with_unit(summary, quantities::max_impact_velocity), largest));
   if (share > 0.0)
-    sentences.push_back(fmt::format("Contact lasts for {} of the period; its largest force is {}.",
+    sentences.push_back(fmt::format("Contact lasts for {} of the period. Its largest force is {}.",
                                     percent(share), with_unit(summary, quantities::max_contact_force)));
 }
 
@@ -167,7 +172,7 @@ void append_friction(std::vector<std::string>& sentences, const Summary& summary
   if (contacts.rows() > few)
     sentences.push_back(fmt::format("{} of {} contacts with friction slip within the period, and {} open.",
                                     any(slip), contacts.rows(), any(open)));
-  sentences.push_back(fmt::format("Friction dissipates {} in a period of the motion.",
+  sentences.push_back(fmt::format("Friction dissipates {} per period of the motion.",
                                   with_unit(summary, quantities::friction_work)));
 }
 
@@ -176,10 +181,11 @@ void append_friction_along(std::vector<std::string>& sentences, const Summary& s
   const double slip = number_in(summary, quantities::max_slip_fraction),
                open = number_in(summary, quantities::max_open_fraction);
   sentences.push_back(
-      slip > 0.0 ? fmt::format("Contacts slip for up to {} of the period, in the mean of all.", percent(slip))
-                 : std::string("No contact slips."));
-  sentences.push_back(open > 0.0 ? fmt::format("They are open for up to {}.", percent(open))
-                                 : std::string("None opens."));
+      slip > 0.0
+          ? fmt::format("Contacts slip for up to {} of the period (mean over all contacts).", percent(slip))
+          : std::string("No contact slips."));
+  sentences.push_back(open > 0.0 ? fmt::format("They are open for up to {} of it.", percent(open))
+                                 : std::string("No contact opens."));
 }
 
 /// `limit` is "up to " for a curve, whose shares differ from point to point.
@@ -196,7 +202,7 @@ void append_contact(std::vector<std::string>& sentences, const Summary& summary,
   } else if (share == 0.0) {
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
-    sentences.push_back(fmt::format("Contact takes {}{} of the period; the largest contact force is {}.",
+    sentences.push_back(fmt::format("Contact lasts for {}{} of the period. The largest contact force is {}.",
                                     limit, percent(share), quantity(force, "N")));
   } else if (std::isfinite(force)) {
     sentences.push_back(fmt::format("The largest contact force is {}.", quantity(force, "N")));
@@ -215,7 +221,7 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
       direction.empty() || !std::isfinite(contact)
           ? ""
           : fmt::format(" of {}, {},", named.empty() ? fmt::format("contact {}", contact) : named, direction);
-  sentences.push_back(fmt::format("At {} the displacement{} lies between {} and {}{}.",
+  sentences.push_back(fmt::format("At {} the displacement{} is between {} and {}{}.",
                                   with_unit(summary, quantities::frequency), name, quantity(lowest, unit),
                                   quantity(highest, unit), beside_gap(highest, gap, unit)));
 }
@@ -250,13 +256,14 @@ void append_phases(std::vector<std::string>& sentences, const Summary& summary, 
         fmt::format("Error of the vibration{} against the nearest exact periodic solution found: {}.",
                     curve ? " at the peak" : "", fmt::join(errors, ", ")));
   if (std::isfinite(error)) {
-    sentences.push_back(fmt::format(
-        "Over the whole period and all contacts together{} the relative rms error of the displacement is {}{}.",
-        curve ? ", at the peak," : "", shown_error(error),
-        std::isfinite(force) ? ", of the contact force " + shown_error(force) : ""));
+    sentences.push_back(
+        fmt::format("Over the period and all contacts{} the relative rms error is {} for the displacement{}.",
+                    curve ? ", at the peak," : "", shown_error(error),
+                    std::isfinite(force) ? " and " + shown_error(force) + " for the contact force" : ""));
   } else if (!status.empty() && status != "not_found" && status != "not_computed") {
-    sentences.push_back("Its distance from the exact periodic solution is not known (" +
-                        spaced_words(status) + ").");
+    sentences.push_back("The error against the exact periodic solution is not known (" +
+                        (status == "too_many_phases" ? "too many contact intervals" : spaced_words(status)) +
+                        ").");
   }
 }
 
@@ -267,10 +274,10 @@ void append_motions(std::vector<std::string>& sentences, const Summary& summary,
   for (std::size_t i = 0; i < motions->rows(); ++i)
     stable += cell_text(motions->at(i, "stability")) == "stable";
   const std::size_t all = motions->rows();
-  sentences.push_back(fmt::format("There {} {} motion{}, of which {} {} stable, from {} and rest.",
-                                  all == 1 ? "is" : "are", all, all == 1 ? "" : "s", stable,
-                                  stable == 1 ? "is" : "are",
-                                  count_of(summary, quantities::random_starts, "random start")));
+  sentences.push_back(fmt::format("From rest and {} {} motion{} {} found, and {} of them {} stable.",
+                                  count_of(summary, quantities::random_starts, "random start"), all,
+                                  all == 1 ? "" : "s", all == 1 ? "was" : "were", stable,
+                                  stable == 1 ? "is" : "are"));
   append_motion(sentences, summary, gap);
 }
 
@@ -292,10 +299,10 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
   append_leading_output(sentences, summary, axis);
   sentences.push_back(fmt::format("The curve has {}.", count_of(summary, quantities::points, "point")));
   if (std::isfinite(vibration))
-    sentences.push_back(fmt::format(
-        "The largest vibration of a contact is {}.",
+    sentences.back() += fmt::format(
+        " The largest vibration of a contact is {}.",
         peak_text(vibration, unit, value_resolution,
-                  number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis)));
+                  number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis));
   // Without a gap the vibration says it all, and a rigid obstacle holds the displacement at its gap.
   constexpr double rounding = 1e-9;
   if (!std::isfinite(highest) || !std::isfinite(gap) || std::abs(highest - gap) <= rounding * std::abs(gap))
@@ -310,11 +317,11 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
   const double most = number_in(summary, quantities::largest_damping_ratio);
   if (std::isfinite(most)) {
     sentences.push_back(fmt::format(
-        "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips, and its frequency is {}.",
+        "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips and the frequency is {}.",
         number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"),
         with_unit(summary, quantities::slip_amplitude), with_unit(summary, quantities::linear_frequency)));
     sentences.push_back(
-        fmt::format("Its frequency falls to {:.4g} of that, and its damping ratio is at most {:.4g}.",
+        fmt::format("The frequency falls to {:.4g} of this value. The damping ratio is at most {:.4g}.",
                     number_in(summary, quantities::least_frequency_ratio), most));
   } else if (const double ratio = number_in(summary, quantities::damping_ratio); std::isfinite(ratio)) {
     sentences.push_back(
@@ -329,8 +336,8 @@ void append_mode_at_energy(std::vector<std::string>& sentences, const Summary& s
                ratio = number_in(summary, quantities::frequency_ratio);
   if (!std::isfinite(energy) || !std::isfinite(ratio)) return;
   sentences.push_back(fmt::format(
-      "At {:.4g} times the energy at which the linear mode touches, mode {:.0f} moves at {}, {:.4g} times the linear "
-      "frequency.",
+      "At {:.4g} times the grazing energy of the linear mode, mode {:.0f} has the frequency "
+      "{}, {:.4g} times the linear one.",
       energy, number_in(summary, quantities::mode), with_unit(summary, quantities::frequency), ratio));
 }
 
@@ -339,18 +346,17 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
   const double ratio = number_in(summary, quantities::largest_energy_ratio);
   if (!std::isfinite(ratio)) return append_mode_at_energy(sentences, summary);
   sentences.push_back(fmt::format(
-      "Mode {:.0f} was followed over {} to {:.4g} times the energy at which the linear mode touches.",
+      "Mode {:.0f} was followed over {}, up to {:.4g} times the grazing energy of the linear mode.",
       number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"), ratio));
-  sentences.push_back(fmt::format("Its frequency rises to {:.4g} times the linear one of {}.",
+  sentences.push_back(fmt::format("The frequency rises to {:.4g} times the linear one of {}.",
                                   number_in(summary, quantities::largest_frequency_ratio),
                                   with_unit(summary, quantities::linear_frequency)));
   if (number_in(summary, quantities::points_tongue) > 0.0)
     sentences.emplace_back(
-        "A tongue is a part of the curve on an internal resonance, where another mode moves along with this one.");
+        "A tongue is a segment of the branch on an internal resonance, where a second mode responds.");
   if (std::isfinite(number_in(summary, quantities::virial_residual)))
     sentences.push_back(fmt::format(
-        "The virial residual, at most {:.2g}, is the relative error of a balance of energies that exact motions "
-        "satisfy.",
+        "The virial residual, the relative error of an energy identity of exact motions, is at most {:.2g}.",
         number_in(summary, quantities::virial_residual)));
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "files/number_text.hpp"
 #include "report/run_words.hpp"
@@ -14,37 +16,35 @@ namespace {
 /// One sentence for each status of stability that a record can have.
 std::string status_sentence(const std::string& status) {
   static const std::map<std::string, std::string> known{
-      {"stable", "The motion is stable: a small disturbance dies away."},
-      {"unstable", "The motion is unstable: a small disturbance grows, and the structure leaves it."},
+      {"stable", "The motion is stable: small disturbances decay."},
+      {"unstable", "The motion is unstable: small disturbances grow."},
       {"converged", "Stability is known at every point."},
-      {"partly_known", "Stability is known at part of the points."},
-      {"no_law_of_impact",
-       "Stability is not known: where a rigid obstacle meets contacts with mass, no motion beside the one found is "
-       "determined without a law of impact."},
+      {"partly_known", "Stability is known at some points."},
+      {"no_law_of_impact", "Stability is not known: rigid contact with mass requires a law of impact."},
       {"no_finite_stiffness", "Stability is not known: the contact is rigid and has no finite stiffness."},
       {"too_few_samples",
-       "Where contact has just begun, its interval lies between two quadrature points. Stability is not known there; "
-       "more quadrature_points narrow that part."},
+       "Near grazing, contact lasts less than the spacing of the time samples, and stability is "
+       "not known. More quadrature_points narrow this range."},
       {"too_few_harmonics",
-       "Stability is not known everywhere: contact is stiffer than the functions resolve. More functions help."},
+       "Stability is not known everywhere: the basis functions do not resolve the contact "
+       "stiffness. More functions help."},
       {"structural_damping",
-       "Stability is not known: structural damping has no equation in time. With modal_damping = loss_factor / 2 in "
-       "its place it is."},
+       "Stability is not known: structural damping has no equation in time. modal_damping = "
+       "loss_factor / 2 is a viscous replacement."},
       {"undamped", "Stability is not asymptotic: the structure has a mode without damping."},
       {"on_unit_circle",
-       "Stability is not known: a multiplier lies on the unit circle within its own error, and none outside."},
+       "Stability is not known: a multiplier is on the unit circle within its error, and none is outside."},
       {"too_many_phases",
-       "Stability is not known: so many contacts change so often that the motion of the structure was not sought."},
+       "Stability is not known: there are too many contact intervals for an exact periodic solution."},
       {"coupled_massless",
-       "Stability is not known: contacts without mass and damping deflect each other at once."},
+       "Stability is not known: massless contacts without damping are coupled statically."},
       {"no_modes", "Stability is not known: the modes of the structure could not be computed."},
       {"effort_limit",
-       "Stability is not known everywhere: the count of multipliers took too many operations."},
+       "Stability is not known everywhere: counting the multipliers takes too many operations."},
       {"no_response", "Stability is not known: there is no motion."},
       {"not_found",
-       "Stability is not known where the search by phases found no motion of the structure near the response of the "
-       "samples."},
-      {"not_computed", "Stability was not computed; analysis.stability = true asks for it."},
+       "Stability is not known where no exact periodic solution was found near the computed response."},
+      {"not_computed", "Stability was not computed. analysis.stability = true computes it."},
       {"interrupted", "The computation of stability was interrupted."},
   };
   const auto found = known.find(status);
@@ -57,14 +57,13 @@ std::string type_in_words(const std::string& type) {
       {"fold", "Folds, where the curve turns back"},
       {"period_doubling", "Period doublings, where motions of two periods begin"},
       {"neimark_sacker", "Neimark-Sacker points, where quasi-periodic motions begin"},
-      {"grazing", "Grazing points, where an interval of contact appears, vanishes, splits or joins another"},
-      {"branch", "Branch points, where another curve begins"},
-      {"slip", "First slip, where all contacts stick up to there or from there on"},
-      {"stick",
-       "Onsets of sticking, where a contact that slips all along begins to stick in each period, or ceases to"},
+      {"grazing", "Grazing points, where a contact interval is created, destroyed, split or merged"},
+      {"branch", "Branch points, where another branch begins"},
+      {"slip", "Slip onset, where the first contact starts to slip or the last one stops"},
+      {"stick", "Stick onset, where a contact that always slips starts to stick, or stops sticking"},
       {"krein_collision",
-       "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it, so that a small "
-       "disturbance begins to oscillate and grow"}};
+       "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it: "
+       "flutter begins"}};
   const auto found = known.find(type);
   return found == known.end() ? spaced_words(type) : found->second;
 }
@@ -81,8 +80,11 @@ void append_special_points(std::vector<std::string>& sentences, const Summary& s
     if (const auto* place = std::get_if<double>(&points->at(i, axis.column())))
       places[type_in_words(cell_text(points->at(i, "type")))].push_back(
           fmt::format("{:.7g} {}", *place, axis.unit));
+  constexpr std::size_t most = 8;
   for (const auto& [type, where] : places)
-    sentences.push_back(fmt::format("{}: {}.", type, fmt::join(where, ", ")));
+    sentences.push_back(
+        fmt::format("{}: {}{}.", type, fmt::join(std::span(where).first(std::min(most, where.size())), ", "),
+                    where.size() > most ? fmt::format(" and {} more", where.size() - most) : ""));
 }
 
 /// Why a law of the velocity, or friction, leaves stability unknown: with the number of states where it is
@@ -95,8 +97,8 @@ std::string too_many_states_sentence(const Summary& summary) {
   const bool curve = find_entry(summary, quantities::points.name) != nullptr;
   const double states = 2.0 * number_in(summary, quantities::reduced_degrees_of_freedom);
   return fmt::format(
-      "Stability is not known{}: with {} it takes all {}states of the structure, of which at most {:.0f} are "
-      "followed. structure.kept_modes leaves fewer.",
+      "Stability is not known{}: with {} it requires all {}states of the structure, and at "
+      "most {:.0f} are supported. structure.kept_modes reduces them.",
       friction && curve ? " where a multiplier is near the unit circle" : "",
       friction ? "friction" : "a contact law that depends on the velocity",
       std::isfinite(states) ? fmt::format("{:.0f} ", states) : "",
@@ -129,8 +131,10 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
   if (find_entry(summary, quantities::points_stability_not_known.name) == nullptr) return;
   const auto* parts = value_in<Table>(summary, quantities::unstable_parts.name);
   if (parts == nullptr) {
-    if (number_in(summary, quantities::points_stability_not_known) < number_in(summary, quantities::points))
-      sentences.emplace_back("No motion whose stability is known is unstable.");
+    const double left = number_in(summary, quantities::points_stability_not_known);
+    if (left == 0.0) sentences.emplace_back("All points of the curve are stable.");
+    if (left > 0.0 && left < number_in(summary, quantities::points))
+      sentences.emplace_back("No point of known stability is unstable.");
     return;
   }
   std::vector<std::pair<std::string, std::vector<std::string>>> places;  // curve by curve, as the rows
@@ -163,15 +167,15 @@ std::vector<std::string> stability_sentences(const Summary& summary, const Sweep
   const double real = number_in(summary, quantities::leading_multiplier_real),
                imaginary = number_in(summary, quantities::leading_multiplier_imag);
   if (unstable > 0.0)
-    sentences.push_back(fmt::format("{:.0f} of its Floquet multipliers {} outside the unit circle.", unstable,
-                                    unstable == 1.0 ? "lies" : "lie"));
+    sentences.front() += fmt::format(" {:.0f} of its Floquet multipliers {} outside the unit circle.",
+                                     unstable, unstable == 1.0 ? "is" : "are");
   // Smaller ones are rounding.
   constexpr double least = 1e-12;
   const double modulus = std::hypot(real, imaginary);
   if (std::isfinite(real))
-    sentences.push_back(modulus < least
-                            ? "The leading multiplier has an absolute value below 1e-12."
-                            : fmt::format("The leading multiplier has the absolute value {:.4g}.", modulus));
+    sentences.front() +=
+        modulus < least ? " The leading Floquet multiplier has a modulus < 1e-12."
+                        : fmt::format(" The leading Floquet multiplier has the modulus {:.4g}.", modulus);
   append_unstable_parts(sentences, summary, axis);
   append_special_points(sentences, summary, axis);
   return sentences;

@@ -80,7 +80,7 @@ std::string failures_html(const Study& study, const StudyRecord& record) {
           ? fmt::format("<p>The first {} are shown; study.csv holds all.</p>\n", most_failures)
           : "";
   return which + table_html(rows) + messages_html(record.table, failures) +
-         "<p>This command solves the first of them alone:</p>\n" +
+         "<p>This command solves only the first one:</p>\n" +
          code_html(command_of_row(study, record.table, failures.front()));
 }
 
@@ -101,10 +101,10 @@ std::string extremes_html(const Study& study, const StudyRecord& record) {
     return fmt::format("{:.4g} in run {}", values[i], cell_text(record.table.at(i, "run")));
   };
   return "<p>" +
-         escaped(fmt::format("{} is largest, {}, and least, {}. study.csv has a row for each run. This "
-                             "command solves run {} alone:",
-                             quantity, run(*largest), run(*least),
-                             cell_text(record.table.at(*largest, "run")))) +
+         escaped(
+             fmt::format("The largest {} is {}, the least {}. study.csv has a row for each run. This command "
+                         "solves only run {}:",
+                         quantity, run(*largest), run(*least), cell_text(record.table.at(*largest, "run")))) +
          "</p>\n" + code_html(command_of_row(study, record.table, *largest));
 }
 
@@ -139,8 +139,8 @@ std::string quantiles_html(const Study& study, const Summary& summary) {
       rows.back().push_back(number == nullptr ? cell_text(cell) : fmt::format("{:.4g}", *number));
     }
   }
-  return "<p>Of the runs that converged; q05 is the value that 5 % of them do not exceed. summary.json has the quantiles "
-         "of all columns.</p>\n" +
+  return "<p>Quantiles over the runs that converged: 5 % of them do not exceed q05. summary.json "
+         "has the quantiles of all columns.</p>\n" +
          table_html(rows, true);
 }
 
@@ -150,7 +150,7 @@ std::string asked(const StudyArguments& arguments, const Study& study) {
     parameters += one.is_interval() ? fmt::format("{} from {} to {}{}\n", one.key, number_text(one.from),
                                                   number_text(one.to), one.logarithmic ? ", logarithmic" : "")
                                     : fmt::format("{} of {} values\n", one.key, one.values.size());
-  return "<p>The command, which goes on where it stopped:</p>\n" + code_html(command_of_study(arguments)) +
+  return "<p>The command, which continues where it stopped:</p>\n" + code_html(command_of_study(arguments)) +
          fmt::format("<p>The parameters ({}):</p>\n", name_of(study.sampling)) + code_html(parameters) +
          folded("The scene", code_html(study.scene_text));
 }
@@ -176,7 +176,7 @@ std::string study_report(const StudyArguments& arguments, const Study& study, co
                          const Summary& summary, const std::vector<RecordFile>& files) {
   const std::string heading = heading_of(study);
   PageParts page{.title = heading + ", Wavebalance"};
-  page.body = section_html("What came out", list_html(lines_of(study_outcome(record)))) +
+  page.body = section_html("Results", list_html(lines_of(study_outcome(record)))) +
               section_html("Pictures", pictures_html(record.pictures, files) + extremes_html(study, record)) +
               section_html("Quantiles", quantiles_html(study, summary)) +
               section_html("Runs that did not converge", failures_html(study, record)) +
@@ -220,8 +220,7 @@ void check_study_output(const StudyArguments& arguments, const InputFiles& input
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record) {
   RunFiles run;
   std::vector<RecordFile>& files = run.files;
-  if (arguments.report)
-    files.push_back({"report.html", "", "what came out of the runs, to read in a browser"});
+  if (arguments.report) files.push_back({"report.html", "", "the report of this study"});
   files.push_back({"study.csv", csv_text(record.table), "a row per run"});
   files.push_back({"study.npz", npz_text(record.table), "the same columns for numpy.load()"});
   files.push_back({"scene.toml", study.scene_text, "the scene of all runs, before their changes"});

@@ -62,9 +62,9 @@ void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contac
   if (stuck.empty()) return;
   const char* ending = stuck.size() == 1 ? "s" : "";
   const bool settable = elastic || !in_time;
-  warn(record, "Contact{} {} neither slip{} nor open{}: the force there depends on the past{}.",
+  warn(record, "Contact{} {} neither slip{} nor open{}: the force depends on the history{}.",
        stuck.size() == 1 ? "" : "s", fmt::join(stuck, ", "), ending, ending,
-       settable ? ", and slider says from which position on" : "");
+       settable ? ", which slider sets" : "");
 }
 
 /// The friction work beside the work that the contact forces take from the motion in a period, which is that
@@ -90,8 +90,8 @@ void append_energy_error(Record& record, double error) {
   record.add("friction_energy_error", error);
   if (error > large)
     warn(record,
-         "The friction work and the work of the load less that of the damping differ by {:.2g} of it: more "
-         "time.functions and time.quadrature_points resolve where the contacts stick and slip.",
+         "The energy dissipated by friction differs from load minus damping by {:.2g} (relative). "
+         "More time.functions and time.quadrature_points resolve stick and slip better.",
          error);
 }
 
@@ -101,9 +101,9 @@ void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& resp
   const bool chatters = response.motion.status == PhasesStatus::chattering;
   if (!chatters && response.motion.status != PhasesStatus::lasting_contact) return;
   warn(record,
-       "{} at contact {} {:.6g} s after the start of the integration; then the contact stays closed. No "
-       "periodic motion with this contact closed was found.",
-       chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound is pressed on",
+       "{} at contact {} {:.6g} s after the start of the integration. Then the contact stays "
+       "closed. No periodic motion with sustained contact was found.",
+       chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound occurs",
        response.chattering_contact + 1, response.chattering_end / frequency);
 }
 
@@ -140,18 +140,18 @@ void append_events(Record& record, const Response& response, double frequency) {
                                      [&](const solvers::FlowEvent& one) { return one.contact == int(c); });
     if (!changes && flow.machines[c].law->kind(flow.states[c]) == solvers::ContactState::stick)
       warn(record,
-           "Contact {} sticks all the time. Where it sticks depends on the start: the contacts begin at "
-           "rest, and the structure elsewhere in its motion without contact.",
+           "Contact {} sticks all the time. Its position depends on the initial state: contacts at "
+           "rest, the rest of the structure in its linear response.",
            c + 1);
   }
   if (flow.rests > 0)
     warn(record,
-         "{} impacts of the period are slower than 1e-6 of the fastest and have no rebound, so that the "
-         "contact rests.",
+         "{} impacts of the period are slower than 1e-6 of the fastest one. They are taken "
+         "without rebound: the contact stays closed.",
          flow.rests);
   if (!flow.events.empty())
-    record.files.push_back({"events.csv", csv_text(table),
-                            "the events of a period: instants, the states that begin there, impulses"});
+    record.files.push_back(
+        {"events.csv", csv_text(table), "events of a period: instants, new states, impulses"});
 }
 
 /// Where the contacts change their states without end.
@@ -164,8 +164,8 @@ void append_endless(Record& record, const Response& response, double frequency) 
   record.add("endless_contact", last.contact + 1);
   record.add(quantities::endless_time, instant);
   warn(record,
-       "Contact {} changes its state again and again in a vanishing time, {:.6g} s after the start of the "
-       "integration, which ends there.",
+       "Contact {} changes its state without end in a vanishing time, {:.6g} s after the start. "
+       "The integration ends there.",
        last.contact + 1, instant);
 }
 
@@ -192,7 +192,7 @@ void append_friction(Record& record, const Scene& scene, const Response& respons
         record, exact ? missing : energy_error(contacts, response.contacts, response.periods / frequency));
   warn_of_history(record, contacts, response.flow.has_value());
   record.files.push_back({"friction.csv", csv_text(loops_of(contacts, response.contacts)),
-                          "The loops of friction force and displacement, and what each contact does"});
+                          "friction loops and the states of each contact"});
 }
 
 void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
@@ -253,7 +253,7 @@ void append_impacts(Record& record, const Scene& scene, const Response& response
   if (response.impacts) warn_of_lasting_contact(record, *response.impacts, scene.forcing.frequency);
   if (known && !response.struck.empty())
     record.files.push_back({"impacts.csv", csv_text(impacts_table(scene, response.struck)),
-                            "the impacts of a period: instants, velocities, impulses and energies"});
+                            "impacts of a period: instants, velocities, impulses, energies"});
 }
 
 }  // namespace wavebalance::app

@@ -45,7 +45,7 @@ void append_motion_picture(Record& record, const Scene& scene, const Sweep& swee
   if (sweep.curve.parameter == solvers::SweepParameter::frequency) response.load_frequency = motion.place;
   response.phases = motion.near;
   RecordPicture picture{motion.name, motion_figure(scene, response, motion.place),
-                        "the motion of the curve " + place};
+                        "motion of the curve " + place};
   picture.figure.title = "Motion " + place + (motion.converged ? "" : " (NOT CONVERGED)");
   record.motion_pictures.push_back(std::move(picture));
 }
@@ -88,7 +88,7 @@ void append_motions(Record& record, const Scene& scene, const StructureModel& mo
                                 ".csv holds the last iterate.");
   }
   if (!sweep.motions_left_out.empty())
-    warn(record, "analysis.motion_at: the sweep was interrupted before these motions were solved for: {}.",
+    warn(record, "analysis.motion_at: the sweep was interrupted before these motions were computed: {}.",
          fmt::join(sweep.motions_left_out, ", "));
   for (const double place : scene.analysis.motion_at.places)
     if (sweep.motions_left_out.empty() &&

@@ -193,22 +193,24 @@ std::string way_sentence(const Table& intervals, const std::string& way, const S
   for (std::size_t kind = 0; kind < words.size(); ++kind)
     if (!rows[kind].empty()) parts.push_back(words[kind] + list_text(intervals, rows[kind]));
   if (parts.empty()) return "";
-  return fmt::format("On the way {} ({}): {}.", way, axis.unit, fmt::join(parts, "; "));
+  return fmt::format("{} ({}): {}.", way == "there" ? "Forward" : "Backward", axis.unit,
+                     fmt::join(parts, "; "));
 }
 
 std::string hysteresis_sentence(const Table& hysteresis, bool both_ways, const SweepAxis& axis) {
-  if (!both_ways) return "The values were passed one way alone.";
-  if (hysteresis.empty()) return "Both ways lead to the same motions.";
+  if (!both_ways) return "The values were passed in one direction only.";
+  if (hysteresis.empty()) return "Both directions lead to the same motions.";
   std::vector<std::size_t> rows(hysteresis.rows());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  return fmt::format("Both ways lead to different motions at {} {}.", list_text(hysteresis, rows), axis.unit);
+  return fmt::format("Both directions lead to different motions at {} {}.", list_text(hysteresis, rows),
+                     axis.unit);
 }
 
 std::string quasi_periodic_sentence(std::int64_t aperiodic, std::int64_t quasi_periodic) {
   if (aperiodic == 0) return "";
   return fmt::format(
-      "At {} of {} values without a period the section is a closed curve: the motion is quasi-periodic, and "
-      "envelope.csv has its second frequency.",
+      "At {} of {} values without a period the motion is quasi-periodic: its section is a "
+      "closed curve. envelope.csv has its second frequency.",
       quasi_periodic, aperiodic);
 }
 
@@ -217,7 +219,7 @@ std::string exact_sentence(const Diagram& diagram) {
   if (status == "reached_end" || status == "closed")
     return "Lines are exact periodic solutions, dashed where they are unstable.";
   if (status == "not_sought" && diagram.places[std::size_t(diagram.place)].output)
-    return "Exact curves stand over sections of contacts alone.";
+    return "Exact curves are drawn for sections of contacts only.";
   if (status == "not_sought" || status.empty()) return "";
   if (status == "refused") return "There is no exact curve of this scene.";
   return "Lines are exact periodic solutions, dashed where they are unstable, from one end of the interval (" +
@@ -274,7 +276,7 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   if (failed > 0)
     warn(record,
          "At {} values the integration ended before the section was complete (step_failure or "
-         "endless_events); they have no points, and the next value begins from rest.",
+         "endless_events). They have no points, and the next value starts from rest.",
          failed);
   if (diagram.exact_status != "not_sought" && diagram.exact.empty())
     warn(record, "There is no exact curve over the interval ({}).", diagram.exact_status);
@@ -285,9 +287,8 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
 std::string diagram_plan(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   return fmt::format(
-      "diagram    {} values{}, {} periods of the load at each, of which the last {} are recorded{}\n"
-      "size       {} states\n",
-      analysis.values, analysis.both_ways ? " there and back" : "",
+      "diagram    {} values{}, {} forcing periods at each, the last {} are recorded{}\nsize       {} states\n",
+      analysis.values, analysis.both_ways ? " forward and backward" : "",
       analysis.transient_periods + analysis.section_points, analysis.section_points,
       analysis.exact_curve ? ", and the exact curve" : "", 2 * reduced_size(scene));
 }
@@ -312,9 +313,9 @@ Record diagram_record(const Scene& scene, const StructureModel& model, const Ana
   record.add(quantities::warnings, record.warnings);
   if (diagram.values.empty()) return record;
   record.section = section_table(diagram);
-  record.files.push_back({"envelope.csv", csv_text(envelope_table(scene, diagram)),
-                          "of each value the period, or the second frequency of a quasi-periodic motion, and "
-                          "the largest and least displacement of each place"});
+  record.files.push_back(
+      {"envelope.csv", csv_text(envelope_table(scene, diagram)),
+       "period or second frequency at each value, and the largest and least displacement of each place"});
   if (!diagram.exact.empty())
     record.files.push_back({"exact_curve.csv", csv_text(exact_table(diagram)),
                             "the exact curve in the section, with the multipliers outside the unit circle"});

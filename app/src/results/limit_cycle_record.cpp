@@ -22,7 +22,8 @@ Table multipliers_table(const Response& response) {
 
 std::string limit_cycle_plan(const Scene& scene) {
   return fmt::format(
-      "time       from event to event, from rest, carried contacts and up to {} random states\n",
+      "time       event-driven integration from rest, from contacts moved by their surfaces, "
+      "and from up to {} random states\n",
       scene.analysis.random_starts);
 }
 

@@ -126,8 +126,8 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
                            ? fmt::format("{:.4f} to {:.4f}", gap.first_ratio, gap.last_ratio)
                            : fmt::format("{:.4f}", gap.first_ratio));
   warn(record,
-       "At {} of {} points of the curve no motion was found ({}), at frequency ratios {}; analysis.samples "
-       "= 2 x analysis.harmonics, or other harmonics, may leave fewer.",
+       "At {} of {} points of the branch no motion was found ({}), at frequency ratios {}. "
+       "analysis.samples = 2 x analysis.harmonics, or other harmonics, may help.",
        failed, curve.points.size(), fmt::join(counts, ", "), fmt::join(ranges, ", "));
 }
 
@@ -271,7 +271,7 @@ Record motion_record(const ModeStudy& study) {
   if (point.status == ModeStatus::no_contact) {
     const Backbone curve = study.backbone(scene.analysis.energy_ratio);
     record.status =
-        curve.early_end.empty() ? "no neighbouring points of the curve enclose the energy" : curve.early_end;
+        curve.early_end.empty() ? "no neighbouring points of the branch enclose the energy" : curve.early_end;
   }
   record.summary = solution_entries(record.converged, record.status, moves ? study.residual(point) : missing,
                                     point.iterations, study.unknowns(), response.wall_seconds);
@@ -286,8 +286,8 @@ Record motion_record(const ModeStudy& study) {
   if (found && resonant) {
     record.add(quantities::tongues, resonance_name(point.resonance));
     warn(record,
-         "The motion lies on the internal resonance {}, in which mode {} has {:.0f} % of the kinetic "
-         "energy: the curve of the mode goes along it, and no motion off the resonance was found beyond.",
+         "The motion is on the internal resonance {}: mode {} has {:.0f} % of the kinetic energy. "
+         "The branch follows this resonance, and no motion beyond it was found.",
          resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share);
   }
   const bool gapless = scene.analysis.reference_length > 0.0;
@@ -315,13 +315,12 @@ void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
     if (other < 0 || other >= last) continue;
     const double apart = std::abs(omega[other] - omega[mode]) / omega[mode];
     if (apart > near) continue;
-    warn(
-        record, "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
-        std::max(mode, other) + 1,
-        apart <= rounding ? "are equal" : fmt::format("differ by {:.1g} %", 100.0 * apart),
-        apart <= 2.0 * equal_frequencies
-            ? "they were combined so that the first of them moves the contacts most."
-            : "beyond contact each may run into the other, and energies are those of the linear mode that was asked for.");
+    warn(record, "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
+         std::max(mode, other) + 1,
+         apart <= rounding ? "are equal" : fmt::format("differ by {:.1g} %", 100.0 * apart),
+         apart <= 2.0 * equal_frequencies
+             ? "they were combined so that the first one moves the contacts most."
+             : "beyond contact the branches may interact. Energies refer to the requested linear mode.");
   }
 }
 

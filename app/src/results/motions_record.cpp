@@ -66,8 +66,8 @@ void warn_of_none(Record& record, const Motions& all, int longest) {
   std::vector<std::string> ends;
   for (const auto& [status, count] : all.none_by_status) ends.push_back(fmt::format("{} {}", count, status));
   warn(record,
-       "{} of {} random starts came to no motion of up to {} periods within the periods integrated{}: "
-       "motions may be missing.",
+       "{} of {} random starts did not converge to a motion of up to {} periods within the "
+       "integrated periods{}: motions may be missing.",
        all.none, all.starts, longest, ends.empty() ? "" : fmt::format(" ({})", fmt::join(ends, ", ")));
 }
 
@@ -80,8 +80,8 @@ void append_unsolved(Record& record, const Motions& all) {
     const double share = all.starts > 0 ? double(one.arrivals) / all.starts : missing;
     table.append_row({status, std::int64_t{one.periods}, one.max_displacement, one.max_force, share});
     warn(record,
-         "The structure settles to a motion over {} period{} of the load with a largest displacement of "
-         "{:.6g} m, by integration, which contact phases did not solve for ({}).",
+         "Time integration converges to a motion of {} forcing period{} with a largest "
+         "displacement of {:.4g} m. No exact solution was found for it ({}).",
          one.periods, one.periods == 1 ? "" : "s", one.max_displacement, status);
   }
   record.add("unsolved_motions", table);
@@ -101,12 +101,12 @@ void append_box(Record& record, const Motions& all) {
 std::string motions_plan(const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   return fmt::format(
-      "motions    of up to {} periods of the load, from rest and {} random states (seed {}), by {}\n",
+      "motions    of up to {} forcing periods, from rest and {} random states (seed {}), by {}\n",
       analysis.longest_period, analysis.random_starts, analysis.seed,
-      solves_by_impacts(scene) ? "instants and impulses of impacts"
+      solves_by_impacts(scene) ? "exact solutions with impacts"
       : seeks_by_events(scene)
-          ? "the map of a period from event to event"
-          : "phases of contact to a relative error of " + number_text(scene.time.tolerance));
+          ? "event-driven integration over a period"
+          : "exact solutions to a relative error of " + number_text(scene.time.tolerance));
 }
 
 Record motions_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {

@@ -46,8 +46,8 @@ Record curve_record(const Scene& scene, const StructureModel& model, const Analy
   append_start(record, start, found, sweep.start_distance);
   if (!start.contacts.empty() && found)
     warn(record,
-         "The curve was followed from its start towards the end of the interval alone: what lies the other "
-         "way of the start was not sought.");
+         "The curve was followed from its start to the end of the interval only. The part on the "
+         "other side of the start was not searched for.");
   return record;
 }
 

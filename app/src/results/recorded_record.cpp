@@ -90,23 +90,23 @@ void warn_of_kind(Record& record, const RecordedMotion& motion) {
       fmt::format("The statistics are those of the {} periods recorded.", motion.recorded);
   if (motion.kind == MotionKind::settling)
     warn(record,
-         "Perturbations of the motion decay, so that it has not settled yet, or repeats after more than {} "
-         "periods of the load. {}",
+         "Perturbations decay: the transient has not decayed yet, or the motion repeats after "
+         "more than {} forcing periods. {}",
          motion.recorded / 4, statistics);
   if (motion.kind == MotionKind::periodic)
     warn(record, "The motion repeats after {} of the load. {}",
          motion.repeats == 1 ? "one period" : fmt::format("{} periods", motion.repeats), statistics);
   if (motion.kind == MotionKind::not_known)
     warn(record,
-         "Whether the motion is aperiodic or has not settled yet is not known: its largest Lyapunov exponent "
-         "cannot be told from zero, or was not found, and its section is no closed curve. {} More "
-         "analysis.recorded_periods may tell it.",
+         "Whether the motion is aperiodic or still transient is not known: its Lyapunov exponent "
+         "is zero within its error or unknown, and its section is not a closed curve. {} More "
+         "analysis.recorded_periods may decide it.",
          statistics);
   constexpr double independent = 0.45;  // twice the standard deviation with 20 batches
   if (motion.correlation > independent)
     warn(record,
-         "Statistics of neighbouring batches of {} periods depend on each other, with a correlation of "
-         "{:.2g}: their errors are too small. More analysis.recorded_periods make batches longer.",
+         "Neighbouring batches of {} periods are correlated ({:.2g}): the stated errors are too "
+         "small. More analysis.recorded_periods make batches longer.",
          motion.recorded / 20, motion.correlation);
 }
 
@@ -121,10 +121,10 @@ std::string with_error(const solvers::Estimate& known, const std::string& unit) 
 
 std::string kind_sentence(const RecordedMotion& motion, double frequency) {
   const std::string before =
-      fmt::format("Within {} periods of the load the motion did not repeat. ", motion.transient);
+      fmt::format("The motion did not repeat within {} forcing periods. ", motion.transient);
   const std::string measured =
       std::isfinite(motion.exponent.value)
-          ? fmt::format("the largest Lyapunov exponent is {:.3g} ± {:.2g} per period of the load",
+          ? fmt::format("the largest Lyapunov exponent is {:.3g} ± {:.2g} per forcing period",
                         motion.exponent.value, motion.exponent.error)
           : std::string("the largest Lyapunov exponent was not found");
   switch (motion.kind) {
@@ -133,18 +133,18 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
     case MotionKind::quasi_periodic:
       return before +
              fmt::format(
-                 "It is quasi-periodic, with a second frequency of {} or one that differs by a multiple of the "
-                 "load's: its section is a closed curve within {:.1g} of its size, and {}, which is zero within "
-                 "what so many periods tell.",
+                 "It is quasi-periodic with a second frequency of {} (plus multiples of the forcing "
+                 "frequency). Its section is a closed curve within {:.1g} of its size. As expected, {}, "
+                 "zero within its error.",
                  quantity(motion.curve.rotation * frequency, "Hz"), motion.curve.residual, measured);
     case MotionKind::periodic:
-      return before + fmt::format("In the record it repeats after {} of them.", motion.repeats);
+      return before + fmt::format("In the recorded part it repeats after {} of them.", motion.repeats);
     case MotionKind::settling:
-      return before + "It still settles, or has a long period, since perturbations decay: " + measured + ".";
+      return before + "Perturbations decay, so it is still transient or has a long period: " + measured + ".";
     case MotionKind::not_known:
       break;
   }
-  return before + "Whether it is aperiodic or has not settled yet is not known: " + measured + ".";
+  return before + "Whether it is aperiodic or still transient is not known: " + measured + ".";
 }
 
 /// What came out, of which the leading contact and the summary, which has no more than the scene's laws do.
@@ -155,8 +155,8 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
   const auto has = [&](const Quantity& one) { return std::isfinite(number_in(summary, one)); };
   std::vector<std::string> sentences{
       kind_sentence(motion, frequency),
-      fmt::format("Over the next {} periods the leading contact has a vibration of {} (rms about its mean), "
-                  "and lies between {} and {}.",
+      fmt::format("Over the next {} periods the contact with the largest force vibrates by {} (rms about "
+                  "its mean), between {} and {}.",
                   motion.recorded, with_error(of("vibration_rms"), contact.unit),
                   quantity(of("min").value, contact.unit), quantity(of("max").value, contact.unit))};
   if (has(quantities::mean_contact_force))
@@ -166,16 +166,16 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
                              : "."));
   if (has(quantities::impacts))
     sentences.push_back(fmt::format(
-        "There are {:.4g} ± {:.2g} impacts in a period of the load, at up to {}, and they dissipate {}.",
+        "There are {:.4g} ± {:.2g} impacts per forcing period, at up to {}. They dissipate {}.",
         sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
         quantity(of("max_impact_velocity").value, "m/s"), with_error(sum("impact_energy_in_a_period"), "J")));
   if (has(quantities::friction_work))
-    sentences.push_back(fmt::format("Friction dissipates {} in a period of the load.",
+    sentences.push_back(fmt::format("Friction dissipates {} per forcing period.",
                                     with_error(sum("friction_work_in_a_period"), "J")));
   if (has(quantities::wear))
-    sentences.push_back(fmt::format("It wears off {:.4g} ± {:.2g} m^3 in a period of the load.",
+    sentences.push_back(fmt::format("It wears off {:.4g} ± {:.2g} m^3 per forcing period.",
                                     sum("wear_in_a_period").value, sum("wear_in_a_period").error));
-  sentences.emplace_back("Errors are halves of 95 % confidence intervals, by the means of 20 batches.");
+  sentences.emplace_back("Errors are half widths of 95 % confidence intervals from 20 batch means.");
   return sentences;
 }
 
@@ -186,8 +186,8 @@ void add_files(Record& record, const RecordedMotion& motion) {
                           "intervals by 20 batch means"});
   record.files.push_back(
       {"spectrum.csv", csv_text(spectrum_table(motion)),
-       fmt::format("one-sided power spectral density by {} half-overlapping segments of {:.0f} periods under "
-                   "the window of Hann",
+       fmt::format("one-sided power spectral density from {} half-overlapping segments of {:.0f} periods "
+                   "with a Hann window",
                    motion.spectrum.segments, motion.spectrum.segment_periods)});
   for (Panel& panel : recorded_panels(motion)) record.figure.panels.push_back(std::move(panel));
 }

@@ -79,7 +79,7 @@ std::string computed_by(const Scene& scene, int periods) {
   change.set.push_back(fmt::format("analysis.subharmonic={}", periods));
   if (!accepts(scene, change)) return "";
   return fmt::format(
-      ", which {}analysis.subharmonic = {} computes",
+      "; {}analysis.subharmonic = {} computes it",
       scene.analysis.type == AnalysisType::forced_response ? "" : "analysis.type = \"forced_response\" with ",
       periods);
 }
@@ -93,17 +93,19 @@ void append_attractor(Record& record, const Scene& scene, const Response& respon
   if (attractor > 0 && response.periods % attractor == 0) {
     if (!response.moves)
       record.warnings.push_back(
-          "From rest the structure settles to a motion of this period, which the equations of these functions "
-          "and points were not solved for. More time.functions or time.method = \"exact\" may find it.");
+          "Time integration from rest converges to a motion of this period, but the discretised "
+          "equations were not solved near it. More time.functions or time.method = \"exact\" may "
+          "help.");
     return;
   }
   record.warnings.push_back(
       attractor == 0
-          ? fmt::format("{} the motion did not repeat after up to 16 periods of the load within the periods "
-                        "integrated: it is aperiodic, or has not settled yet.",
-                        start)
-          : fmt::format("{} the structure settles to a motion of {} periods of the load{}.", start, attractor,
-                        computed_by(scene, attractor)));
+          ? fmt::format(
+                "{} the motion did not repeat after up to 16 forcing periods within the integrated time: "
+                "it is aperiodic or still transient.",
+                start)
+          : fmt::format("{} time integration converges to a motion of {} forcing periods{}.", start,
+                        attractor, computed_by(scene, attractor)));
 }
 
 void append_settled(Record& record, const Scene& scene, const Response& response) {
@@ -112,22 +114,20 @@ void append_settled(Record& record, const Scene& scene, const Response& response
   record.add(quantities::settled_periods, beside.periods);
   record.add(quantities::settled_max_displacement, beside.periods > 0 ? beside.max_displacement : missing);
   const std::string others =
-      std::string(" Other motions were not sought") +
-      (accepts(scene, {.analysis = "motions"}) ? "; analysis.type = \"motions\" seeks them." : ".");
+      std::string(" Other motions were not searched for") +
+      (accepts(scene, {.analysis = "motions"}) ? "; analysis.type = \"motions\" does so." : ".");
   if (beside.periods > 0)
     warn(record,
-         "From rest the structure settles to {} motion, which repeats after {} of the load and has a "
-         "largest displacement of {:.6g} m{}.{}",
+         "From rest time integration converges to {} motion, of {} and with a largest "
+         "displacement of {:.4g} m{}.{}",
          response.moves ? "another" : "a",
          beside.periods == 1 ? "one period" : fmt::format("{} periods", beside.periods),
-         beside.max_displacement,
-         response.moves ? "" : " by integration; contact phases did not solve for it", others);
+         beside.max_displacement, response.moves ? "" : " (no exact solution was found for it)", others);
   else
     record.warnings.push_back(
         (beside.periods == 0
-             ? "From rest the motion did not repeat after up to 16 periods of the load within the periods "
-               "integrated."
-             : "What the structure settles to from rest is not known.") +
+             ? "From rest the motion did not repeat after up to 16 forcing periods within the integrated time."
+             : "The attractor reached from rest is not known.") +
         others);
 }
 
@@ -178,8 +178,9 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
     record.add(quantities::stability_by, response.stability->by_phases ? "phases" : "balance");
   if (!none) return;
   record.warnings.emplace_back(
-      "Contact phases found no motion of the structure near this response, which solves the equations at its samples "
-      "alone. Whether there is one is not known. More functions may lead to it.");
+      "No exact periodic solution was found near this response, which satisfies the contact "
+      "law at its time samples only. Whether one exists is not known. More functions may lead "
+      "to it.");
 }
 
 int structure_points(const Scene& scene) {

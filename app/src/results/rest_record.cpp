@@ -90,7 +90,7 @@ std::string rest_lines(const Scene& scene) {
                            rest->displacement[Eigen::Index(i)], rest->force[Eigen::Index(i)]) +
               "\n";
   if (contacts.size() > shown)
-    text += fmt::format("           and {} more; the record lists all\n", contacts.size() - shown);
+    text += fmt::format("           and {} more, all in summary.json of a run\n", contacts.size() - shown);
   return text;
 }
 

@@ -80,8 +80,8 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   }
   if (places.empty()) return;
   warn(record,
-       "At the Neimark-Sacker point{} {} {} the motion becomes quasi-periodic: what begins there has no "
-       "period and is not on the curve; analysis.type = \"bifurcation_diagram\" follows it.",
+       "At the Neimark-Sacker point{} {} {} quasi-periodic motions begin, which are not on the "
+       "curve. analysis.type = \"bifurcation_diagram\" follows them.",
        places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit);
 }
 
@@ -94,12 +94,9 @@ void warn_where_all_are_unstable(Record& record, const std::vector<solvers::Poin
   }
   if (unstable == 0 || unstable + unknown < points.size()) return;
   const std::string known = unknown > 0
-                                ? fmt::format("whose stability is known, {} of {}, ", unstable, points.size())
+                                ? fmt::format("of known stability ({} of {}) ", unstable, points.size())
                                 : std::string("of the curve ");
-  warn(record,
-       "All motions {}are unstable: a structure that is disturbed leaves them for motions that lie on other "
-       "curves or are not periodic.",
-       known);
+  warn(record, "All motions {}are unstable: the attractors are on other branches or not periodic.", known);
 }
 
 /// Whether a curve with this end can turn `count` times: an even number where it leaves the interval in the
@@ -123,17 +120,18 @@ void append_turning_points(Record& record, const Sweep& sweep, bool known) {
   if (differ) record.summary.emplace_back("turning_points_of_samples_" + suffix, of_samples);
   if (!can_turn(sweep.curve.status, listed.size())) {
     warn(record,
-         "turning_points_{} lists {} point{}, but a curve with this end turns an {} number of times: a fold "
-         "is missing from the list, or a point of it is none.{}",
+         "turning_points_{} lists {} point{}, but a curve with this end has an {} number of "
+         "folds: one is missing, or a listed point is none.{}",
          suffix, listed.size(), listed.size() == 1 ? "" : "s", listed.size() % 2 == 0 ? "odd" : "even",
-         differ ? " All turns of the samples are in turning_points_of_samples_" + suffix + "." : "");
+         differ ? " All turning points of the sampled curve are in turning_points_of_samples_" + suffix + "."
+                : "");
     return;
   }
   if (!known || folds.size() >= of_samples.size()) return;
-  warn(record,
-       "The curve turns {} times, but the motion has {} fold{}: the other turns are an error of the "
-       "functions and points.",
-       of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s");
+  warn(
+      record,
+      "The curve turns {} times, but the motion has {} fold{}: the other turns are discretisation artefacts.",
+      of_samples.size(), folds.size(), folds.size() == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -146,10 +144,8 @@ void append_stability(Record& record, const ResponseStability& stability, std::s
   record.add(quantities::leading_multiplier_real, stability.leading.real());
   record.add(quantities::leading_multiplier_imag, stability.leading.imag());
   if (stability.unstable <= 0) return;
-  warn(record,
-       "The {} is unstable, with {} Floquet multiplier{} outside the unit circle: a structure that is "
-       "disturbed leaves it.",
-       motion, stability.unstable, stability.unstable == 1 ? "" : "s");
+  warn(record, "The {} is unstable, with {} Floquet multiplier{} outside the unit circle.", motion,
+       stability.unstable, stability.unstable == 1 ? "" : "s");
 }
 
 namespace {
@@ -185,8 +181,8 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   append_structure_points(record, sweep);
   if (!sweep.unexplained.empty())
     warn(record,
-         "Before {:.6g} {} the number of unstable multipliers changes without a special point in the list: "
-         "one is missing there.",
+         "Before {:.6g} {} the number of unstable multipliers changes without a listed "
+         "bifurcation point: one is missing.",
          fmt::join(sweep.unexplained, ", "), sweep_axis(sweep).unit);
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
@@ -255,8 +251,8 @@ void warn_of_isola(Record& record, const Sweep& isola, std::size_t number) {
   warn_of_quasi_periodic_motions(record, isola.stability.special_points, isola);
   if (isola.origin.meets_known)
     warn(record,
-         "Isola {}, found at {:.6g} Hz, ends on a curve that was known: a step on one of the two was too "
-         "long, and they are parts of one curve or cross. A smaller analysis.largest_step tells which.",
+         "Isola {}, found at {:.6g} Hz, ends on a known branch: a step was too long, and it is a "
+         "missed loop of that branch or crosses it. A smaller analysis.largest_step decides it.",
          number, isola.origin.frequency);
   if (!isola.converged()) warn(record, "Isola {} was not followed to an end: {}.", number, isola.status());
 }
@@ -292,8 +288,8 @@ void append_isolas(Record& record, const Scene& scene, const Sweep& sweep) {
   append_isolas_found(record, sweep);
   if (!search.unmatched.empty())
     warn(record,
-         "At {:.6g} Hz the structure settles to a motion of the load's period near which the balance has no "
-         "response: more functions may lead to one.",
+         "At {:.6g} Hz time integration converges to a motion of the forcing period near which no "
+         "discretised response was found. More functions may lead to one.",
          fmt::join(search.unmatched, ", "));
 }
 

@@ -55,15 +55,15 @@ std::string range_of(const std::vector<double>& places) {
 void warn_of_parts_missed(Record& record, const solvers::StructurePoints& points, const std::string& unit) {
   if (points.apart)
     record.warnings.push_back(
-        "The motions near the first and the last point of the curve lie on different curves of the structure: the "
-        "curve has gone over from one to the other.");
+        "The exact solutions near the first and the last point are on different branches: the "
+        "curve jumped from one to the other.");
   if (points.passed_by.empty()) return;
   std::vector<double> places;
   for (const std::size_t fold : points.passed_by) places.push_back(points.events[fold].value);
-  warn(record,
-       "The curve of the structure has {} fold{} that this curve passes by, at {} {}: what lies between "
-       "them is missing.",
-       places.size(), places.size() == 1 ? "" : "s", range_of(places), unit);
+  warn(
+      record,
+      "The exact branch has {} fold{} that this curve misses, at {} {}: the segment between them is missing.",
+      places.size(), places.size() == 1 ? "" : "s", range_of(places), unit);
 }
 
 bool is_matched(solvers::StructurePointStatus status) {
@@ -168,18 +168,18 @@ void append_structure_points(Record& record, const Sweep& sweep) {
                      left = count_of(points, StructurePointStatus::not_known) +
                             count_of(points, StructurePointStatus::not_sought);
   std::vector<std::string> errors;
-  if (repeated > 0) errors.push_back(fmt::format("{} repeat one of the structure", repeated));
-  if (none > 0) errors.push_back(fmt::format("{} have none of their type near", none));
+  if (repeated > 0) errors.push_back(fmt::format("{} repeat another one", repeated));
+  if (none > 0) errors.push_back(fmt::format("{} have no exact point of their type nearby", none));
   if (!errors.empty())
-    warn(record, "Of {} special points of the curve {} are an error of the functions and points: {}. {}",
+    warn(record, "The curve has {} bifurcation or grazing points; {} are discretisation artefacts: {}. {}",
          points.of_balance.size(), repeated + none, fmt::join(errors, " and "),
          points.events.empty()
-             ? std::string("No special point of the structure was found.")
-             : fmt::format("structure_special_points lists the {} of the structure.", points.events.size()));
+             ? std::string("No exact point was found.")
+             : fmt::format("structure_special_points lists the {} exact ones.", points.events.size()));
   if (left == 0) return;
   warn(record,
-       "For {} of {} special points of the curve it is not known whether the structure has them: "
-       "structure_status names them.",
+       "For {} of {} bifurcation or grazing points of the curve no exact one was found or "
+       "excluded: structure_status names them.",
        left, points.of_balance.size());
 }
 

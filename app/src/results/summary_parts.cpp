@@ -67,8 +67,8 @@ void append_condition(Record& record, double condition, double rounding_error) {
   constexpr double ordinary_rounding_error = 1e-6;
   if (rounding_error > ordinary_rounding_error)
     warn(record,
-         "the rounding error of the condensation is estimated at {:.1e} of the motion: fewer than six "
-         "digits are accurate",
+         "poor conditioning: rounding errors of the dynamic condensation are about {:.1e} of the "
+         "motion, so fewer than six digits are accurate",
          rounding_error);
   record.add("condition_estimate", condition);
   record.add("rounding_error_estimate", rounding_error);
@@ -119,8 +119,8 @@ void warn_of_unbalanced_load(Record& record, const StructureModel& model) {
     if (std::find(rows.begin(), rows.end(), row + 1) == rows.end()) rows.push_back(row + 1);
   }
   warn(record,
-       "The structure is free to move along {} rigid motion{}, which move degree{} of freedom {} most. "
-       "Since no contact force balances its static load, no periodic motion exists.",
+       "The structure is free to move along {} rigid motion{}, which move degree{} of freedom "
+       "{} most. No contact force balances its static load, so no periodic motion exists.",
        rigid.cols(), rigid.cols() == 1 ? "" : "s", rows.size() == 1 ? "" : "s", fmt::join(rows, ", "));
 }
 
@@ -147,8 +147,8 @@ void append_period(Record& record, int periods, int motion_periods) {
   record.add(quantities::period_of_motion, motion_periods);
   if (motion_periods == periods) return;
   warn(record,
-       "analysis.subharmonic is {}, but the motion found repeats after {} of the load already: none of {} "
-       "periods was found.",
+       "analysis.subharmonic is {}, but the motion repeats after {} of the load: no motion of "
+       "{} periods was found.",
        periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods);
 }
 
@@ -182,13 +182,12 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
   record.add("start_distance", found ? distance : missing);
   constexpr double as_large_as_the_start = 0.9;
   if (found && distance > as_large_as_the_start)
-    warn(record,
-         "The motion found differs from the start by {:.2g} times the start: it may lie on another branch.",
+    warn(record, "The motion differs from the start by {:.2g} times the start: it may be on another branch.",
          distance);
   if (!found && !record.interrupted)
     record.warnings.push_back(
-        "No response was found near the start. One closer to the scene, or a sweep that begins at it, may lead "
-        "there; without a start other ways of finding a response are tried.");
+        "No response was found near the start. A closer start, or a sweep from it, may lead "
+        "there. Without a start other strategies are tried.");
 }
 
 void set_warnings(Record& record) {

@@ -46,9 +46,9 @@ void append_phases_of_points(Record& record, const Sweep& sweep) {
   record.add("points_phases_not_known", all - found - none);
   if (none == 0) return;
   warn(record,
-       "At {} of {} points of the curve contact phases found no motion of the structure near the response, "
-       "as between the folds of the balance and those of the structure. No verdict of stability is given "
-       "there. More functions may lead to a motion.",
+       "At {} of {} points of the curve no exact periodic solution was found, for example "
+       "between a computed fold and the exact one. Their stability is not reported. More "
+       "functions may help.",
        none, all);
 }
 
@@ -70,9 +70,8 @@ void warn_of_places(Record& record, const Sweep& sweep) {
     append_places(places, sweep.balances_of(i).special_points, sweep.phases[i], sweep);
   if (places.empty()) return;
   warn(record,
-       "No motion of the structure was found near these points of the curve: {}. The balance solves the "
-       "equations at its samples alone there, and whether the structure has these points is not known. More "
-       "functions may lead to them.",
+       "No exact periodic solution was found near these points of the curve: {}. Whether the "
+       "exact branch has these points is not known. More functions may help.",
        fmt::join(places, ", "));
 }
 
@@ -202,10 +201,9 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   record.warnings = model.warnings;
   warn_of_unbalanced_load(record, model);
   if (!sweep.start_status.empty() && !record.interrupted)
-    warn(record, "Where the curve was to begin no periodic motion was found that a curve begins with: {}.{}",
-         sweep.start_status,
+    warn(record, "No periodic motion was found at the start of the curve: {}.{}", sweep.start_status,
          sweep.start_status == "undetermined"
-             ? " Nothing holds a body, whose motion may be anywhere; a soft spring to ground holds it."
+             ? " A body is free and its position is not determined: hold it by a soft spring to ground."
              : "");
   const double highest = largest_of(sweep.curve.points, &SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());

@@ -67,8 +67,9 @@ std::string whirls_text(const StructureModel& model, double speed) {
 /// Of a matrix G of the other sign than the unbalance; empty without.
 std::string sense_warning(const Scene& scene, const CampbellDiagram& diagram) {
   if (scene.structure.matrices.gyroscopic.empty() || !turns_against_plane(diagram)) return "";
-  return "The unbalance turns against structure.gyroscopic, whose moments lower forward whirls and raise backward ones. "
-         "Expected the other order or sign of its dofs, or the other sign of the matrix.";
+  return "The unbalance turns against structure.gyroscopic, which lowers forward whirls and "
+         "raises backward ones. Expected the other order or sign of its dofs, or the other sign "
+         "of the matrix.";
 }
 
 }  // namespace
@@ -92,8 +93,7 @@ std::string whirl_lines(const Scene& scene) {
   constexpr std::int64_t most = 2000;
   if (structure_dofs(scene) > most)
     return fmt::format(
-        "whirl      not computed here for more than {} degrees of freedom; a frequency sweep has them\n",
-        most);
+        "whirl      not computed for more than {} degrees of freedom; a frequency sweep computes it\n", most);
   Scene whole = scene;
   whole.structure.kept_modes = -1;
   whole.contact.mass = ContactMass::keep;

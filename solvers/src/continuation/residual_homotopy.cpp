@@ -54,7 +54,8 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
       u = found ? std::move(end.displacement) : curve.point().displacement;
       return HomotopyStatus::arrived;
     }
-    if (!goes_on(options.observer, {"continuation", point, curve.point().parameter, "share of the residual"}))
+    if (!goes_on(options.observer,
+                 {"continuation", point, curve.point().parameter, "fraction of the residual"}))
       return HomotopyStatus::cancelled;
   }
   return HomotopyStatus::effort_limit;

@@ -126,7 +126,7 @@ PhaseNewtonResult solve_phases(const PhaseModel& model, PhaseIterate start, cons
     again = fits && result.residual < good * before;
     before = result.residual;
     if (result.iterations == limits.max_iterations || !std::isfinite(result.residual)) return result;
-    if (!goes_on(limits.observer, {"contact phases", result.iterations, result.residual})) return result;
+    if (!goes_on(limits.observer, {"exact solution", result.iterations, result.residual})) return result;
     if (!again) set_factor(now);
     const Eigen::VectorXd step = factor->solve(Eigen::VectorXd(-now.residual));
     if (!step.allFinite()) return result;
@@ -149,7 +149,7 @@ PhaseNewtonResult solve_forces(const PhaseModel& model, PhaseIterate start, cons
     result.converged = result.residual < limits.tolerance;
     result.iterate.forces = PanelForces(now.grid, nodes, now.force);
     if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual) ||
-        !goes_on(limits.observer, {"contact phases", result.iterations, result.residual}))
+        !goes_on(limits.observer, {"exact solution", result.iterations, result.residual}))
       return result;
     if (!result.known.influence)
       result.known.influence = model.response.influence(*now.period, model.velocity);

@@ -53,7 +53,7 @@ CurvePhases phases_along(const ProblemMaker& make, const FrequencySweep& curve,
   std::vector<ContactProblem> problems = detail::thread_problems(make, places.size(), options.threads);
   if (places.empty() || problems.front().dynamics() == nullptr) return result;
   result.points.resize(places.size());
-  detail::PlacesProgress progress(options.observer, "contact phases",
+  detail::PlacesProgress progress(options.observer, "exact solution",
                                   unit_of(problems.front().condensed(), curve.parameter));
   detail::at_places(problems, places.size(), progress,
                     [&](ContactProblem& problem, std::size_t i, const Observer&) {

@@ -66,10 +66,10 @@ struct RecordTable {
   const char* about;  ///< as of RecordFile
 };
 inline constexpr std::array<RecordTable, 6> record_tables{{
-    {"response", &Record::response, "motion of the leading contact degree of freedom over one period"},
+    {"response", &Record::response, "motion of the contact with the largest force over one period"},
     {"contacts", &Record::contacts,
-     "every contact degree of freedom over one period; displacements towards the obstacles"},
-    {"section", &Record::section, "Poincare section: points at the beginning of periods of the load"},
+     "every contact degree of freedom over one period, positive towards the obstacle"},
+    {"section", &Record::section, "Poincare section: states at the start of each forcing period"},
     {"outputs", &Record::outputs, "every output over one period"},
     {"sweep", &Record::sweep, "periodic responses along the curve"},
     {"backbone", &Record::backbone, "a nonlinear mode over its energy"},
