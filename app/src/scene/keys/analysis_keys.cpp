@@ -34,12 +34,11 @@ void add_intervals(std::vector<SceneKey>& keys) {
                  positive, one_of_both, of_frequency);
   over_frequency(&Analysis::frequency_to, "frequency_to", "Hz", "where it ends, above or below its start",
                  positive, one_of_both, of_frequency);
-  over_amplitude(
-      &Analysis::amplitude_from, "amplitude_from", "N",
-      "where the branch or the diagram starts: a value of forcing.amplitude, with which all loads but static "
-      "ones vary in proportion; where that is 0, of the first of forcing.terms that is not static, in its "
-      "unit",
-      positive, one_of_both, of_amplitude);
+  over_amplitude(&Analysis::amplitude_from, "amplitude_from", "N",
+                 "where the branch or the diagram starts: a value of forcing.amplitude, or, if that is 0, "
+                 "of the first non-static term of forcing.terms, in its unit; all non-static loads vary "
+                 "in proportion",
+                 positive, one_of_both, of_amplitude);
   over_amplitude(&Analysis::amplitude_to, "amplitude_to", "N", "where it ends, above or below its start",
                  positive, one_of_both, of_amplitude);
 }
@@ -47,38 +46,32 @@ void add_intervals(std::vector<SceneKey>& keys) {
 void add_sweep(std::vector<SceneKey>& keys) {
   const Section over_frequency(keys, "analysis", analysis_part, analysis_is({"frequency_sweep"}));
   const Section sweep(keys, "analysis", analysis_part, of_sweeps());
-  sweep(
-      &Analysis::largest_step, "largest_step", "Hz or N",
-      "longest step of arc length; in it a change of the displacement by one amplitude, or by the gap where that is less, counts as a 20th of the interval",
-      positive, derived("an 80th of the interval", interval_over(80)));
+  sweep(&Analysis::largest_step, "largest_step", "Hz or N",
+        "largest arc-length step; a change of the displacement by one amplitude (or by the gap, "
+        "if smaller) counts as a 20th of the interval",
+        positive, derived("an 80th of the interval", interval_over(80)));
   sweep(&Analysis::first_step, "first_step", "Hz or N", "first step along the branch", positive,
-        derived("a 1000th of the interval, or largest_step where that is less", first_step_by_default));
-  sweep(&Analysis::max_points, "max_points", "", "the branch is given up after so many",
+        derived("a 1000th of the interval, at most largest_step", first_step_by_default));
+  sweep(&Analysis::max_points, "max_points", "", "the continuation stops after this number of points",
         within(2, 10'000'000), optional);
-  sweep(
-      &Analysis::exact, "exact", "",
-      "true follows the motions of the structure themselves, by phases of contact, in place of those of the "
-      "balance, which gives the first point: folds and other special points have ten digits, and motions the "
-      "tolerance 1e-9",
-      optional);
+  sweep(&Analysis::exact, "exact", "",
+        "true follows exact periodic solutions, started from harmonic balance: bifurcation "
+        "points have ten digits, and motions the tolerance 1e-9",
+        optional);
   over_frequency(&Analysis::branches, "branches", "",
-                 "true also follows the curves that begin at period doublings and at branch points",
-                 optional);
-  over_frequency(
-      &Analysis::isolas, "isolas", "",
-      "true also seeks motions that lie on no curve of the sweep, near resonances that the law moves and by "
-      "settling from rest and random states, and follows the curves through them, closed ones too",
-      optional, only_with(by_balance()));
+                 "true also follows the branches that begin at period doublings and branch points", optional);
+  over_frequency(&Analysis::isolas, "isolas", "",
+                 "true also searches for isolated branches, closed ones included: near shifted resonances "
+                 "and by time integration from rest and random states",
+                 optional, only_with(by_balance()));
   over_frequency(
       &Analysis::isola_spacing, "isola_spacing", "Hz",
-      "with isolas, the distance of the frequencies at which motions are sought: no more, so that a curve "
-      "that is wider has one of them",
+      "with isolas, the largest spacing of the frequencies of the search; wider branches contain one of them",
       positive, derived("a 20th of the interval", interval_over(20)), only_with(by_balance()));
-  over_frequency(
-      &Analysis::isola_starts, "isola_starts", "",
-      "with isolas, random states, beside that of rest, from which the structure settles at each of these "
-      "frequencies",
-      within(0, 1'000'000), optional, only_with(by_balance()));
+  over_frequency(&Analysis::isola_starts, "isola_starts", "",
+                 "with isolas, random initial states for time integration at each of these frequencies, "
+                 "in addition to rest",
+                 within(0, 1'000'000), optional, only_with(by_balance()));
 }
 
 /// Contacts move each for itself; many would make a wide table.
@@ -107,33 +100,33 @@ void add_outputs(std::vector<SceneKey>& keys) {
   const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep",
                                        "time_stepping", "limit_cycle", "bifurcation_diagram"});
   const Section outputs(keys, "analysis", analysis_part, moves);
-  outputs(
-      &Analysis::outputs, "outputs", "",
-      "places whose motion is written, which pictures and sentences begin with: \"row 7\" or 7 of matrices, with "
-      "dof_map \"node 1052 z\", \"node 3\" or 3 of a bar from its clamp on; of each also \"velocity of node 1052 "
-      "z\", \"absolute acceleration of node 1052 z in g\", \"relative displacement of row 7 in mm\" and "
-      "\"transmissibility of row 7\"; largest and least value, half the peak-to-peak value, rms, mean and harmonics "
-      "of each",
-      optional, places_of_outputs, only_with(structure_is({"matrices", "bar"})));
+  outputs(&Analysis::outputs, "outputs", "",
+          "places whose motion is written and shown first: \"row 7\" or 7 of matrices, with "
+          "dof_map \"node 1052 z\", \"node 3\" or 3 of a bar, counted from its clamp; also "
+          "\"velocity of node 1052 z\", \"absolute acceleration of node 1052 z in g\", \"relative "
+          "displacement of row 7 in mm\" and \"transmissibility of row 7\". Each gets its largest "
+          "and least value, half peak to peak, rms, mean and harmonics",
+          optional, places_of_outputs, only_with(structure_is({"matrices", "bar"})));
   outputs(&Analysis::contact_outputs, "contact_outputs", "",
-          "true makes an output of each contact, with its force",
-          derived("true of a sweep with 2 to 6 directions of contact", contact_outputs_by_default));
+          "true makes each contact an output, with its force",
+          derived("true in a sweep with 2 to 6 contact degrees of freedom", contact_outputs_by_default));
   outputs(&Analysis::output_harmonics, "output_harmonics", "",
-          "harmonics of the load whose amplitude and phase are written of each output", within(0, 1000),
+          "forcing harmonics whose amplitude and phase are written for each output", within(0, 1000),
           optional);
   const Section sweep(keys, "analysis", analysis_part, of_sweeps());
   sweep(&Analysis::peak_of, "peak_of", "",
-        "an output, as \"node 1052 z\", \"row 17\" or \"contact 2\": the peak is then where its vibration is "
-        "largest, by half the peak-to-peak value, and not where the displacement towards an obstacle is",
+        "output that defines the peak, as \"node 1052 z\", \"row 17\" or \"contact 2\": its "
+        "largest half peak-to-peak value, instead of the largest displacement towards an obstacle",
         optional);
 }
 
 void add_time_stepping(std::vector<SceneKey>& keys) {
   const Section stepping(keys, "analysis", analysis_part, analysis_is({"time_stepping"}));
   stepping(&Analysis::tolerance, "tolerance", "",
-           "relative rms difference of two successive periods to be reached", above(0, 1), optional);
+           "relative rms difference of two successive periods at which integration ends", above(0, 1),
+           optional);
   stepping(&Analysis::recorded_periods, "recorded_periods", "",
-           "periods of the load that are recorded behind max_periods where the motion has not repeated, for "
+           "forcing periods recorded after max_periods if the motion has not repeated, for "
            "statistics, a Poincare section and a spectrum; 0 for none",
            within(0, 100'000), optional);
   const Section settling(keys, "analysis", analysis_part, analysis_is({"time_stepping", "limit_cycle"}));
@@ -178,51 +171,50 @@ void add_motions(std::vector<SceneKey>& keys) {
   starts(&Analysis::seed, "seed", "", "of the random states: the same seed gives the same ones",
          within(0, 2'147'483'647), optional);
   motions(&Analysis::longest_period, "longest_period", "",
-          "periods of the load after which a motion may repeat; one that takes more counts as none",
-          within(1, 64), optional);
+          "longest period of a motion in forcing periods; longer ones count as none", within(1, 64),
+          optional);
 }
 
 void add_mode(std::vector<SceneKey>& keys) {
   const Section mode(keys, "analysis", analysis_part, analysis_is({"nonlinear_mode"}));
-  mode(&Analysis::mode, "mode", "", "the linear mode that the nonlinear one continues", within(1, 10'000'000),
+  mode(&Analysis::mode, "mode", "", "linear mode from which the nonlinear mode starts", within(1, 10'000'000),
        optional);
   mode(&Analysis::harmonics, "harmonics", "", "harmonics N of the Fourier series in time", within(1, 4096),
        optional);
   mode(&Analysis::samples, "samples", "",
-       "uniform times of one period at which contact is enforced, at least 2 x harmonics; with an elastic "
-       "law those of its force, and with friction or dampers too",
+       "time samples per period at which contact is enforced or the contact force is evaluated, "
+       "at least 2 x harmonics",
        within(2, 1 << 16),
        derived("2 x harmonics, 8 x with an elastic law, 32 x with friction or dampers",
                [](const Scene& scene) {
                  const int each = takes_energy(scene.contact) ? 32 : is_rigid(scene.contact.law) ? 2 : 8;
                  return each * scene.analysis.harmonics;
                }));
-  mode(&Analysis::cosine_only, "cosine_only", "", "true seeks motions that are even in time only", optional);
-  mode(
-      &Analysis::reference_length, "reference_length", "m",
-      "of laws without a gap, the displacement at which the linear mode has the energy that others are told by",
-      not_negative, optional);
+  mode(&Analysis::cosine_only, "cosine_only", "", "true uses cosines only: motions that are even in time",
+       optional);
+  mode(&Analysis::reference_length, "reference_length", "m",
+       "for laws without a gap: displacement of the linear mode at the reference energy", not_negative,
+       optional);
   mode(&Analysis::energy_ratio, "energy_ratio", "",
-       "the one motion of this energy, over that of the linear mode that just touches; 0 for the curve",
-       not_negative, optional);
-  mode(&Analysis::largest_energy, "largest_energy", "", "the curve ends beyond this energy ratio", above(1),
+       "one motion at this ratio of energy to grazing energy; 0 for the whole branch", not_negative,
+       optional);
+  mode(&Analysis::largest_energy, "largest_energy", "", "the branch ends beyond this energy ratio", above(1),
        optional);
   mode(&Analysis::last_frequency_ratio, "last_frequency_ratio", "",
-       "or beyond this ratio of the frequency to the linear one; 0: it ends by its energy alone",
+       "the branch also ends beyond this ratio of frequency to linear frequency; 0: no such end",
        not_negative, optional);
-  mode(
-      &Analysis::points, "points", "",
-      "of the curve, uniform in frequency up to last_frequency_ratio, or to 1.3 without one, beyond which they are less dense; about "
-      "as many with an elastic law; with friction or dampers about uniform in the logarithm of the amplitude",
-      within(2, 1'000'000), optional);
-  mode(
-      &Analysis::amplitude_ratio, "amplitude_ratio", "",
-      "with friction or dampers, the one motion of this amplitude, over that at which a contact first slips, opens or "
-      "closes; 0 for the curve",
-      not_negative, optional);
+  mode(&Analysis::points, "points", "",
+       "points of the branch, uniform in frequency up to last_frequency_ratio (without one 1.3, "
+       "then less dense); with an elastic law about this number; with friction or dampers about "
+       "uniform in the logarithm of the amplitude",
+       within(2, 1'000'000), optional);
+  mode(&Analysis::amplitude_ratio, "amplitude_ratio", "",
+       "with friction or dampers, one motion at this ratio of the amplitude to the one at which "
+       "a contact first slips, opens or closes; 0 for the whole branch",
+       not_negative, optional);
   mode(&Analysis::largest_amplitude, "largest_amplitude", "",
-       "with friction or dampers, the curve from half that amplitude on ends at this multiple of it",
-       above(1), optional);
+       "with friction or dampers, amplitude ratio at which the branch ends; it starts at 0.5", above(1),
+       optional);
   const auto losing =
       law_names([](const contact::LawEntry& law) { return law.acts_over_period || law.reads_velocity; });
   for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = losing;
@@ -257,49 +249,44 @@ SceneValue default_motion_points(const Scene& scene) {
 
 void add_analysis_keys(std::vector<SceneKey>& keys) {
   const Section analysis(keys, "analysis", analysis_part);
-  analysis(&Analysis::type, "type", "", "what is computed", optional);
+  analysis(&Analysis::type, "type", "", "the analysis", optional);
   analysis(&Analysis::output_points, "output_points", "", "uniform points of one period in response.csv",
            within(2, 1 << 24), optional);
-  analysis(
-      &Analysis::motion_at, "motion_at", "Hz or N",
-      "points of the curve whose motions are written to motion_peak.csv, motion_fold_1.csv, "
-      "motion_150Hz.csv, motion_20N.csv and so on: that of the largest displacement, the special points, "
-      "and those at frequencies, of an amplitude sweep at amplitudes, solved for there, each time that "
-      "the curve passes one; [\"peak\", 150.0] is an example",
-      positive, optional, only_with(of_sweeps()));
-  analysis(
-      &Analysis::motion_points, "motion_points", "",
-      "instants of one motion's period at which the whole structure is written: a blade to motion.pvd "
-      "for ParaView, matrices to motion.mtx, a column an instant, with a mesh also for ParaView; of a sweep the motions of motion_at",
-      within(0, 9999),
-      derived("32 for a blade and with a mesh, 0 without and where there is no motion",
-              default_motion_points),
-      only_with(structure_is({"blade", "matrices"}) &&
-                analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "motions",
-                             "nonlinear_mode", "limit_cycle"})));
+  analysis(&Analysis::motion_at, "motion_at", "Hz or N",
+           "points of the curve whose motions are written (motion_peak.csv, motion_fold_1.csv, "
+           "motion_150Hz.csv, motion_20N.csv, ...): the largest displacement, the bifurcation and "
+           "grazing points, and given frequencies or amplitudes at each passage of the curve, as "
+           "[\"peak\", 150.0]",
+           positive, optional, only_with(of_sweeps()));
+  analysis(&Analysis::motion_points, "motion_points", "",
+           "time samples per period at which the motion of the whole structure is written: "
+           "motion.pvd for ParaView (blade, mesh), motion.mtx with a column per sample (matrices); "
+           "in a sweep for motion_at",
+           within(0, 9999), derived("32 for a blade or with a mesh, else 0", default_motion_points),
+           only_with(structure_is({"blade", "matrices"}) &&
+                     analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "motions",
+                                  "nonlinear_mode", "limit_cycle"})));
   analysis(
       &Analysis::stability, "stability", "",
-      "true counts the Floquet multipliers outside the unit circle, of a motion or of each point of a "
-      "curve, and finds the curve's special points",
-      derived("true; with more than 6 contacts false for modes, and for curves where contacts times "
+      "true counts the Floquet multipliers outside the unit circle, of a motion or at each point of a curve",
+      derived("true; with more than 6 contacts false for modes, and for curves if contacts times "
               "functions exceed 400",
               stability_by_default),
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
-  analysis(
-      &Analysis::special_points, "special_points", "",
-      "with stability, true locates the special points of a curve, and those of the structure beside it; false "
-      "counts multipliers at the points of the curve alone, which of many contacts takes far less time",
-      optional, only_with(of_sweeps() && by_balance()));
-  analysis(
-      &Analysis::phases, "phases", "",
-      "true solves for the motion of the structure itself near the response, by phases of contact: its "
-      "instants of contact, the errors of the response, and the stability of the structure; of a sweep "
-      "errors and stability at every point of its curves, in place of the peak and the special points alone",
-      derived("true of a response with contact, false of a sweep", phases_by_default),
-      only_with(of_responses() && by_balance()));
+  analysis(&Analysis::special_points, "special_points", "",
+           "with stability, true locates the bifurcation and grazing points of a curve and the "
+           "exact ones near them; false only counts multipliers at its points, which is much faster "
+           "for many contacts",
+           optional, only_with(of_sweeps() && by_balance()));
+  analysis(&Analysis::phases, "phases", "",
+           "true computes the exact periodic solution near the response: its contact intervals, its "
+           "stability and the errors of the response; in a sweep at every point, instead of only at "
+           "the peak and the bifurcation points",
+           derived("true for a response with contact, false for a sweep", phases_by_default),
+           only_with(of_responses() && by_balance()));
   analysis(&Analysis::subharmonic, "subharmonic", "",
-           "n seeks motions that repeat after n periods of the load; functions, quadrature_points and "
-           "output_points are then those of n periods",
+           "n computes motions with a period of n forcing periods; functions, quadrature_points and "
+           "output_points then refer to n periods",
            within(1, 1024), optional,
            only_with(analysis_is({"forced_response", "frequency_sweep"}) && by_balance()));
   add_intervals(keys);
@@ -313,10 +300,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
 
 void add_plot_keys(std::vector<SceneKey>& keys) {
   const Section plot(keys, "plot", plot_part);
-  plot(
-      &Plot::log, "log", "",
-      "true draws curves over frequency, amplitude, energy or parameters of a study with logarithmic ordinates",
-      optional);
+  plot(&Plot::log, "log", "", "true draws curves with logarithmic ordinates", optional);
 }
 
 }  // namespace wavebalance::app

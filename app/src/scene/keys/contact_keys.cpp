@@ -75,25 +75,25 @@ std::vector<std::string_view> with_tangent() {
 
 void add_contact_keys(std::vector<SceneKey>& keys) {
   static const std::string law_help =
-      "force on each degree of freedom in contact (a bar: its tip; a blade: its tip's corner nodes, radially) by "
-      "its displacement u towards the obstacle and, of damped laws, its velocity v: " +
+      "contact force on each contact degree of freedom (bar: the tip; blade: corner nodes of "
+      "the tip, radially) as a function of its displacement u towards the obstacle and, for "
+      "damped laws, its velocity v: " +
       forces_text();
   const Section contact(keys, "contact", contact_part);
   contact(&Contact::law, "law", "", law_help,
           one_of(law_names([](const contact::LawEntry&) { return true; })), optional);
   add_law_keys(keys);
   contact(&Contact::tangent, "tangent", "",
-          "direction along which the corner nodes of a blade's tip rub, beside the radial one: x or y",
-          optional, only_with(structure_is({"blade"}) && law_is(with_friction())));
-  contact(
-      &Contact::form, "form", "",
-      "unknown in which contact is solved: the displacement, or for stiff and rigid laws the contact force",
-      optional, only_with(of_responses() && by_balance()));
+          "tangential direction in which the corner nodes of a blade's tip rub: x or y", optional,
+          only_with(structure_is({"blade"}) && law_is(with_friction())));
+  contact(&Contact::form, "form", "",
+          "unknown of the contact problem: the displacement, or for stiff and rigid laws the contact force",
+          optional, only_with(of_responses() && by_balance()));
   contact(
       &Contact::mass, "mass", "",
-      "mass of the contacts: keep it, or redistribute it to the rest of the structure, without which a "
-      "rigid obstacle leaves a continuum of motions; automatic redistributes it for a rigid law, but not "
-      "in nonlinear modes, nor with rigid friction and no time.trial, whose motions are then exact",
+      "mass of the contact nodes: keep it, or redistribute it to the rest of the structure, "
+      "which rigid contact requires; automatic redistributes it for a rigid law, but not in "
+      "nonlinear modes or for exact solutions with rigid friction",
       optional,
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
 }
@@ -102,13 +102,12 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
   std::vector<SceneKey> keys;
   const auto part = [index](auto& scene) -> auto& { return scene.contact.pairs[index]; };
   const Section pair(keys, "contact.pairs", part);
-  pair(
-      &ContactPair::dofs, "dofs", "",
-      "degrees of freedom whose weighted sum is the displacement in contact, rows of the matrices counted from "
-      "1 or with dof_map \"node 1042 z\": two nodes that face each other, or the components along the normal of "
-      "a surface",
-      within(1, 100'000'000), named_dofs);
-  pair(&ContactPair::coefficients, "coefficients", "", "their weights, one for each", within(-1e9, 1e9),
+  pair(&ContactPair::dofs, "dofs", "",
+       "degrees of freedom whose weighted sum is the contact displacement, as rows counted from "
+       "1 or with dof_map \"node 1042 z\": two facing nodes, or the components along a surface "
+       "normal",
+       within(1, 100'000'000), named_dofs);
+  pair(&ContactPair::coefficients, "coefficients", "", "one weight for each of them", within(-1e9, 1e9),
        derived("[1.0] for one of dofs, [1.0, -1.0] for two",
                [=](const Scene& scene) { return default_weights(part(scene).dofs); }));
   const auto add_tangent = [&](std::vector<int> ContactPair::*dofs, std::vector<double> ContactPair::*weights,
@@ -116,27 +115,25 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
                                const std::vector<std::string_view>& laws) {
     pair(dofs, name, "", help, within(1, 100'000'000), named_dofs,
          none_by_default(std::vector<std::int64_t>()));
-    pair(weights, weights_name, "", "their weights, one for each", within(-1e9, 1e9),
+    pair(weights, weights_name, "", "one weight for each of them", within(-1e9, 1e9),
          derived("as coefficients", [=](const Scene& scene) { return default_weights(part(scene).*dofs); }));
     for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = laws;
   };
-  add_tangent(
-      &ContactPair::tangent, &ContactPair::tangent_coefficients, "tangent", "tangent_coefficients",
-      "of a law with friction, the tangent beside the normal direction that dofs are then; without it dofs are "
-      "the tangent of a slider with a constant limit; of a ring, the second direction in its plane, y beside "
-      "the x of dofs, of equal weight and perpendicular to it",
-      with_tangent());
+  add_tangent(&ContactPair::tangent, &ContactPair::tangent_coefficients, "tangent", "tangent_coefficients",
+              "tangential direction of a law with friction; dofs is then the normal direction, and "
+              "without tangent it is the sliding direction of a slider with a constant limit; for a "
+              "ring, the y direction, perpendicular to dofs (x) and of equal weight",
+              with_tangent());
   add_tangent(&ContactPair::second_tangent, &ContactPair::second_tangent_coefficients, "second_tangent",
-              "second_tangent_coefficients", "the other tangent of a contact that slips in a plane",
+              "second_tangent_coefficients", "second tangential direction of a contact that slips in a plane",
               with_friction());
   pair(&ContactPair::side, "side", "",
-       "where the obstacle stands: the displacement may exceed gap, or -gap on the negative side, or both",
+       "side of the obstacle: contact begins above gap, below -gap (negative), or at both",
        derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));
   pair(&ContactPair::law, "law", "", "contact law of this pair",
        one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law; })),
        derived("that of [contact]", [](const Scene& scene) { return scene.contact.law; }));
-  pair(&ContactPair::name, "name", "",
-       "of the contact, by which texts and pictures show it beside its number", none_by_default());
+  pair(&ContactPair::name, "name", "", "name of the contact in texts and pictures", none_by_default());
   add_law_keys_of_pair(keys, index);
   return keys;
 }

@@ -8,42 +8,42 @@ namespace {
 SceneValue no_coefficients(const Scene&) { return std::vector<double>(); }
 
 constexpr const char* table_help =
-    "CSV file with the columns frequency_Hz, amplitude and, if wanted, phase_degrees over the frequency of the "
-    "load: factors on amplitude, monotone between its rows";
+    "CSV file with the columns frequency_Hz, amplitude and optionally phase_degrees: factors "
+    "on the amplitude over the forcing frequency, interpolated monotonically";
 
 }  // namespace
 
 void add_forcing_keys(std::vector<SceneKey>& keys) {
   const Section forcing(keys, "forcing", forcing_part);
   forcing(&Forcing::amplitude, "amplitude", "N",
-          "force amplitude cos(2 pi frequency t): at the tip of a bar, at one place of a blade's tip, along "
-          "load or load_dofs of matrices; 0 where it is not given beside [[forcing.terms]]",
+          "force amplitude cos(2 pi frequency t): at the tip of a bar, at place of a blade, along "
+          "load or load_dofs of matrices; default 0 with [[forcing.terms]]",
           required_with(analysis_where(&AnalysisKind::under_load)));
   keys.back().in_terms = true;
   forcing(&Forcing::amplitude_table, "amplitude_table", "", table_help, path, none_by_default());
-  forcing(&Forcing::frequency, "frequency", "Hz", "frequency of the force; a sweep does not use it", positive,
+  forcing(&Forcing::frequency, "frequency", "Hz", "forcing frequency; not used in sweeps", positive,
           required_with(analysis_where(&AnalysisKind::at_one_frequency)));
-  forcing(
-      &Forcing::load, "load", "",
-      "forces of all degrees of freedom for amplitude 1: a file of one column, DMIG or OUTPUT4 of Nastran, *CLOAD of "
-      "Abaqus, or Harwell-Boeing with a right-hand side; \"job.pch#PAX:2\" is a column of one of several",
-      path, optional, only_with(structure_is({"matrices"})));
+  forcing(&Forcing::load, "load", "",
+          "load vector for amplitude 1: a file of one column, Nastran DMIG or OUTPUT4, Abaqus "
+          "*CLOAD, or Harwell-Boeing with a right-hand side; \"job.pch#PAX:2\" selects a column of "
+          "a matrix",
+          path, optional, only_with(structure_is({"matrices"})));
   forcing(&Forcing::load_dofs, "load_dofs", "",
-          "degrees of freedom that each take the whole force, rows counted from 1; -7 is row 7 in its "
-          "negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 z\"; in place of load",
+          "degrees of freedom under the whole force each, instead of load: rows counted from 1; -7 "
+          "is row 7 in its negative direction; with dof_map also \"node 1042 z\" or \"-node 1042 "
+          "z\"",
           optional, named_dofs, only_with(structure_is({"matrices"})));
   forcing(&Forcing::load_coefficients, "load_coefficients", "",
-          "the part of the force on each of load_dofs; a name of several rows spreads it equally over them",
+          "factor on the force at each of load_dofs; a name of several rows spreads it equally over them",
           derived("1.0 for each", no_coefficients), only_with(structure_is({"matrices"})));
-  forcing(
-      &Forcing::weight, "weight", "m/s^2",
-      "acceleration of gravity along x, y and z, as [0, 0, -9.81]: a static load on all masses of matrices "
-      "with a dof_map",
-      optional, exactly(3), only_with(structure_is({"matrices"})));
-  forcing(&Forcing::place, "place", "", "corner nodes of the blade's tip that share the force", optional,
-          only_with(structure_is({"blade"})));
+  forcing(&Forcing::weight, "weight", "m/s^2",
+          "acceleration of gravity along x, y and z, as [0, 0, -9.81]: static load on all masses "
+          "of matrices with a dof_map",
+          optional, exactly(3), only_with(structure_is({"matrices"})));
+  forcing(&Forcing::place, "place", "", "corner nodes of the blade's tip under the force, in equal parts",
+          optional, only_with(structure_is({"blade"})));
   forcing(&Forcing::direction, "direction", "",
-          "of the force; the blade stands along z, its chord nearest to x", optional,
+          "direction of the force; the span is along z, the chord nearest to x", optional,
           only_with(structure_is({"blade"})));
 }
 
@@ -53,44 +53,40 @@ std::vector<SceneKey> term_keys(std::size_t index) {
   const Section term(keys, "forcing.terms", part);
   static const std::string term_table_help =
       std::string(table_help) + "; amplitude is 1 where it is not given";
-  term(
-      &ForcingTerm::kind, "kind", "",
-      "a force, or the motion of supports: a base_displacement moves dofs of matrices, which are then no "
-      "unknowns, a base_acceleration moves all that holds the structure, with displacements relative to it; an "
-      "unbalance turns with harmonic times the frequency and pulls with its square",
-      derived("\"force\"", [](const Scene&) { return name_of(LoadKind::force); }));
-  term(
-      &ForcingTerm::amplitude, "amplitude", "",
-      "in N, m, m/s^2 or, mass times eccentricity, kg m, of amplitude cos(harmonic 2 pi frequency t + phase), or a factor on samples",
-      derived("1.0 with samples", [](const Scene&) { return 1.0; }));
-  term(&ForcingTerm::unit, "unit", "", "of the amplitude of a base_acceleration: g is 9.80665 m/s^2",
+  term(&ForcingTerm::kind, "kind", "",
+       "kind of load: a force; a base_displacement, which prescribes dofs of matrices; a "
+       "base_acceleration of all supports, with displacements relative to them; or an "
+       "unbalance, which turns at harmonic times the frequency",
+       derived("\"force\"", [](const Scene&) { return name_of(LoadKind::force); }));
+  term(&ForcingTerm::amplitude, "amplitude", "",
+       "amplitude of amplitude cos(harmonic 2 pi frequency t + phase) in N, m, m/s^2 or, for "
+       "mass times eccentricity, kg m; or a factor on samples",
+       derived("1.0 with samples", [](const Scene&) { return 1.0; }));
+  term(&ForcingTerm::unit, "unit", "", "unit of the amplitude of a base_acceleration: g is 9.80665 m/s^2",
        one_of({"g"}), none_by_default());
   term(&ForcingTerm::amplitude_table, "amplitude_table", "", term_table_help, path, none_by_default());
   term(&ForcingTerm::harmonic, "harmonic", "", "multiple of frequency; 0 is a static load", within(0, 4096),
        derived("1", [](const Scene&) { return std::int64_t{1}; }));
-  term(&ForcingTerm::phase, "phase", "degrees", "by which it is ahead of a cosine; not of a static load",
+  term(&ForcingTerm::phase, "phase", "degrees", "phase lead relative to a cosine; not for a static load",
        within(-360, 360), derived("0.0", 0.0));
-  term(
-      &ForcingTerm::samples, "samples", "",
-      "CSV file with a header row, whose last column holds one period at uniform times from t = 0 on; in place "
-      "of harmonic and phase",
-      path, none_by_default());
+  term(&ForcingTerm::samples, "samples", "",
+       "CSV file with a header row; its last column is one period at uniform times from t = 0, "
+       "instead of harmonic and phase",
+       path, none_by_default());
   term(&ForcingTerm::dofs, "dofs", "",
-       "matrices: rows that each take the whole force or move with the base, as load_dofs; required with a "
-       "base, of which they are the rows that move (displacement) or point along its motion (acceleration), "
-       "and with an unbalance: two rows, towards the second of which it turns from the first, or one",
+       "matrices: rows under the whole force each, as load_dofs; base_displacement: rows that "
+       "move; base_acceleration: rows along its direction; unbalance: two rows, turning from "
+       "the first to the second, or one. Required except for a force",
        named_dofs,
        derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
   term(&ForcingTerm::coefficients, "coefficients", "",
-       "of a force, the part of it on each of dofs; a name of several rows spreads it equally over them",
+       "factor on a force at each of dofs; a name of several rows spreads it equally over them",
        derived("1.0 for each", no_coefficients));
   term(&ForcingTerm::load, "load", "",
-       "matrices: forces of all degrees of freedom for amplitude 1, as forcing.load; in place of dofs", path,
-       none_by_default());
-  term(
-      &ForcingTerm::direction, "direction", "",
-      "matrices with a dof_map: of a base_acceleration, along which all nodes move with it; in place of dofs",
-      one_of({"x", "y", "z", "-x", "-y", "-z"}), none_by_default());
+       "matrices: load vector for amplitude 1, as forcing.load; instead of dofs", path, none_by_default());
+  term(&ForcingTerm::direction, "direction", "",
+       "matrices with a dof_map: direction of a base_acceleration; instead of dofs",
+       one_of({"x", "y", "z", "-x", "-y", "-z"}), none_by_default());
   return keys;
 }
 

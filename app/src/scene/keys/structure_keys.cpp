@@ -22,14 +22,13 @@ void add_materials(std::vector<SceneKey>& keys) {
 void add_bar(std::vector<SceneKey>& keys) {
   const Section bar(keys, "structure", structure_part, structure_is({"bar"}));
   bar(&Structure::area, "area", "m^2", "cross-section", positive);
-  bar(&Structure::elements, "elements", "", "two-node elements, as many as degrees of freedom",
+  bar(&Structure::elements, "elements", "", "number of two-node elements and degrees of freedom",
       within(1, 10'000'000));
   bar(&Structure::lumped_mass_fraction, "lumped_mass_fraction", "",
-      "0 for the consistent mass matrix, 1 for the lumped one, between them a mixture", within(0, 1),
-      optional);
+      "0: consistent mass matrix, 1: lumped, in between: a mixture", within(0, 1), optional);
   bar(&Structure::massless_tip, "massless_tip", "",
-      "true moves the tip's mass to its neighbour, so that rigid contact has no mass to stop at once",
-      optional, only_with(of_responses()));
+      "true moves the mass of the tip to its neighbour, which rigid contact requires", optional,
+      only_with(of_responses()));
 }
 
 /// Analyses of structures whose matrices are not symmetric.
@@ -37,57 +36,49 @@ Condition of_turning() { return analysis_where(&AnalysisKind::any_matrices); }
 
 void add_matrices(std::vector<SceneKey>& keys) {
   const Section matrices(keys, "structure", matrices_part, structure_is({"matrices"}));
-  matrices(
-      &MatricesStructure::mass, "mass", "kg",
-      "mass matrix M, symmetric and positive definite: a file of Matrix Market, CalculiX, Abaqus (*MATRIX OUTPUT), "
-      "Harwell-Boeing (Ansys, LS-DYNA) or Nastran (DMIG, OUTPUT4), known by its first lines; \"job.pch#MAAX\" is one of "
-      "several in a file",
-      path);
-  matrices(
-      &MatricesStructure::stiffness, "stiffness", "N/m",
-      "stiffness matrix K, likewise; the structure must not be free to move unless structure.free says so",
-      path);
+  matrices(&MatricesStructure::mass, "mass", "kg",
+           "mass matrix M, symmetric and positive definite: a file of Matrix Market, CalculiX, "
+           "Abaqus (*MATRIX OUTPUT), Harwell-Boeing (Ansys, LS-DYNA) or Nastran (DMIG, OUTPUT4), "
+           "detected from its first lines; \"job.pch#MAAX\" selects one of several",
+           path);
+  matrices(&MatricesStructure::stiffness, "stiffness", "N/m",
+           "stiffness matrix K, in the same formats; positive definite unless structure.free = true", path);
   matrices(&MatricesStructure::damping, "damping", "N s/m",
-           "damping matrix C, symmetric; in place of stiffness_damping or modal_damping", path, optional);
-  matrices(
-      &MatricesStructure::unsymmetric, "unsymmetric", "",
-      "true accepts a gyroscopic damping and a circulatory stiffness; false takes what is not symmetric for "
-      "half of a matrix",
-      optional, only_with(of_turning()));
+           "damping matrix C, symmetric; instead of stiffness_damping or modal_damping", path, optional);
+  matrices(&MatricesStructure::unsymmetric, "unsymmetric", "",
+           "true accepts unsymmetric damping and stiffness (gyroscopic, circulatory); false reads "
+           "an unsymmetric file as one triangle",
+           optional, only_with(of_turning()));
   matrices(&MatricesStructure::gyroscopic, "gyroscopic", "N s^2/m",
            "gyroscopic matrix G of a rotor, skew-symmetric: the damping is C + spin_speed G", path, optional,
            only_with(of_turning()));
   matrices(&MatricesStructure::spin_stiffness, "spin_stiffness", "N s^2/m",
-           "symmetric matrix K_s of what turning stiffens or softens: the stiffness is K + spin_speed^2 K_s",
-           path, optional, only_with(of_turning()));
-  matrices(
-      &MatricesStructure::spin_speed, "spin_speed", "rad/s",
-      "speed at which a structure with gyroscopic or spin_stiffness turns; 0 turns it with the load, 2 pi "
-      "forcing.frequency, and at each frequency along a frequency sweep",
-      not_negative, optional, only_with(of_turning()));
-  matrices(
-      &MatricesStructure::free, "free", "",
-      "true accepts a structure that is free to move, K singular: contact alone balances its static load, and "
-      "what no contact resists keeps a zero mean",
-      optional, only_with(analysis_where([](const AnalysisKind& kind) {
-        return kind.under_load && kind.type != AnalysisType::amplitude_sweep;
-      })));
-  matrices(
-      &MatricesStructure::dof_map, "dof_map", "",
-      "names the rows by nodes: the .dof file of CalculiX (a line 1042.3 per row), or text or CSV with the "
-      "columns node, direction (x, y, z, rx, ry, rz, scalar or 1..6) and, unless in the order of the rows, row, as "
-      "Ansys maps HBMAT; not needed where the stiffness names its nodes (DMIG, matrix input of Abaqus)",
-      path, optional);
+           "symmetric matrix K_s of spin stiffening: the stiffness is K + spin_speed^2 K_s", path, optional,
+           only_with(of_turning()));
+  matrices(&MatricesStructure::spin_speed, "spin_speed", "rad/s",
+           "rotation speed with gyroscopic or spin_stiffness; 0: synchronous with the load, 2 pi "
+           "times the frequency",
+           not_negative, optional, only_with(of_turning()));
+  matrices(&MatricesStructure::free, "free", "",
+           "true accepts a free structure (K singular): only contact balances its static load, and "
+           "rigid motions without contact keep a zero mean",
+           optional, only_with(analysis_where([](const AnalysisKind& kind) {
+             return kind.under_load && kind.type != AnalysisType::amplitude_sweep;
+           })));
+  matrices(&MatricesStructure::dof_map, "dof_map", "",
+           "nodes and directions of the rows: the .dof file of CalculiX (a line 1042.3 per row), or "
+           "text or CSV with the columns node, direction (x, y, z, rx, ry, rz, scalar or 1..6) and, "
+           "unless in the order of the rows, row, as Ansys maps HBMAT; not needed if the stiffness "
+           "names its nodes (DMIG, matrix input of Abaqus)",
+           path, optional);
   matrices(
       &MatricesStructure::mesh, "mesh", "",
-      "nodes and elements, the input file of CalculiX or Abaqus: motions of the whole structure are also written for "
-      "ParaView; with a dof_map",
+      "input file of CalculiX or Abaqus with nodes and elements, for motions in ParaView; requires a dof_map",
       path, optional);
-  matrices(
-      &MatricesStructure::contact_dofs, "contact_dofs", "",
-      "degrees of freedom that may touch an obstacle, rows of the matrices counted from 1; -7 is row 7 "
-      "with its obstacle on the negative side; with dof_map also \"-node 1042 z\"; or else [[contact.pairs]]",
-      optional, named_dofs);
+  matrices(&MatricesStructure::contact_dofs, "contact_dofs", "",
+           "contact degrees of freedom, as rows counted from 1; -7 is row 7 with its obstacle on "
+           "the negative side; with dof_map also \"-node 1042 z\"; alternatively [[contact.pairs]]",
+           optional, named_dofs);
 }
 
 void add_damping_and_reduction(std::vector<SceneKey>& keys) {
@@ -96,17 +87,16 @@ void add_damping_and_reduction(std::vector<SceneKey>& keys) {
   structure(&Structure::stiffness_damping, "stiffness_damping", "s", "beta in C = beta K", not_negative,
             optional);
   structure(&Structure::modal_damping, "modal_damping", "",
-            "damping of every linear mode over its critical one, 2 % being 0.02; in place of another damping",
-            within(0, 1), optional, only_with(modal));
-  structure(
-      &Structure::loss_factor, "loss_factor", "",
-      "eta of structural damping, K (1 + i eta) at the harmonics above zero; beside another damping or alone. It "
-      "has no equation in time: stability is unknown",
-      not_negative, optional);
+            "damping ratio of every linear mode (0.02 for 2 %); instead of another damping", within(0, 1),
+            optional, only_with(modal));
+  structure(&Structure::loss_factor, "loss_factor", "",
+            "eta of structural damping, K (1 + i eta) at the harmonics above zero, in addition to "
+            "other damping. It has no equation in time: stability is unknown",
+            not_negative, optional);
   structure(
       &Structure::kept_modes, "kept_modes", "",
-      "modes that a Craig-Bampton reduction keeps beside the degrees of freedom in contact and under "
-      "load (a blade: all of its tip's corner nodes)",
+      "fixed-interface modes of a Craig-Bampton reduction, in addition to the degrees of "
+      "freedom in contact and under load (blade: all corner nodes of the tip)",
       within(0, 100'000),
       derived("40 for a blade; matrices are not reduced",
               [](const Scene& scene) { return scene.structure.type == StructureType::blade ? 40 : -1; }),
@@ -131,7 +121,7 @@ void add_blade(std::vector<SceneKey>& keys) {
         within(1, 1'000), optional);
   blade(&Blade::span_elements, "span_elements", "", "elements along the span", within(1, 10'000), optional);
   blade(&Blade::rotation_speed, "rotation_speed", "rad/s",
-        "speed of rotation, whose centrifugal force stiffens the blade; gaps are those of the turning blade",
+        "rotation speed; centrifugal forces stiffen the blade, and gaps refer to the rotating blade",
         not_negative, optional);
   blade(&Blade::hub_radius, "hub_radius", "m",
         "distance of the root z = 0 from the axis, which passes through z = -hub_radius", not_negative,

@@ -24,45 +24,43 @@ void add_time_keys(std::vector<SceneKey>& keys) {
   const Condition balance =
       (of_responses() && by_balance()).unless("time.tolerance").unless("analysis.exact");
   time(&Time::method, "method", "",
-       "what a response solves for: the balance in a pair of bases, or the motion of the structure itself by "
-       "phases of contact, which has no functions and starts from a coarse balance of its own",
+       "method of a response: weighted residuals in a pair of bases (balance), or the exact "
+       "periodic solution, which needs no basis functions and finds its own start",
        optional, only_with(analysis_is({"forced_response"}).unless("contact.restitution")));
   time(&Time::tolerance, "tolerance", "",
-       "relative rms error of the contact displacement over the period to be met, in place of functions and "
-       "quadrature_points, which the program then chooses, and, where trial and weight are left out, of "
-       "these too; with method = \"exact\" that of the phases",
+       "relative rms error of the contact displacement to be met; the program then chooses "
+       "functions and quadrature_points, and trial and weight if not given; with method = "
+       "\"exact\" the error of the exact solution",
        within(0, 1), derived("none; 1e-9 with method = \"exact\" and of motions", default_tolerance),
        only_with(analysis_where([](const AnalysisKind& kind) {
                    return kind.is_exact() || kind.type == AnalysisType::forced_response;
                  }).unless("contact.restitution")));
-  time(&Time::trial, "trial", "", "basis of the displacement in time", one_of(basis_names()),
+  time(&Time::trial, "trial", "", "trial basis of the displacement in time", one_of(basis_names()),
        required_with(balance), only_with(of_bases));
-  time(&Time::weight, "weight", "", "basis that the residual is weighted with", one_of(basis_names()),
+  time(&Time::weight, "weight", "", "test basis that weights the residual", one_of(basis_names()),
        required_with(balance), only_with(of_bases));
-  time(&Time::functions, "functions", "", "trial functions; a power of two for wavelets", within(1, 1 << 20),
-       required_with(balance), only_with(of_bases));
-  time(&Time::formulation, "formulation", "", "how many derivatives move to the weights: none, one or two",
-       optional, only_with(of_bases));
-  time(&Time::quadrature_points, "quadrature_points", "",
-       "uniform points of one period where the contact force is evaluated; a multiple of functions for "
-       "wavelets",
-       within(1, 1 << 24),
-       derived("4 x functions", [](const Scene& scene) { return 4 * scene.time.functions; }),
-       only_with(of_bases));
-  time(&Time::sample_offset, "sample_offset", "",
-       "first quadrature point in intervals of the points: 0 for their left ends k/N, 0.5 for their middles "
-       "(k + 0.5)/N; without effect on output_points",
-       optional, only_with(of_responses() && by_balance()));
-  time(&Time::inner_products, "inner_products", "",
-       "inner products of trial and weight functions: sums over the quadrature points (Daubechies Galerkin "
-       "pairs: connection coefficients) or exact",
+  time(&Time::functions, "functions", "",
+       "number of basis functions, for Fourier 2 H + 1 for H harmonics; a power of two for wavelets",
+       within(1, 1 << 20), required_with(balance), only_with(of_bases));
+  time(&Time::formulation, "formulation", "", "derivatives moved to the weight functions: none, one or two",
        optional, only_with(of_bases));
   time(
-      &Time::nyquist, "nyquist", "",
-      "the alternating coefficient of an even number of functions, which no damping acts on: drop takes it out "
-      "of trial and weight space, keep leaves it there with resonances of its own; without effect for an odd "
-      "number",
-      optional, only_with(of_bases));
+      &Time::quadrature_points, "quadrature_points", "",
+      "time samples per period at which the contact force is evaluated; a multiple of functions for wavelets",
+      within(1, 1 << 24),
+      derived("4 x functions", [](const Scene& scene) { return 4 * scene.time.functions; }),
+      only_with(of_bases));
+  time(&Time::sample_offset, "sample_offset", "",
+       "offset of the time samples: 0 for k/N, 0.5 for the midpoints (k + 0.5)/N; no effect on output_points",
+       optional, only_with(of_responses() && by_balance()));
+  time(&Time::inner_products, "inner_products", "",
+       "inner products of trial and weight functions: sums over the time samples (Daubechies "
+       "Galerkin pairs: connection coefficients) or exact",
+       optional, only_with(of_bases));
+  time(&Time::nyquist, "nyquist", "",
+       "undamped Nyquist coefficient of an even number of functions: drop removes it from both "
+       "spaces, keep leaves it with spurious resonances; no effect for an odd number",
+       optional, only_with(of_bases));
 }
 
 }  // namespace wavebalance::app
