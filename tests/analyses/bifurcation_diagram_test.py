@@ -67,8 +67,8 @@ def test_motions_that_coexist_are_met_on_different_ways(run, hammer):
         period, points = section_at(rows, 34.0, way)
         assert Hammer(34.0, *points[0]).section(60, 2 * period)[::period][0] == pytest.approx(points[0], abs=1e-3 * GAP)
     page = record.page
-    assert "Both ways lead to different motions at 34 m/s^2." in page
-    assert "On the way back (m/s^2): period 1 at 36 to 34; period 2 at 33.5 to 32." in page
+    assert "Both directions lead to different motions at 34 m/s^2." in page
+    assert "Backward (m/s^2): period 1 at 36 to 34; period 2 at 33.5 to 32." in page
 
 
 def test_the_exact_curve_passes_through_the_dots(run, hammer):
@@ -134,7 +134,7 @@ def test_an_output_without_contact_has_the_linear_response(run, matrix):
         matrix(f"{name}.mtx", values.tolist())
     scene = ELASTIC.replace("gap = 0.0", "gap = 100.0").replace("values = 3", "values = 3\noutputs = [-2]")
     record = run(scene)
-    assert record.summary["section_of"] == "-row 2" and "Exact curves stand over sections of contacts alone." in record.page
+    assert record.summary["section_of"] == "-row 2" and "Exact curves are drawn for sections of contacts only." in record.page
     for row in rows_of(record.folder / "section.csv"):
         w = 2.0 * np.pi * float(row["frequency_Hz"])
         response = np.linalg.solve(stiffness - w**2 * mass + 1j * w * damping, [1.0, 0.0])[1]

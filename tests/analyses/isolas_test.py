@@ -80,8 +80,8 @@ def test_there_are_no_isolas_where_the_curve_holds_all_motions():
 
 
 @pytest.mark.parametrize("scene, overrides, said", [
-    (STOP, FROM_ABOVE, "Motions that lie on no such curve were not sought."),
-    (STOP_RESPONSE, {}, "Other motions at this frequency were not sought."),
+    (STOP, FROM_ABOVE, "Isolated branches were not searched for."),
+    (STOP_RESPONSE, {}, "Other motions at this frequency were not searched for."),
 ], ids=["curve", "response"])
 def test_motions_that_were_not_sought_are_said_to_be_so(scene, overrides, said):
     record = solved(scene, overrides)
@@ -96,7 +96,7 @@ def test_nothing_is_said_of_other_motions_without_contact():
 
 def test_check_announces_isolas_with_what_they_take():
     text = wavebalance.check(STOP, {**FROM_ABOVE, **SOUGHT})
-    assert "sought at 3 frequencies, from rest and 4 random states each: 15 motions" in text
+    assert "searched for at 3 frequencies, from rest and 4 random states each: 15 time integrations" in text
 
 
 def other(kind, *sections):

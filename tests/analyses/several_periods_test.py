@@ -33,7 +33,7 @@ def test_a_motion_of_two_periods_of_the_load_is_one():
     assert summary["frequency_Hz"] == pytest.approx(2.7 / TWO_PI, abs=1e-12)
     assert summary["subharmonic"] == 2 and summary["period_of_motion"] == 2
     assert summary["change_after_one_period"] > 1.0 and summary["stability"] == "stable"
-    assert figure_of(record)["panels"][0]["x"]["label"] == "Time (fraction of 2 periods of the load)"
+    assert figure_of(record)["panels"][0]["x"]["label"] == "Time (fraction of 2 forcing periods)"
     u, v = record.response["displacement_m"], record.response["velocity_m_per_s"]
     step = 2.0 * TWO_PI / 2.7 / 2048  # the velocity is that of the time column
     np.testing.assert_allclose((u[2::97] - u[:-2:97]) / (2.0 * step), v[1:-1:97], rtol=0.0, atol=1e-3)

@@ -167,5 +167,5 @@ def figure_of(record, name=None):
 def outcome_of(record):
     """The sentences of its page that say what came out."""
     page = (folder_of(record) / "report.html").read_text()
-    text = page[page.index("<h2>What came out</h2>") :]
+    text = page[page.index("<h2>Results</h2>") :]
     return re.split(r"(?<=\.) (?=[A-Z])", html.unescape(text[text.index("<p>") + 3 : text.index("</p>")]))

@@ -79,9 +79,9 @@ def test_wrong_words_are_answered_with_what_is_probably_meant(command, bar, word
 
 @pytest.mark.parametrize("words, answer", [
     (["nonsense"], "unknown command nonsense; there are run, check, compare, overlay, study, keys, init, convert"),
-    (["run", "case.toml"], "--output is required; `wavebalance run --help` says what it takes"),
+    (["run", "case.toml"], "--output is required; `wavebalance run --help` lists its options"),
     (["run", "case.toml", "--outpt", "x"],
-     "there is no option --outpt (did you mean --output?); `wavebalance run --help` says what it takes"),
+     "there is no option --outpt (did you mean --output?); `wavebalance run --help` lists its options"),
     (["run", "{folder}/missing.toml", "--output", "results"],
      "{folder}/missing.toml: there is no such file; `wavebalance init` writes a scene to start from"),
     (["check", "{folder}/missing.toml"],

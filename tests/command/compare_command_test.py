@@ -29,19 +29,19 @@ def test_files_and_page_say_what_to_take(compare, bar):
     assert names_in(record.folder) == {
         "summary.json", "comparison.csv", "comparison.md", "error_over_time.svg", "error_over_functions.svg",
         "scene.toml", "report.html", "error_over_time.figure.js", "error_over_functions.figure.js"}
-    on_page = ("For an error of 1e-4 of displacement and force", "[time]\ntrial = ",
-               "Errors are those against contact phases.", "How each pair did", "Its motion is stable.",
+    on_page = ("For an error of 1e-4 in displacement and force", "[time]\ntrial = ",
+               "Reference: the exact periodic solution, accurate to ", "Results of each pair", "The motion is stable.",
                "error_over_time.figure.js", "wavebalance compare ",
                f'{TWO_PAIRS} <span class="whole">--budget</span> 2')
     assert [part for part in on_page if part not in record.page] == []
-    said = ("The reference is contact phases", "For an error of 1e-2 of displacement and force the cheapest is ",
+    said = ("The reference is the exact periodic solution", "For an error of 1e-2 in displacement and force the cheapest pair is ",
             '[time]\ntrial = "')
     assert [part for part in said if part not in record.text] == [], record.text
     rows = rows_of(record.folder / "comparison.csv")
     assert len(with_value(rows, "trial", "haar")) > 4
     assert len(with_value(rows, "on_front", "true")) > 2
     assert len(with_value(with_value(rows, "trial", "phases"), "converged", "true")) >= 2
-    assert "contact phases" in (record.folder / "error_over_time.svg").read_text()
+    assert "exact solution" in (record.folder / "error_over_time.svg").read_text()
     summary = record.summary
     assert (summary["converged"], summary["reference"], summary["budget_seconds"]) == (True, "phases", 2.0)
     in_summary = (record.folder / "summary.json").read_text()
@@ -121,7 +121,7 @@ def test_an_interrupted_comparison_writes_what_was_measured_so_far(begin, bar, t
     running.send(signal.SIGINT)
     ended = running.wait()
     assert ended.code == 130, ended.errors
-    assert "the record holds what was measured so far" in ended.errors
+    assert "the results so far are written" in ended.errors
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "interrupted"
     rows = rows_of(tmp_path / "out" / "comparison.csv")
     assert len(rows) > 1

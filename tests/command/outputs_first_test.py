@@ -21,12 +21,12 @@ count = 5
 
 
 def values_of(text):
-    """The lines of the terminal as names and texts, in their order."""
+    """The lines that --verbose prints, as names and texts, in their order."""
     return dict(line.split(maxsplit=1) for line in text.splitlines() if len(line.split(maxsplit=1)) == 2)
 
 
 def test_the_terminal_and_the_page_begin_with_them(command, masses):
-    record = command("run", masses, "--output", "out", *SWEEP, *OUTPUTS)
+    record = command("run", masses, "--output", "out", "--verbose", *SWEEP, *OUTPUTS)
     assert record.code == 0, record.errors
     names = list(values_of(record.text))
     assert names[2:5] == ["leading_output", "row_1_half_peak_to_peak_m", "row_1_peak_frequency_Hz"]
@@ -41,7 +41,7 @@ def test_the_terminal_and_the_page_begin_with_them(command, masses):
 
 
 def test_without_outputs_nothing_is_told_of_them(command, masses):
-    record = command("run", masses, "--output", "out", *SWEEP)
+    record = command("run", masses, "--output", "out", "--verbose", *SWEEP)
     names = list(values_of(record.text))
     assert names[2] == "residual" and "leading_output" not in names
     assert "[plot]" not in (record.folder / "scene.toml").read_text()

@@ -51,7 +51,7 @@ def test_a_picture_holds_its_labels_its_legend_and_a_letter_for_each_of_several_
     for text in ("<svg", "</svg>", "Time (fraction of a period)", "Displacement (mm)", "(a)", "(b)", "(c)"):
         assert text in three, text
     assert "</svg>" in one and "(a)" not in one
-    assert "largest" in sweep[0].svg() and "rms with its mean" in sweep[0].svg()
+    assert "largest" in sweep[0].svg() and "rms including mean" in sweep[0].svg()
 
 
 def test_a_picture_is_the_same_every_time(response):

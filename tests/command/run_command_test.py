@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 
 import pytest
@@ -28,6 +29,18 @@ def test_quiet_says_nothing(command, bar):
     assert (record.code, record.text, record.errors) == (0, "", "")
 
 
+def test_the_terminal_has_one_line_per_finding_with_four_digits_and_the_path_of_the_report(command, bar):
+    record = command("run", bar, "--output", "out")
+    lines = record.text.splitlines()
+    assert len(lines) <= 8
+    assert lines[0].startswith("The scene was solved in ") and lines[-1].startswith("Report: out/report.html")
+    assert any("the displacement is between" in line and "mm" in line for line in lines)
+    assert any("is stable" in line for line in lines)
+    assert not re.search(r"\d{5}", record.text)
+    values = command("run", bar, "--output", "out", "--verbose").text
+    assert "max_displacement_m" in values and "written to out: summary.json, report.html" in values
+
+
 def test_a_condition_past_1e12_is_warned_of_also_when_quiet(run, scenes):
     near_resonance = "forcing.frequency=1273.14709322245"  # a part in 1e12 above the bar's first natural frequency
     record = run(scenes / "extremes" / "bar_linear.toml", "--quiet",
@@ -37,7 +50,7 @@ def test_a_condition_past_1e12_is_warned_of_also_when_quiet(run, scenes):
 
 
 def test_a_tolerance_chooses_the_sizes_and_says_how(run):
-    record = run(with_tolerance("1e-3"))
+    record = run(with_tolerance("1e-3"), "--verbose")
     assert record.code == 0, record.errors
     assert "estimated_error" in record.text
     summary = record.summary
@@ -175,7 +188,7 @@ def test_a_response_starts_from_a_motion_of_an_earlier_sweep(command, stop, tmp_
     assert "name the one to start from" in several.errors
     assert command(*response, "nowhere").code == 2
     assert not (tmp_path / "upper").exists()
-    found = command(*response, "curve/motion_0.185Hz_1.csv")
+    found = command(*response, "curve/motion_0.185Hz_1.csv", "--verbose")
     assert found.code == 0, found.errors
     assert "start_distance" in found.text
     motions = [[float(row["displacement_m"]) for row in rows_of(tmp_path / name)]

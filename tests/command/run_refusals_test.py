@@ -78,7 +78,7 @@ def test_an_interrupted_sweep_leaves_its_points(begin, bar, tmp_path):
     running.send(signal.SIGINT)
     ended = running.wait()
     assert ended.code == 130, ended.errors
-    assert "the record holds what was found so far" in ended.errors
+    assert "the results so far are written" in ended.errors
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["converged"], summary["status"]) == (False, "interrupted")
     assert len(rows_of(tmp_path / "out" / "sweep.csv")) > 1

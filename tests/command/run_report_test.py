@@ -44,7 +44,7 @@ def test_the_moving_bar_of_the_report_is_the_motion_of_the_response(run, analysi
 
 def test_tables_have_the_digits_that_a_reader_needs_and_no_column_without_a_value(solve, scenes):
     record, folder = solve(scenes / "jones_legrand_2014" / "case2_sweep.toml")
-    head, *shown = tables_of(page_of(folder))["Special points of the structure"]
+    head, *shown = tables_of(page_of(folder))["Exact bifurcation and grazing points"]
     points = record.summary["structure_special_points"]
     assert head == list(points)
     assert set(points["type"]) == {"grazing", "fold"}
@@ -58,7 +58,7 @@ def test_tables_have_the_digits_that_a_reader_needs_and_no_column_without_a_valu
     record, folder = solve(scenes / "jones_legrand_2014" / "case2_sweep.toml",
                            {"analysis.frequency_from": 1200.0, "analysis.frequency_to": 1250.0})
     assert record.summary["structure_special_points"]["type"] == ["grazing"]
-    without = tables_of(page_of(folder))["Special points of the structure"][0]
+    without = tables_of(page_of(folder))["Exact bifurcation and grazing points"][0]
     assert without == [name for name in head if not name.startswith("multiplier")]
 
 
@@ -90,7 +90,7 @@ def test_the_report_shows_the_motions_of_a_curve_below_the_curve(solve, scenes):
     assert "motion_peak.svg" in names_in(folder)
     page = page_of(folder)
     assert page.index('src="sweep.svg"') < page.index('src="motion_peak.svg"')
-    assert "Instants of contact" in page
+    assert "Contact intervals" in page
 
 
 def test_the_report_says_that_nothing_was_found(run, scenes):

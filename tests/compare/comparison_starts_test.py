@@ -52,7 +52,7 @@ def test_a_start_leads_the_reference_and_each_solve_to_its_motion(number, curve,
 
 def test_where_solves_begin_is_said_in_the_record(compared):
     assert wb.compare(STOP, pairs=TWO_PAIRS, budget=1.0).summary["solves_begin_with"] == "no_contact"
-    assert "Each solve begins with the motion of the reference." in compared[1].text
+    assert "Each solve starts from the motion of the reference." in compared[1].text
 
 
 def test_a_tolerance_has_no_effect_and_does_not_hinder_a_start(curve):

@@ -43,7 +43,7 @@ def test_the_error_that_decides_is_one_of_both_or_the_larger(measure, weighed, c
                                               ("both", "displacement and force")])
 def test_the_error_is_named_by_sentences_tables_and_the_axis(measure, subject, compared):
     found = compared[measure]
-    assert f"For an error of 1e-2 of {subject}" in found.text
+    assert f"For an error of 1e-2 in {subject}" in found.text
     assert found.summary["error_of"] == found.summary["recommendations"]["error_of"][0] == measure
     pictures = found.svgs()
     assert set(pictures) == {"error_over_time", "error_over_functions"}
@@ -54,7 +54,7 @@ def test_the_error_is_named_by_sentences_tables_and_the_axis(measure, subject, c
 def test_errors_of_a_force_that_does_not_act_are_those_of_the_displacement_and_the_record_says_so(error, warnings):
     found = wb.compare(BAR, {"contact.gap": 1.0}, pairs=TWO_PAIRS, budget=2.0, error=error)
     assert found.summary["error_of"] == "displacement"
-    assert "Errors are those of the displacement, because no contact force acts." in found.text
+    assert "The error is measured in the displacement, because no contact force acts." in found.text
     assert len(found.warnings) == warnings
 
 

@@ -125,10 +125,10 @@ def test_pairs_are_drawn_each_in_a_way_of_its_own_and_those_of_the_paper_solid(c
         return json.loads(text[text.index('"] = ') + 5:].rstrip().rstrip(";"))["panels"][0]["series"]
 
     over_functions, over_time = lines("error_over_functions"), lines("error_over_time")
-    (phases,) = [line for line in over_time if line["label"] == "contact phases"]
+    (phases,) = [line for line in over_time if line["label"] == "exact solution"]
     assert len(phases["x"]) >= 2
     # Their functions are those of the balance that they start from.
-    assert "contact phases" not in [line["label"] for line in over_functions]
+    assert "exact solution" not in [line["label"] for line in over_functions]
     looks = {(line["colour"], line["dash"]) for line in [*over_functions, phases]}
     assert len(looks) == len(over_functions) + 1 == 12
     assert sum(line["dash"] == "" for line in over_functions) == 6

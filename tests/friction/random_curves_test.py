@@ -20,7 +20,7 @@ def folds_beside(sweep):
 
 def is_followed_whole(sweep):
     """Whether the curve of the structure passes by the motions at both ends of the balance's."""
-    apart = any("different curves of the structure" in warning for warning in sweep.warnings)
+    apart = any("the curve jumped from one to the other" in warning for warning in sweep.warnings)
     return sweep.summary["structure_curve"] == "whole" and not apart
 
 

@@ -157,7 +157,7 @@ def test_a_mode_has_frequency_and_damping_over_amplitude(solve):
     assert record.summary["largest_damping_ratio"] == pytest.approx(0.1110, abs=2e-3)
     assert len(record.backbone["damping_ratio"]) > 30
     picture = record.svg()  # of two panels
-    assert picture.count("Amplitude over that of first slip") == 2
+    assert picture.count("Amplitude / amplitude of slip onset") == 2
     assert "Frequency (" in picture and "Damping ratio" in picture
 
 

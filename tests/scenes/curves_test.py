@@ -161,7 +161,7 @@ def test_an_amplitude_sweep_starts_near_a_motion(run, motions_of_spring):
         assert record.code == 0, record.errors
         with open(record.folder / "sweep.csv") as file:
             largest.append(float(next(csv.DictReader(file))["max_displacement_m"]))
-        assert any("was not sought" in text for text in record.summary["warnings"])
+        assert any("was not searched for" in text for text in record.summary["warnings"])
     assert largest[0] > 1.02 * largest[1] and largest[1] > 1.02 * largest[2]
 
 

@@ -65,7 +65,7 @@ def test_an_exact_curve_with_friction_slips_up_to_its_closed_form(run, scenes):
         assert sticks == (float(row["frequency_Hz"]) > slip * (1.0 - 1e-7))
         assert (float(row["friction_work_J"]) > 1e-9) != sticks or abs(float(row["frequency_Hz"]) - slip) < 1e-6
         assert row["contacts"] == "0" and row["phases_status"] == "converged"
-    assert "Contacts slip for up to" in record.page and "Contact takes" not in record.page
+    assert "Contacts slip for up to" in record.page and "Contact lasts" not in record.page
 
 
 def test_an_exact_curve_of_friction_beside_a_stop_has_the_peak_of_exact_motions(run, two_masses):

@@ -153,7 +153,7 @@ def test_another_analysis_of_a_rotor_names_what_it_does_not_take(verdicts):
 
 def test_check_of_friction_foresees_no_time(verdicts):
     checked, _ = verdicts("[contact]\n" + LAWS["coulomb"], analysis="frequency_sweep", solve=False)
-    assert "cannot be foreseen with friction" in checked.text
+    assert "not predictable with friction" in checked.text
     checked, _ = verdicts("[contact]\n" + LAWS["linear"], analysis="frequency_sweep", solve=False)
     assert "s for the curve" in checked.text
 

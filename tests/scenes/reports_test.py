@@ -103,7 +103,7 @@ def test_a_record_with_directions_is_a_start(run, command, two_contacts):
 def test_friction_is_told_by_its_states_and_by_what_vibrates(run, two_contacts):
     record = run(two_contacts)
     page, summary = sentences(record.page), record.summary
-    assert "Contact takes" not in page
+    assert "Contact lasts" not in page
     assert "Contact 1 sticks for" in page and "is open for 0 %" in page
     assert summary["contact_fraction"] == 1.0
     assert summary["leading_direction"] == "tangent"
@@ -130,7 +130,7 @@ def test_springs_that_act_everywhere_have_no_share_of_contact(run, scenes):
     record = run(scenes / "laws" / "duffing.toml")
     assert record.summary["contact_fraction"] is None
     page = sentences(record.page)
-    assert "Contact takes" not in page and "No contact closes" not in page
+    assert "Contact lasts" not in page and "No contact closes" not in page
     assert "at 0.2318" in page  # the peak, with the digits that the points determine
 
 
@@ -175,7 +175,7 @@ def test_friction_beyond_the_states_that_are_followed_says_so(run, scenes):
     scene = scenes / "friction" / "bolted_beam.toml"
     assert run(scene).summary["points_stability_not_known"] == 0  # by its slow modes
     page = sentences(run(scene, set=("structure.stiffness_damping=1e-10",)).page)  # fast modes ring on
-    assert "with friction it takes all 246 states of the structure, of which at most 120 are followed" in page
+    assert "with friction it requires all 246 states of the structure, and at most 120 are supported" in page
 
 
 def test_errors_are_given_for_the_vibration_and_each_output(run, two_contacts):
@@ -262,7 +262,7 @@ def test_the_list_of_what_was_asked_keeps_names_of_two_words(run, two_contacts):
 
 
 def test_rounding_is_not_printed_as_a_multiplier(run, scenes):
-    assert "an absolute value below 1e-12" in sentences(run(scenes / "jones_legrand_2014" / "case1.toml").page)
+    assert "a modulus < 1e-12" in sentences(run(scenes / "jones_legrand_2014" / "case1.toml").page)
 
 
 def test_coexisting_motions_are_drawn_and_listed(run, scenes):

@@ -57,7 +57,7 @@ void set_rigid_end(Backbone& curve, double linear_omega, double largest_energy, 
   if (curve.complete || last == &curve.points.back()) return;
   const ModePoint& next = *(last + 1);
   curve.early_end += next.status == ModeStatus::internal_resonance
-                         ? ": beyond it lies the internal resonance " + resonance_name(next.resonance)
+                         ? ": beyond it is the internal resonance " + resonance_name(next.resonance)
                          : ": beyond it the points are " + std::string(to_string(next.status));
 }
 

@@ -168,7 +168,7 @@ double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& st
 
 std::string inaccurate_status(double rounding_error) {
   return fmt::format(
-      "inaccurate: the rounding error of the condensation is about {:.0e} of the motion, more than {:.0e}",
+      "inaccurate: poor conditioning, with rounding errors of about {:.0e} of the motion, more than {:.0e}",
       rounding_error, largest_rounding_error);
 }
 

@@ -164,14 +164,13 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
        "analysis.type = \"" + name_of(type) +
            "\" has no start; expected forced_response, frequency_sweep, amplitude_sweep or limit_cycle"},
       {cycle && !(start.frequency > 0.0),
-       start.source + " has no frequency_Hz beside it; expected the results of a limit cycle"},
+       start.source + " has no frequency_Hz next to it; expected the results of a limit cycle"},
       {!cycle && (solves_by_impacts(scene) || moves_by_events(scene)),
-       "not with impacts, or friction of bodies with mass that no balance has, whose motions start from "
-       "what the structure settles to"},
+       "not with impacts or friction that is solved exactly, whose solutions start from time integration"},
       {!cycle && solves_by_phases(scene),
-       "not with time.method = \"exact\", which starts from a coarse balance of its own; expected \"balance\""},
+       "not with time.method = \"exact\", which finds its own start; expected \"balance\""},
       {!cycle && scene.time.tolerance > 0.0,
-       "not with time.tolerance, which starts from coarser motions of its own; expected time.functions"},
+       "not with time.tolerance, which finds its own start; expected time.functions"},
       {start.contacts.rows() != contacts,
        fmt::format("{} has the motion of {}, but the scene has {}", start.source,
                    count_text(start.contacts.rows(), "contact"), count_text(contacts, "contact"))},

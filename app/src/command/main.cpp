@@ -44,7 +44,7 @@ std::string footer() {
          "One is reproduce/scenes/laxalde_legrand_2010/rod.toml.\n\n"
          "`run` writes report.html to read in a browser, summary.json, a table (response.csv, sweep.csv or\n"
          "backbone.csv), a picture (SVG) and the scene as it was solved. Either all of these files appear or\n"
-         "none. They replace those of an earlier run in the same folder; other files stay. Without gnuplot no\n"
+         "none. They replace files of an earlier run in the same folder; other files stay. Without gnuplot no\n"
          "picture is written.\n\n"
          "Exit codes:\n"
          "  0    The scene is solved.\n"

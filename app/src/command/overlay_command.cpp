@@ -45,19 +45,18 @@ std::string page_text(const OverlayArguments& arguments, const Overlay& overlay,
   page.title = "Responses and modes, Wavebalance";
   page.assets = "";
   page.libraries = {Library::d3};
-  page.body =
-      "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
-      (holds_file(files, "overlay.svg")
-           ? picture_html(
-                 files, "overlay",
-                 (overlay.quantity.is_output() ? capitalised(overlay.quantity.name) : "Displacement") +
-                     (is_over_time(overlay) ? " over a period, of all folders"
-                                            : " over the frequency, of all folders"))
-           : "<p>There is no picture: gnuplot was not found.</p>\n") +
-      (has_unstable ? "<p>Lines are dashed where a motion is unstable. The curves are those of</p>\n<ul>\n"
-                    : "<p>The curves are those of</p>\n<ul>\n") +
-      list + "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
-      fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
+  page.body = "<main>\n<h1>Responses and modes of one structure</h1>\n" + warnings +
+              (holds_file(files, "overlay.svg")
+                   ? picture_html(files, "overlay",
+                                  (overlay.quantity.is_output() ? capitalised(overlay.quantity.name)
+                                                                : "Displacement") +
+                                      (is_over_time(overlay) ? " over a period, of all folders"
+                                                             : " over the frequency, of all folders"))
+                   : "<p>There is no picture: gnuplot was not found.</p>\n") +
+              (has_unstable ? "<p>Lines are dashed where a motion is unstable. Results folders:</p>\n<ul>\n"
+                            : "<p>Results folders:</p>\n<ul>\n") +
+              list + "</ul>\n<p><a href=\"overlay.csv\">overlay.csv</a> holds their points.</p>\n" +
+              fmt::format("<p class=\"quiet\">Wavebalance {}</p>\n</main>\n", version());
   return page_html(page);
 }
 

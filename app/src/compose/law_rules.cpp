@@ -163,11 +163,11 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
   if (integrates_in_time(scene.analysis.type) || moves_by_events(scene))
     return check_sliders(document, contacts_of(scene));
   if (!make_laws(scene).have_force_form())
-    fail_rule(
-        document, {"contact.tangential_stiffness", "contact.law"},
-        rigid +
-            "it is solved in the form of the force, which a law beside it that depends on the velocity, or falls "
-            "somewhere and acts below its gap, does not have; expected contact.tangential_stiffness");
+    fail_rule(document, {"contact.tangential_stiffness", "contact.law"},
+              rigid +
+                  "rigid friction is solved in the force form, which another law here does not support: it "
+                  "is rate-dependent, or not monotone and acts below its gap; expected "
+                  "contact.tangential_stiffness");
   if (scene.contact.form == ContactForm::displacement)
     fail_rule(document, {"contact.form"},
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
@@ -274,10 +274,9 @@ void check_ring(const Document& document, const Scene& scene, const SceneContact
         "missing: the second direction of the ring; expected the degrees of freedom of y beside dofs, of x");
   const WeightedDofs x{pair.dofs, pair.coefficients}, y{pair.tangent, pair.tangent_coefficients};
   if (std::abs(x * x - y * y) > rounding * (x * x))
-    fail_rule(
-        document, {section + ".tangent_coefficients", section + ".tangent"},
-        "the squares of the weights have another sum than those of coefficients, which makes the ring an "
-        "ellipse; expected equal sums");
+    fail_rule(document, {section + ".tangent_coefficients", section + ".tangent"},
+              "the sum of the squared weights differs from the one of coefficients, which makes the ring an "
+              "ellipse; expected equal sums");
   if (std::abs(x.cosine(y)) > rounding)
     fail_rule(document, {section + ".tangent"},
               "is not perpendicular to the direction of dofs; expected one that is, since the ring is round");

@@ -94,7 +94,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
               "time.functions in place of the tolerance");
   if ((scene.time.functions - 1) / 2 < periods)
     fail_rule(document, {"analysis.subharmonic", "time.functions"},
-              "the functions are those of " + std::to_string(periods) +
+              "the functions belong to " + std::to_string(periods) +
                   " periods of the load, which is their harmonic " + std::to_string(periods) +
                   "; expected subharmonic <= " + std::to_string((scene.time.functions - 1) / 2) +
                   ", or more time.functions");
@@ -126,14 +126,14 @@ void check_isolas(const Document& document, const Scene& scene) {
   refuse(analysis.subharmonic > 1, "analysis.subharmonic",
          "not with motions of several periods of the load; expected analysis.subharmonic = 1");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
-         "not with a loss factor, which has no equation in time to settle by; expected 0, or modal_damping = "
-         "loss_factor / 2 in its place");
-  refuse(
-      scene.structure.matrices.free, "structure.free",
-      "not with a structure that is free to move, which does not settle; expected analysis.isolas = false");
+         "not with a loss factor, which has no equation in time to integrate; expected 0, or "
+         "modal_damping = loss_factor / 2");
+  refuse(scene.structure.matrices.free, "structure.free",
+         "not with a free structure, for which time integration does not converge; expected "
+         "analysis.isolas = false");
   refuse(is_rigid(scene.contact.law), "contact.law",
-         "not with a rigid contact, which has no law of impact to settle by; expected false, or a stiff "
-         "\"linear\" law");
+         "not with a rigid contact, which has no law of impact for time integration; expected "
+         "false, or a stiff \"linear\" law");
   constexpr int most_frequencies = 100'000;
   if (std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.isola_spacing > most_frequencies)
     fail_rule(document, {"analysis.isola_spacing"},
@@ -141,7 +141,7 @@ void check_isolas(const Document& document, const Scene& scene) {
   const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
   refuse(size > most, "structure.kept_modes",
          std::to_string(size) + " degrees of freedom; expected at most " + std::to_string(most) +
-             " for the motions that it settles to, which take all modes; structure.kept_modes reduces them");
+             " for time integration, which requires all modes; structure.kept_modes reduces them");
 }
 
 /// What an exact curve does not do yet, or does not need.
@@ -157,9 +157,9 @@ void check_exact(const Document& document, const Scene& scene) {
   refuse(!analysis.motion_at.empty(), "analysis.motion_at");
   refuse(analysis.phases, "analysis.phases");
   if (!analysis.special_points)
-    fail_rule(
-        document, {"analysis.exact", "analysis.special_points"},
-        "an exact curve finds its special points as it is followed; expected analysis.special_points = true");
+    fail_rule(document, {"analysis.exact", "analysis.special_points"},
+              "an exact curve always finds its bifurcation and grazing points; expected "
+              "analysis.special_points = true");
   refuse(analysis.subharmonic > 1, "analysis.subharmonic");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor");
   if (is_rigid(scene.contact.law) && !moves_by_events(scene))
@@ -205,8 +205,8 @@ void check_motions(const Document& document, const Scene& scene) {
                     toml_text(low) + " to " + toml_text(high) + unit);
   if (analysis.motion_at.special && !analysis.stability)
     fail_rule(document, {"analysis.motion_at", "analysis.stability"},
-              "\"special\" not with analysis.stability = false, by which special points are found; expected "
-              "analysis.stability = true");
+              "\"special\" not with analysis.stability = false, which finds no bifurcation points; "
+              "expected analysis.stability = true");
   if (analysis.motion_at.special && !analysis.special_points)
     fail_rule(
         document, {"analysis.motion_at", "analysis.special_points"},
@@ -222,9 +222,9 @@ void check_dense_size(const Document& document, const Scene& scene) {
   const bool damped = scene.structure.modal_damping > 0.0;
   if ((!stepping && !mode && !damped) || reduced_size(scene) <= most_dense_unknowns) return;
   const std::string most = "expected at most " + std::to_string(most_dense_unknowns) + " ";
-  const std::string why = mode       ? "for a nonlinear mode, which takes all linear modes"
+  const std::string why = mode       ? "for a nonlinear mode, which requires all linear modes"
                           : stepping ? "for time stepping, whose matrices are dense"
-                                     : "for modal damping, which takes all linear modes";
+                                     : "for modal damping, which requires all linear modes";
   if (scene.structure.type == StructureType::bar) fail_rule(document, {"structure.elements"}, most + why);
   const std::string advice = "; structure.kept_modes reduces them";
   const std::string count = std::to_string(reduced_size(scene)) + " degrees of freedom; ";
@@ -238,14 +238,14 @@ void check_impacts(const Document& document, const Scene& scene) {
   };
   refuse(
       scene.contact.mass == ContactMass::redistribute, "contact.mass",
-      "a contact without mass has no impacts, and contact.restitution says what impacts do; expected one or the "
-      "other");
+      "a contact without mass has no impacts, but contact.restitution is given; expected one or the other");
   refuse(scene.structure.massless_tip, "structure.massless_tip",
          "a contact without mass has no impacts; expected false, or no contact.restitution");
   refuse(scene.structure.loss_factor > 0.0, "structure.loss_factor",
          "not with contact.restitution, since a loss factor has no equation in time; expected 0, or damping");
-  refuse(scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",
-         "not with contact.restitution: impacts take energy from a free motion; expected another analysis");
+  refuse(
+      scene.analysis.type == AnalysisType::nonlinear_mode, "analysis.type",
+      "not with contact.restitution: impacts dissipate energy of a free motion; expected another analysis");
   refuse(scene.analysis.exact && !moves_by_events(scene), "analysis.exact",
          "not with contact.restitution, with which curves are exact as they are; expected false");
   refuse(!scene.analysis.motion_at.empty(), "analysis.motion_at",

@@ -41,15 +41,14 @@ void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
   if (names_friction(scene.contact) && scene.analysis.type == AnalysisType::nonlinear_mode)
     fail_rule(document, {"structure.free", "contact.law"},
-              "not with friction, whose modes are those of a structure that is held; expected false");
+              "not with friction, whose modes require a structure that is not free; expected false");
   if (names_friction(scene.contact) && scene.contact.mass == ContactMass::redistribute)
     fail_rule(document, {"contact.mass", "structure.free"},
               "not of a structure that is free to move; expected \"keep\"");
   if (is_rigid(scene.contact.law) && !has_impacts(scene.contact))
-    fail_rule(
-        document, {"structure.free", "contact.law"},
-        "not with contact.law = \"rigid\", which takes the mass from the contacts; expected a stiff \"linear\" "
-        "law");
+    fail_rule(document, {"structure.free", "contact.law"},
+              "not with contact.law = \"rigid\", which removes the mass of the contacts; expected a "
+              "stiff \"linear\" law");
   if (scene.analysis.branches)
     fail_rule(document, {"structure.free", "analysis.branches"},
               "not with analysis.branches; expected analysis.branches = false");
@@ -109,7 +108,7 @@ void check_blade(const Document& document, const Structure& structure) {
   if (structure.kept_modes > interior)
     fail_rule(document, {"structure.kept_modes", "structure.span_elements"},
               "expected at most " + std::to_string(interior) +
-                  ", the mesh's degrees of freedom beside those of the tip's corner nodes");
+                  ", the degrees of freedom of the mesh without the corner nodes of the tip");
 }
 
 /// Contacts of matrices are directions along single degrees of freedom or pairs.

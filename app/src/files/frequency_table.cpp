@@ -28,9 +28,8 @@ Table read_frequency_table(const std::string& file, std::string_view column, std
   }
   for (std::size_t i = 1; i < frequencies.size(); ++i)
     if (!(frequencies[i] > frequencies[i - 1]))
-      throw std::runtime_error(
-          fmt::format("{}: frequency_Hz = {} of row {} is not above that of the row before", file,
-                      frequencies[i], i + 1));
+      throw std::runtime_error(fmt::format("{}: frequency_Hz = {} of row {} is not above the row before",
+                                           file, frequencies[i], i + 1));
   return table;
 }
 

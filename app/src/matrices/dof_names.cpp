@@ -169,10 +169,10 @@ class RowsOfNames {
       fail_at(document_, *place, error.what());
     }
     if (map_) return *map_;
-    fail_at(
-        document_, entry,
-        "names a node, but the scene has no structure.dof_map and the file of structure.stiffness names no "
-        "nodes; expected a map, which says which row is which motion of which node, or integers");
+    fail_at(document_, entry,
+            "names a node, but the scene has no structure.dof_map and the file of "
+            "structure.stiffness names no nodes; expected a map, which assigns rows to nodes and "
+            "directions, or integers");
   }
 
   /// Which rows a name could mean.
@@ -183,8 +183,8 @@ class RowsOfNames {
     for (dof.copy = 1; dof.copy <= std::min(copies, shown); ++dof.copy)
       rows.push_back(fmt::format("\"{}\" (row {})", map.name(map.row(dof)), map.row(dof) + 1));
     return fmt::format(
-        "{} rows of {} have that name, as those of shells and beams that are expanded to solids; expected one of "
-        "{}{}; the contact of [[contact.pairs]] takes their mean",
+        "{} rows of {} have that name, as in shells and beams that are expanded to solids; "
+        "expected one of {}{}; a contact of [[contact.pairs]] takes their mean",
         copies, path_, fmt::join(rows, ", "), copies > shown ? ", ..." : "");
   }
 

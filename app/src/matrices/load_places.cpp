@@ -16,9 +16,9 @@ namespace {
 /// Whether rows of the map move along the direction of a term or of the weight.
 void check_direction(const StructureFiles& files, int axis, const std::string& key) {
   if (!files.dof_map)
-    throw StructureFault(key,
-                         "expected structure.dof_map beside it, which says which rows move along x, y and z, "
-                         "or dofs or a load in its place");
+    throw StructureFault(
+        key,
+        "expected structure.dof_map too, which names the rows along x, y and z, or dofs or a load instead");
   if (!files.rows_along(axis).isZero(0.0)) return;
   throw StructureFault(key, fmt::format("no row of {} moves along {}; expected another direction, or rows",
                                         files.map_path(), "xyz"[axis]));
@@ -88,9 +88,9 @@ void check_place(const Scene& scene) {
   const bool file = !scene.forcing.load.empty(), list = !scene.forcing.load_dofs.empty();
   if (file && list) throw StructureFault("forcing.load_dofs", "expected either load_dofs or load, not both");
   if (!file && !list && needs_place(scene))
-    throw StructureFault("forcing.load",
-                         "missing; expected load (a file of one column) or load_dofs (a list), which "
-                         "say where the force acts");
+    throw StructureFault(
+        "forcing.load",
+        "missing; expected load (a file of one column) or load_dofs (a list) for the place of the force");
 }
 
 /// Of each of `dofs`, an entry per row of the files: 1 or -1, times its coefficient where there are some.

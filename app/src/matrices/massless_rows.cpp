@@ -137,10 +137,10 @@ std::string advice_on_massless_rows(const SparseMatrix& mass) {
   if (rows.empty()) return "";
   for (int& row : rows) ++row;
   return fmt::format(
-      ". Of its rows {} {} no mass: {}{}. They are condensed statically where the stiffness among them is "
-      "definite, no damping resists them, {} rows at most are of either kind, and neither structure.unsymmetric "
-      "nor structure.free is set; else expected a consistent mass matrix",
-      rows.size(), rows.size() == 1 ? "has" : "have",
+      ". {} row{} no mass: {}{}. They are condensed statically if their stiffness is definite and undamped, at "
+      "most {} rows are of either kind, and neither structure.unsymmetric nor structure.free is set; otherwise "
+      "expected a consistent mass matrix",
+      rows.size(), rows.size() == 1 ? " has" : "s have",
       fmt::join(std::span(rows).first(std::min(shown, rows.size())), ", "),
       rows.size() > shown ? ", ..." : "", most_condensed);
 }

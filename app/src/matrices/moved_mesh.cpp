@@ -41,9 +41,9 @@ class RowMotion {
 
 std::shared_ptr<const MovedMesh> moved_mesh(const std::string& path, const StructureFiles& files) {
   if (!files.dof_map)
-    throw StructureFault(mesh_key,
-                         "there is no structure.dof_map; expected this file, which says which rows move "
-                         "the nodes of the mesh");
+    throw StructureFault(
+        mesh_key,
+        "there is no structure.dof_map; expected this file, which assigns rows to the nodes of the mesh");
   if (!files.base_rows.empty())
     throw StructureFault(mesh_key,
                          "a base_displacement moves rows of the matrices, whose nodes are not drawn; "

@@ -59,14 +59,14 @@ Eigen::SparseMatrix<double> StructureInputs::in_rows(const fem::NamedMatrix& giv
   if (!map_)
     throw StructureFault(
         key, fmt::format("{} names its rows by nodes and structure.stiffness in {} does not; expected "
-                         "structure.dof_map beside them, which says what the rows of the stiffness are",
+                         "structure.dof_map too, which names the rows of the stiffness",
                          path, path_));
   try {
     return fem::placed(given, *map_);
   } catch (const fem::MatrixFileError& error) {
-    throw StructureFault(key, fmt::format("{}: {}; the rows are those of structure.dof_map or else of "
-                                          "structure.stiffness",
-                                          path, error.what()));
+    throw StructureFault(
+        key, fmt::format("{}: {}; the rows follow structure.dof_map, or else structure.stiffness", path,
+                         error.what()));
   }
 }
 

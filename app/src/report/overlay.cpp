@@ -304,9 +304,9 @@ Overlay read_overlay(std::span<const fs::path> folders, const std::string& quant
     const double gap = common_gap(scene);
     if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
     if (scene.contact.law != no_law && first.contact.law != no_law)
-      overlay.warnings.push_back(fmt::format(
-          "{} has another gap than the first folder: their curves are those of different contacts",
-          folders[i].string()));
+      overlay.warnings.push_back(
+          fmt::format("{} has another gap than the first folder: the curves belong to different contacts",
+                      folders[i].string()));
     overlay.gap = missing;
   }
   return overlay;

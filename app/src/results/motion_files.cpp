@@ -92,7 +92,7 @@ void append_motion_files(Record& record, const Scene& scene, const StructureMode
                          const WrittenMotion& motion, const std::string& name, const std::string& about) {
   const bool several = motion.contacts.rows() > 1;
   record.files.push_back({name + ".csv", csv_text(response_table(motion.contacts.contact(motion.contact))),
-                          about + (several ? ": the leading contact" : "")});
+                          about + (several ? ": the contact with the largest force" : "")});
   if (several)
     record.files.push_back({name + "_contacts.csv", csv_text(contacts_table(scene, motion.contacts)),
                             about + ": every contact"});

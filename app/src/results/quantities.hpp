@@ -64,7 +64,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     leading_output{"leading_output"}, period_of_motion{"period_of_motion", result},
     change_after_one_period{"change_after_one_period", result},
     unstable_multipliers{"unstable_multipliers", result}, settled_periods{"settled_periods", result},
-    settled_max_displacement{"settled_max_displacement_m", result, "m", "settled max displacement"},
+    settled_max_displacement{"settled_max_displacement_m", result, "m", "attractor max displacement"},
     leading_multiplier_real{"leading_multiplier_real", result},
     leading_multiplier_imag{"leading_multiplier_imag", result},
     leading_multiplier_error{"leading_multiplier_error", result};

@@ -87,7 +87,7 @@ Table spectrum_table(const RecordedMotion& motion) {
 
 void warn_of_kind(Record& record, const RecordedMotion& motion) {
   const std::string statistics =
-      fmt::format("The statistics are those of the {} periods recorded.", motion.recorded);
+      fmt::format("The statistics are taken over the {} recorded periods.", motion.recorded);
   if (motion.kind == MotionKind::settling)
     warn(record,
          "Perturbations decay: the transient has not decayed yet, or the motion repeats after "

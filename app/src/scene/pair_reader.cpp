@@ -57,7 +57,7 @@ class PairReader {
     for (const ContactPair& other : scene_.contact.pairs)
       if (&other < &pair_ && !pair_.name.empty() && other.name == pair_.name)
         fail_at(document_, *entry("name"),
-                "another of [[contact.pairs]] has this name; expected one of its own");
+                "another of [[contact.pairs]] has this name; expected a unique one");
   }
 
   struct PairDirection {

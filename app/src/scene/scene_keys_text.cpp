@@ -115,7 +115,7 @@ std::string section_title(std::string_view section) {
   if (section == "contact.pairs")
     return "[[contact.pairs]], any number of them, in place of structure.contact_dofs";
   if (section == "forcing.terms")
-    return "[[forcing.terms]], any number of them, which act beside forcing.amplitude";
+    return "[[forcing.terms]], any number of loads in addition to forcing.amplitude";
   return "[" + std::string(section) + "]";
 }
 

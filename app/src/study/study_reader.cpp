@@ -121,7 +121,7 @@ void check_key(const StudyTable& table, const toml::node* node, const std::strin
 
 void read_interval(StudyTable& table, Sampling sampling, StudyParameter& parameter) {
   parameter.from = table.number("from", "or the key `values`");
-  parameter.to = table.number("to", "beside the key `from`");
+  parameter.to = table.number("to", "in addition to the key `from`");
   const toml::node* node = table.find("spacing");
   const std::string spacing = node == nullptr ? "linear" : node->value_or(std::string());
   if (spacing != "linear" && spacing != "logarithmic")

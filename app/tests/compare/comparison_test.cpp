@@ -36,7 +36,7 @@ TEST(Comparison, ThatHasNoTimeLeftAfterItsReferenceSaysSoAndRecommendsNothing) {
   Comparison found;
   found.reference.converged = true;
   found.reference.status = "converged";
-  found.reference.text = "contact phases";
+  found.reference.text = "the exact periodic solution";
   found.recommendations.emplace_back().sentences = "No pair reaches an error of 1e-2 within the budget.";
   EXPECT_FALSE(found.converged());
   EXPECT_EQ(found.status(), "no_time");

@@ -50,7 +50,7 @@ void add_law_keys_of_pair(std::vector<SceneKey>& keys, std::size_t index) {
       key.get = [=](const Scene& scene) { return SceneValue(part(scene).gap); };
       key.set = [=](Scene& scene, const SceneValue& value) { part(scene).gap = std::get<double>(value); };
     }
-    derived("that of [contact]", [=, &first](const Scene& scene) {
+    derived("as in [contact]", [=, &first](const Scene& scene) {
       return gap ? SceneValue(scene.contact.gap) : value_in(scene.contact.values, first);
     })(key);
     keys.push_back(std::move(key));
@@ -132,7 +132,7 @@ std::vector<SceneKey> pair_keys(std::size_t index) {
        derived("\"positive\"", [](const Scene&) { return name_of(ObstacleSide::positive); }));
   pair(&ContactPair::law, "law", "", "contact law of this pair",
        one_of(law_names([](const contact::LawEntry& law) { return law.name != no_law; })),
-       derived("that of [contact]", [](const Scene& scene) { return scene.contact.law; }));
+       derived("as in [contact]", [](const Scene& scene) { return scene.contact.law; }));
   pair(&ContactPair::name, "name", "", "name of the contact in texts and pictures", none_by_default());
   add_law_keys_of_pair(keys, index);
   return keys;

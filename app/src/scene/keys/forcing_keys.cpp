@@ -77,8 +77,7 @@ std::vector<SceneKey> term_keys(std::size_t index) {
        "matrices: rows under the whole force each, as load_dofs; base_displacement: rows that "
        "move; base_acceleration: rows along its direction; unbalance: two rows, turning from "
        "the first to the second, or one. Required except for a force",
-       named_dofs,
-       derived("those of forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
+       named_dofs, derived("as forcing.amplitude", [](const Scene&) { return std::vector<std::int64_t>(); }));
   term(&ForcingTerm::coefficients, "coefficients", "",
        "factor on a force at each of dofs; a name of several rows spreads it equally over them",
        derived("1.0 for each", no_coefficients));

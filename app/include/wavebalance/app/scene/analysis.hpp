@@ -46,7 +46,7 @@ inline constexpr std::array<AnalysisKind, 9> analysis_kinds{{
      MotionsBy::equations, true, true, true, true},
     {AnalysisType::time_stepping, "time_stepping", "Response by time stepping", MotionsBy::time, true, true,
      false, true},
-    {AnalysisType::shooting, "shooting", "Response by contact phases", MotionsBy::phases, true, true, false,
+    {AnalysisType::shooting, "shooting", "Exact periodic solution", MotionsBy::phases, true, true, false,
      true},
     {AnalysisType::motions, "motions", "Coexisting motions", MotionsBy::phases, true, true, true, true},
     {AnalysisType::nonlinear_mode, "nonlinear_mode", "Nonlinear mode", MotionsBy::equations, false, false,
