@@ -7,10 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "branches/branch_arrival.hpp"
 #include "branches/perturbation.hpp"
 #include "linalg/option_checks.hpp"
-#include "wavebalance/solvers/response/frequency_sweep.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -57,7 +55,6 @@ class Search {
           if (found.converged() && periods(found) > before) return found;
           if (found.status == SolveStatus::cancelled) return std::nullopt;
         }
-        if (auto found = along_curve(response, way)) return found;
       }
     }
     return std::nullopt;
@@ -74,46 +71,6 @@ class Search {
     if (angle > 1e-6) result.push_back(perturbation(exponent, 1, problem_.pair(), 0.5 * std::numbers::pi));
     std::erase_if(result, [](const Perturbation& way) { return way.displacement.size() == 0; });
     return result;
-  }
-
-  // The nearest motion of more periods with a given share of the perturbation has another frequency. From
-  // there its curve is followed to that of the problem.
-  std::optional<PeriodicResponse> along_curve(const PeriodicResponse& response, const Perturbation& way) {
-    const double wanted = response.frequency;
-    const int before = periods(response);
-    const Eigen::VectorXd direction = way.unknown(response.series_flexibility);
-    const double rms = response.unknown.norm() / std::sqrt(double(response.unknown.size()));
-    const int load = problem_.periods();
-    const CurvePoint here = curve_point(response.unknown, wanted * load);
-    std::optional<PeriodicResponse> found;
-    for (const double size : {0.03, 0.1, -0.03, -0.1}) {
-      ContactSystem system(problem_, laws_, response.series_flexibility);
-      const auto start = motion_beside(system, here, size * rms * direction, {rms, 0.1 * here.parameter});
-      if (!start || start->response.frequency == wanted) continue;
-      const FrequencySweep curve = frequency_sweep(
-          problem_, laws_, towards(load * start->response.frequency, load * wanted, rms), *start);
-      if (curve.status != SweepStatus::reached_end) continue;
-      problem_.set_frequency(wanted);
-      ContactSystem at_wanted(problem_, laws_, response.series_flexibility);
-      PeriodicResponse last = response_at(at_wanted, curve.points.back().unknown);
-      last.strategy = Strategy::perturbation;
-      if (periods(last) > before) found = std::move(last);
-      if (found) break;
-    }
-    problem_.set_frequency(wanted);
-    return found;
-  }
-
-  FrequencySweepOptions towards(double from, double to, double rms) const {
-    FrequencySweepOptions sweep;
-    sweep.from = from - 0.5 * (to - from);  // the curve may go the other way at first
-    sweep.to = to;
-    sweep.max_points = 300;
-    sweep.keep_unknowns = true;
-    sweep.arc_length.displacement_scale = rms;
-    sweep.arc_length.parameter_scale = 0.1 * to;
-    sweep.observer = options_.response.observer;
-    return sweep;
   }
 
   PeriodicResponse near(const Eigen::VectorXd& displacement, const Eigen::VectorXd& force,

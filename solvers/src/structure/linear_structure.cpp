@@ -126,14 +126,6 @@ Eigen::MatrixXcd LinearStructure::load_amplitudes(double frequency) const {
   return result;
 }
 
-void LinearStructure::require_causal_damping(const char* caller) const {
-  if (loss_factor == 0.0) return;
-  throw std::invalid_argument(
-      std::string(caller) + ": loss_factor is " + std::to_string(loss_factor) +
-      ", but structural damping has no equation in time; expected 0, or a modal damping of half the loss "
-      "factor, which damps each mode as much at its own frequency");
-}
-
 int LinearStructure::selected_dof(int contact) const {
   int dof = -1;
   for (ContactDirections::InnerIterator entry(contact_directions, contact); entry; ++entry) {

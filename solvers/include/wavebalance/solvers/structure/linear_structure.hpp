@@ -69,9 +69,6 @@ struct LinearStructure {
   int selected_dof(int contact) const;
   /// Whether it has rigid_modes.
   bool is_free() const { return rigid_modes.cols() > 0; }
-  /// Throws std::invalid_argument naming `caller` where there is structural damping, which no equation in
-  /// time has.
-  void require_causal_damping(const char* caller) const;
   /// Throws std::invalid_argument for a loss factor that is negative or not finite, and naming the member
   /// whose size does not fit, with both sizes, or the direction that is zero or not finite.
   void validate() const;
