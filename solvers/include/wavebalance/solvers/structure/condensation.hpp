@@ -91,8 +91,9 @@ class Condensation {
 
   /// Threads that condense() may use, at least 1; 0: one per core of the machine. With more than one it
   /// factorises the dynamic stiffnesses of several k at the same time, each thread with a copy of the
-  /// structure and factors of its own: `dense` and `sparse` from 64 degrees of freedom on. The results are
-  /// the same to the last digit. A BLAS with threads of its own should be set to one (use_one_blas_thread()).
+  /// structure and factors of its own: `dense` and `sparse` from 64 degrees of freedom on, `modal` of
+  /// many contacts. The results are the same to the last digit. A BLAS with threads of its own should be set
+  /// to one (use_one_blas_thread()).
   void set_threads(int threads);
   int threads() const { return threads_; }
 
