@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <stdexcept>
 
@@ -28,20 +27,13 @@ double amplitude_of_slip(const solvers::DampedMode& mode) {
             "from rest on");
 }
 
-/// exp(2 pi i n l / points) times `factor(n)`, n x points.
-template <class Factor>
-Eigen::MatrixXcd waves(Eigen::Index harmonics, int points, Factor factor) {
-  Eigen::MatrixXcd result(harmonics, points);
-  for (Eigen::Index n = 0; n < harmonics; ++n)
-    for (Eigen::Index l = 0; l < points; ++l)
-      result(n, l) = factor(n) * std::polar(1.0, 2.0 * std::numbers::pi * double(n * l % points) / points);
-  return result;
-}
-
 }  // namespace
 
 DampedStudy::DampedStudy(const Scene& scene, const StructureModel& model)
-    : scene_(scene), mode_(make_damped_mode(scene, model)), slip_amplitude_(amplitude_of_slip(mode_)) {}
+    : scene_(scene),
+      model_(model),
+      mode_(make_damped_mode(scene, model)),
+      slip_amplitude_(amplitude_of_slip(mode_)) {}
 
 solvers::DampedBackbone DampedStudy::curve(double largest, const solvers::Observer& observer) const {
   solvers::DampedBackboneOptions options;
@@ -55,22 +47,15 @@ solvers::DampedBackbone DampedStudy::curve(double largest, const solvers::Observ
   return mode_.backbone(options);
 }
 
-// The harmonics of the samples at other times: the samples themselves where they have these.
-solvers::Motion DampedStudy::contact_motion(const solvers::DampedPoint& point) const {
-  const auto samples = static_cast<int>(point.displacement.cols());
-  const Eigen::Index harmonics = (samples + 1) / 2;
-  const int points = scene_.analysis.output_points;
-  const Eigen::MatrixXcd analysis =
-      waves(harmonics, samples, [&](Eigen::Index n) { return (n == 0 ? 1.0 : 2.0) / samples; });
-  const Eigen::MatrixXcd spectrum = point.displacement.cast<std::complex<double>>() * analysis.adjoint();
-  const auto one = [](Eigen::Index) { return std::complex<double>(1.0); };
-  const auto rate = [&](Eigen::Index n) { return std::complex<double>(0.0, double(n) * point.omega); };
-  solvers::Motion motion;
-  motion.displacement = (spectrum * waves(harmonics, points, one)).real();
-  motion.velocity = (spectrum * waves(harmonics, points, rate)).real();
-  const solvers::ContactLaws laws = make_laws(scene_);
-  motion.force = laws.force(motion.displacement, motion.velocity);
+solvers::Motion DampedStudy::contact_motion(const solvers::DampedPoint& point, int points) const {
+  solvers::Motion motion = motion_of(Eigen::MatrixXd(model_.structure.contact_directions), point, points);
+  motion.force = make_laws(scene_).force(motion.displacement, motion.velocity);
   return motion;
+}
+
+solvers::Motion DampedStudy::motion_of(const Eigen::MatrixXd& places, const solvers::DampedPoint& point,
+                                       int points) const {
+  return synthesised_motion(mode_.amplitudes(point, places), point.omega, points);
 }
 
 Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve) {

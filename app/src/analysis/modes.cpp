@@ -18,8 +18,6 @@ namespace {
 using solvers::ModePoint;
 using solvers::ModeStatus;
 
-constexpr int linear_points = 6;  // points of the branch below contact, energies 0, 0.2, ..
-
 bool is_solution(const ModePoint& point) {
   return point.accepted() || point.status == ModeStatus::internal_resonance;
 }
@@ -105,11 +103,6 @@ std::vector<Interruption> interruptions_of(const std::vector<ModePoint>& points,
   return gaps;
 }
 
-/// u_n of the structure, n x (N + 1).
-Eigen::MatrixXcd physical(const StructureModes& modes, const ModePoint& point) {
-  return modes.shapes * point.amplitudes;
-}
-
 /// Amplitudes of the velocity.
 Eigen::MatrixXcd rate(Eigen::MatrixXcd columns, double omega) {
   for (Eigen::Index n = 0; n < columns.cols(); ++n)
@@ -128,19 +121,11 @@ Eigen::MatrixXd synthesis(const Eigen::MatrixXcd& columns, int points) {
   return (columns * waves).real();
 }
 
-/// The motion of these amplitudes, without forces.
+}  // namespace
+
 solvers::Motion synthesised_motion(const Eigen::MatrixXcd& amplitudes, double omega, int points) {
   return {synthesis(amplitudes, points), synthesis(rate(amplitudes, omega), points), {}};
 }
-
-/// That of the contacts.
-solvers::Motion motion_of_contacts(const solvers::ModalModel& model, const ModePoint& point, int points) {
-  solvers::Motion motion = synthesised_motion(model.contact_shapes * point.amplitudes, point.omega, points);
-  motion.force = solvers::nearest_samples(point.force, points);
-  return motion;
-}
-
-}  // namespace
 
 solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double largest_energy) {
   solvers::ElasticBackboneOptions options;
@@ -259,21 +244,37 @@ ModePoint ModeStudy::at_energy(const Backbone& curve, double energy_ratio) const
   return solvers::at_energy(mode_, curve.points, energy_ratio);
 }
 
+std::vector<ModePoint> ModeStudy::linear_points() const {
+  constexpr int count = 6;
+  std::vector<ModePoint> points;
+  for (int i = 0; i < count && (!elastic_ || elastic_->starts_linear()); ++i)
+    points.push_back(linear_mode(static_cast<double>(i) / (count - 1)));
+  return points;
+}
+
 solvers::Motion ModeStudy::contact_motion(const ModePoint& point, int points) const {
   if (!has_motion(point)) return {};
-  solvers::Motion motion = motion_of_contacts(mode_.model(), point, points);
-  if (elastic_) motion.force = make_laws(scene_).force(motion.displacement);
+  solvers::Motion motion =
+      synthesised_motion(mode_.model().contact_shapes * point.amplitudes, point.omega, points);
+  motion.force =
+      elastic_ ? make_laws(scene_).force(motion.displacement) : solvers::nearest_samples(point.force, points);
   return motion;
+}
+
+solvers::Motion ModeStudy::motion_of(const Eigen::MatrixXd& places, const ModePoint& point,
+                                     int points) const {
+  if (!has_motion(point)) return {};
+  return synthesised_motion((places * modes_.shapes) * point.amplitudes, point.omega, points);
 }
 
 solvers::Motion ModeStudy::structure_motion(const ModePoint& point, int points) const {
   if (!has_motion(point)) return {};
-  return synthesised_motion(physical(modes_, point), point.omega, points);
+  return synthesised_motion(modes_.shapes * point.amplitudes, point.omega, points);
 }
 
 double ModeStudy::residual(const ModePoint& point) const {
   if (elastic_) return point.residual;
-  const Eigen::MatrixXcd u = physical(modes_, point);
+  const Eigen::MatrixXcd u = modes_.shapes * point.amplitudes;
   const solvers::LinearStructure& structure = model_.structure;
   const auto count = point.force.cols();
   double largest = 0.0, scale = 0.0;
@@ -329,11 +330,8 @@ Table backbone_table(const ModeStudy& study, const Backbone& curve) {
     return row;
   };
   Table table(columns_of(row_at({}, missing)));
-  const bool starts_linear = !elastic || study.elastic_mode()->starts_linear();
-  for (int i = 0; starts_linear && i < linear_points; ++i) {
-    const auto point = study.linear_mode(static_cast<double>(i) / (linear_points - 1));
+  for (const ModePoint& point : study.linear_points())
     table.append_row(cells_of(row_at(point, study.residual(point))));
-  }
   for (std::size_t i = 0; i < curve.points.size(); ++i)
     table.append_row(cells_of(row_at(curve.points[i], curve.residuals[i])));
   return table;

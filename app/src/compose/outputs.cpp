@@ -16,6 +16,7 @@
 #include "scene/scene_reader.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 
@@ -232,6 +233,12 @@ void check_acceleration(const Document& document, const Scene& scene) {
   if (has_impacts(scene.contact))
     fail_rule(document, {"analysis.outputs"},
               "an impact has no finite acceleration; expected velocities, or contact.restitution left out");
+  const bool of_mode = scene.analysis.type == AnalysisType::nonlinear_mode;
+  if (of_mode && !is_elastic_mode(scene) && !is_damped_mode(scene))
+    fail_rule(
+        document, {"analysis.outputs"},
+        "a mode of rigid contacts with mass has no finite acceleration where they close; expected velocities, "
+        "or a stiff \"linear\" law");
   const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_by_phases(scene) &&
                         !scene.analysis.exact && !scene.time.trial.empty();
   if (by_bases && is_wavelet(scene.time.trial))

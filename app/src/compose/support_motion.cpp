@@ -93,6 +93,10 @@ void subtract_supports(Output& output, const std::vector<ForcingTerm>& terms, co
 void set_frame(Output& output, const OutputWords& words, const Scene& scene) {
   const bool ratio = words.quantity == OutputQuantity::transmissibility;
   if (words.frame == OutputFrame::given && !ratio) return;
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    throw std::invalid_argument(
+        "a mode is a free motion, in which no support moves; expected the displacement, the velocity or the "
+        "acceleration of the place");
   const std::vector<ForcingTerm> terms = support_terms(scene);
   if (terms.empty())
     throw std::invalid_argument(

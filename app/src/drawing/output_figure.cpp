@@ -185,6 +185,10 @@ void add_each_contact(Figure& figure, const Sweep& sweep, const std::vector<Scen
 
 }  // namespace
 
+std::string vibration_title(const Output& output) {
+  return output.names_quantity() ? capitalised(plain(output.title)) : "Vibration of " + plain(output.title);
+}
+
 void scale_amplitudes(Figure& figure, const SweepAxis& axis) {
   if (axis.quantity == "frequency" || (axis.unit != "N" && axis.unit != "m")) return;
   double largest = 0.0;
@@ -205,9 +209,7 @@ Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::opti
   const Output* drawn = output ? &outputs.outputs[*output] : nullptr;
   const Scale scale = scale_of(lines, output, drawn == nullptr ? "m" : drawn->unit);
   Panel panel;
-  panel.title = drawn == nullptr          ? "Vibration of the contacts"
-                : drawn->names_quantity() ? capitalised(plain(drawn->title))
-                                          : "Vibration of " + plain(drawn->title);
+  panel.title = drawn == nullptr ? "Vibration of the contacts" : vibration_title(*drawn);
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label =
       drawn == nullptr ? "Vibration (" + scale.prefix + "m)" : ordinate(*drawn, scale, "Vibration");

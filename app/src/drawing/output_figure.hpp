@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "drawing/period_window.hpp"
@@ -19,6 +20,9 @@ inline constexpr std::size_t most_drawn_harmonics = 4;
 /// from what static loads deflect. Dashed where motions are unstable.
 Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
                       const std::vector<SceneContact>& contacts);
+
+/// "Vibration of row 19", "Velocity of row 3".
+std::string vibration_title(const Output& output);
 
 /// Takes the amplitudes over which `figure` draws a sweep to a readable multiple of their unit.
 void scale_amplitudes(Figure& figure, const SweepAxis& axis);

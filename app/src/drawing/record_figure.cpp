@@ -37,25 +37,6 @@ std::string structure_title(const Scene& scene) {
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
 }
 
-std::string method_title(const Scene& scene) {
-  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
-    const Time time = mode_time(scene);
-    return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
-           basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
-           structure_title(scene);
-  }
-  if (scene.analysis.type == AnalysisType::nonlinear_mode)
-    return "Mode " + std::to_string(scene.analysis.mode) +
-           ", N = " + std::to_string(scene.analysis.harmonics) +
-           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
-  if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
-  if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
-  if (solves_by_phases(scene) || scene.analysis.exact)
-    return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
-  return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
-         std::to_string(scene.time.functions) + " functions";
-}
-
 std::string frequency_text(double value) {
   std::ostringstream text;
   text << std::setprecision(6) << value << " Hz";
@@ -172,16 +153,26 @@ void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::
   add_curve(panel, series, sweep.stability.points, {});
 }
 
-/// The end of the axis of energies: that of linear grazing is shown, and `largest` only where the curve comes
-/// near.
-double shown_energy(const std::vector<double>& energies, double largest) {
-  double reached = 1.0;
-  for (const double one : energies) reached = std::fmax(reached, one);
-  constexpr double margin = 1.05;
-  return std::min(largest, margin * reached);
-}
-
 }  // namespace
+
+std::string method_title(const Scene& scene) {
+  if (is_elastic_mode(scene) || is_damped_mode(scene)) {
+    const Time time = mode_time(scene);
+    return "Mode " + std::to_string(scene.analysis.mode) + ", " + basis_title(time.trial) + ":" +
+           basis_title(time.weight) + ", " + std::to_string(time.functions) + " functions, " +
+           structure_title(scene);
+  }
+  if (scene.analysis.type == AnalysisType::nonlinear_mode)
+    return "Mode " + std::to_string(scene.analysis.mode) +
+           ", N = " + std::to_string(scene.analysis.harmonics) +
+           ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
+  if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
+  if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
+  if (solves_by_phases(scene) || scene.analysis.exact)
+    return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
+  return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
+         std::to_string(scene.time.functions) + " functions";
+}
 
 Figure response_figure(const Scene& scene, const Response& response) {
   Scene solved = scene;
@@ -222,57 +213,6 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));
   }
   add_friction(figure, scene, response, window);
-  return figure;
-}
-
-Figure backbone_figure(const Scene& scene, const Table& backbone) {
-  const auto column = [&](std::string_view name, bool on_resonance) {
-    auto values = backbone.numbers(name);
-    const auto statuses = backbone.texts("status");
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const bool accepted = statuses[i] == "converged" || statuses[i] == "linear";
-      if (on_resonance ? statuses[i] != "tongue" : !accepted) values[i] = std::nan("");
-    }
-    return values;
-  };
-  Figure figure;
-  figure.title = method_title(scene);
-  figure.panel_width = 640;
-  figure.panel_height = 420;
-  Panel& panel = figure.add_panel();
-  panel.x.label = scene.analysis.reference_length > 0.0
-                      ? "Energy / energy of the linear mode at the reference length"
-                      : "Energy / grazing energy of the linear mode";
-  panel.x.lower = 0.0;
-  panel.x.upper = shown_energy(column("energy_ratio", false), scene.analysis.largest_energy);
-  panel.y.label = "Frequency / linear frequency";
-  // Points: neighbours may lie either side of an internal resonance.
-  panel.add({"ω", column("energy_ratio", false), column("frequency_ratio", false), SeriesStyle::points});
-  panel.add({"√r, Rayleigh quotient", column("energy_ratio", false),
-             column("rayleigh_frequency_ratio", false), SeriesStyle::points});
-  Series resonances("on an internal resonance", column("energy_ratio", true), column("frequency_ratio", true),
-                    SeriesStyle::points);
-  resonances.colour = Colour::grey;
-  panel.add(std::move(resonances)).mark_x(1.0);
-  return figure;
-}
-
-Figure damped_figure(const Scene& scene, const Table& backbone) {
-  Figure figure;
-  figure.title = method_title(scene);
-  figure.panel_width = 640;
-  figure.panel_height = 320;
-  for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
-                                             {"Damping", "damping_ratio", "Damping ratio"}}) {
-    Panel& panel = figure.add_panel(title);
-    panel.x.label = has_friction(scene) ? "Amplitude / amplitude of slip onset"
-                                        : "Amplitude / amplitude of first contact";
-    panel.x.logarithmic = true;
-    panel.y.label = label;
-    Series series("", backbone, "amplitude_ratio", column);
-    series.colour = Colour::blue;
-    panel.add(std::move(series)).mark_x(1.0);
-  }
   return figure;
 }
 

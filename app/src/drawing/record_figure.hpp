@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
@@ -13,12 +15,8 @@ Figure response_figure(const Scene& scene, const Response& response);
 /// The motion of a nonlinear mode at `frequency`, Hz.
 Figure motion_figure(const Scene& scene, const Response& response, double frequency);
 
-/// Frequency over energy from a backbone_table(): accepted points, the root of the generalised Rayleigh
-/// quotient, and points on internal resonances as marks.
-Figure backbone_figure(const Scene& scene, const Table& backbone);
-
-/// Frequency and damping ratio over amplitude from a damped_table().
-Figure damped_figure(const Scene& scene, const Table& backbone);
+/// How a scene is solved and of which size, as titles of its pictures begin.
+std::string method_title(const Scene& scene);
 
 /// A sweep over its frequency or amplitude, with its special points. The first output, or that of
 /// analysis.peak_of, leads with its vibration; without outputs the contacts do where static loads, preloads

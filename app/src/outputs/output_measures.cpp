@@ -106,14 +106,14 @@ Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const solv
 
 Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const Scene& scene,
                                   const StructureModel& model, const solvers::Motion& contacts,
-                                  const solvers::Motion& structure, int periods) {
+                                  const solvers::Motion& structure, const LoadAt& load) {
   solvers::Motion rows;
   if (structure.points() == contacts.points()) {
     const Eigen::MatrixXd places = rows_of_outputs(outputs, scene, model);
     rows.displacement = places * structure.displacement;
     if (structure.velocity.size() > 0) rows.velocity = places * structure.velocity;
   }
-  return values_of_outputs(outputs, rows, contacts, {scene.forcing.frequency, 1.0, periods});
+  return values_of_outputs(outputs, rows, contacts, load);
 }
 
 MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd& values,

@@ -48,11 +48,37 @@ std::string peak_text(double vibration, const std::string& unit, double resoluti
          place_text(place, place_resolution, axis);
 }
 
+namespace {
+
+/// "The vibration of row 19", "The velocity of row 3".
+std::string named_output(const std::string& name) {
+  return (name.find(" of ") == std::string::npos ? "The vibration of " : "The ") + name;
+}
+
+/// Along a nonlinear mode: where contacts begin to act, at the largest damping, and at most.
+void append_output_of_mode(std::vector<std::string>& sentences, const Table& outputs, std::size_t row) {
+  const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
+  const std::string unit = cell_text(outputs.at(row, "unit"));
+  std::string places;
+  if (const double onset = number("at_onset"); std::isfinite(onset))
+    places += fmt::format("{} where contacts begin to act, ", quantity(onset, unit));
+  if (outputs.has_column("at_largest_damping") && std::isfinite(number("at_largest_damping")))
+    places +=
+        fmt::format("{} where the damping ratio is largest, ", quantity(number("at_largest_damping"), unit));
+  sentences.push_back(fmt::format("{} (half peak to peak) is {}{}at most {}, at {}.",
+                                  named_output(cell_text(outputs.at(row, "output"))), places,
+                                  places.empty() ? "" : "and ", quantity(number("half_peak_to_peak"), unit),
+                                  quantity(number("at_frequency_Hz"), "Hz")));
+}
+
+}  // namespace
+
 void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
                    const SweepAxis& axis, bool with_digits) {
   const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
   const double vibration = number("half_peak_to_peak"), mean = number("mean");
   if (!std::isfinite(vibration)) return;
+  if (outputs.has_column("at_onset")) return append_output_of_mode(sentences, outputs, row);
   const std::string unit = cell_text(outputs.at(row, "unit")), name = cell_text(outputs.at(row, "output"));
   const bool curve = outputs.has_column(axis.column()), solved = curve && outputs.has_column("digits");
   double resolution = curve ? number(quantities::peak_value_resolution.name) : missing;
@@ -62,9 +88,7 @@ void append_output(std::vector<std::string>& sentences, const Table& outputs, st
                                                         number(quantities::peak_place_resolution.name), axis)
                                : quantity(vibration, unit) + " (half peak to peak)";
   constexpr double rounding = 1e-7;  // of what a balance and its peak resolve
-  const bool names_quantity = name.find(" of ") != std::string::npos;
-  sentences.push_back(fmt::format("The {}{} is {}, about a mean of {}.",
-                                  names_quantity ? "" : "vibration of ", name, size,
+  sentences.push_back(fmt::format("{} is {}, about a mean of {}.", named_output(name), size,
                                   std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
   if (with_digits && solved && std::isfinite(number("digits")))
     sentences.push_back(digits_sentence(number("digits"), std::isfinite(number("error_at_peak"))));

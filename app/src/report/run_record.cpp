@@ -60,7 +60,8 @@ bool may_write(const RunArguments& arguments, const Scene& scene, const std::str
   if (name == report_name) return report;
   const AnalysisType type = scene.analysis.type;
   const bool sweep = type == AnalysisType::frequency_sweep || type == AnalysisType::amplitude_sweep;
-  const bool curve = sweep || (type == AnalysisType::nonlinear_mode && scene.analysis.energy_ratio == 0.0);
+  const bool curve = sweep || (type == AnalysisType::nonlinear_mode && scene.analysis.energy_ratio == 0.0 &&
+                               scene.analysis.amplitude_ratio == 0.0);
   const std::string stem = sweep ? "sweep" : curve ? "backbone" : "response";
   for (const char* end : {".csv", ".svg", ".figure.js", ".motion.js"})
     if (name == stem + end) return true;

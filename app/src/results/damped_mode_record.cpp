@@ -10,6 +10,9 @@
 #include "files/missing.hpp"
 #include "results/contact_record.hpp"
 #include "results/extremes.hpp"
+#include "results/mode_output_record.hpp"
+#include "results/motion_files.hpp"
+#include "results/output_record.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/damped_modes.hpp"
@@ -77,7 +80,10 @@ Record curve_record(const DampedStudy& study, const StructureModel& model, const
                return point.omega / study.mode().linear_omega();
              }));
   record.backbone = damped_table(study, curve);
-  record.figure = damped_figure(study.scene(), record.backbone);
+  const std::vector<ModeOutput> outputs =
+      append_outputs(record, study.scene(), measure_outputs(study, curve, observer));
+  record.figure = damped_figure(study.scene(), record.backbone, leading_of(outputs, study.scene()));
+  draw_outputs(record, study.scene(), outputs);
   if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
   return record;
 }
@@ -91,7 +97,7 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   Response response;
   response.converged = response.moves = record.converged;
   const solvers::DampedPoint* point = record.converged ? &curve.points.back() : nullptr;
-  if (point != nullptr) response.contacts = study.contact_motion(*point);
+  if (point != nullptr) response.contacts = study.contact_motion(*point, scene.analysis.output_points);
   response.contact = leading_contact(scene, response.contacts, model.gaps);
   append_motion(record.summary, scene, point != nullptr ? response.contacts : solvers::Motion{},
                 response.contact);
@@ -104,9 +110,18 @@ Record motion_record(const DampedStudy& study, const StructureModel& model, cons
   record.add(quantities::damping_ratio, value([](const auto& one) { return one.damping_ratio(); }));
   append_friction(record, scene, response, frequency);
   if (point == nullptr) return record;
+  const auto structure_at = [&](int points) {
+    return study.motion_of(Eigen::MatrixXd::Identity(model.size(), model.size()), *point, points);
+  };
+  if (scene.analysis.has_outputs()) response.structure = structure_at(scene.analysis.output_points);
+  append_outputs(record, scene, model, response, {frequency, 0.0, 1});
   record.response = response_table(response.leading());
   add_contacts(record, scene, response.contacts, response.contact);
+  if (scene.analysis.motion_points > 0)
+    for (RecordFile& file : motion_files(model, structure_at(scene.analysis.motion_points).displacement))
+      record.files.push_back(std::move(file));
   record.figure = motion_figure(scene, response, frequency);
+  lead_with_output(record, scene);
   return record;
 }
 

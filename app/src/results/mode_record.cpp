@@ -9,7 +9,9 @@
 #include "drawing/mode_figure.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
+#include "results/mode_output_record.hpp"
 #include "results/motion_files.hpp"
+#include "results/output_record.hpp"
 #include "results/quantities.hpp"
 #include "results/stability.hpp"
 #include "results/summary_parts.hpp"
@@ -239,9 +241,12 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
              largest(curve, [&](const auto& point) { return point.omega / study.mode().linear_omega(); }));
   append_stability(record.summary, study, stability);
   record.backbone = backbone_table(study, curve);
+  const std::vector<ModeOutput> outputs =
+      append_outputs(record, study.scene(), measure_outputs(study, curve, observer));
   add_stability(record.backbone, stability);
-  record.figure = backbone_figure(study.scene(), record.backbone);
-  draw_stability(record.figure, record.backbone, study, stability);
+  record.figure = backbone_figure(study.scene(), record.backbone, leading_of(outputs, study.scene()));
+  draw_stability(record.figure, record.backbone, stability);
+  draw_outputs(record, study.scene(), outputs, stability);
   if (!record.converged) record.figure.title += " (INCOMPLETE: " + plain(record.status) + ")";
   return record;
 }
@@ -295,6 +300,10 @@ Record motion_record(const ModeStudy& study) {
                  moves ? point.min_force : missing, moves ? point.virial_residual : missing);
   if (!moves) return record;
   append_stability(record, study, point);
+  response.moves = true;
+  if (scene.analysis.has_outputs())
+    response.structure = study.structure_motion(point, scene.analysis.output_points);
+  append_outputs(record, scene, study.model(), response, {ratio * study.linear_frequency(), 0.0, 1});
   record.response = response_table(response.leading());
   add_contacts(record, scene, response.contacts, response.contact);
   if (scene.analysis.motion_points > 0)
@@ -302,6 +311,7 @@ Record motion_record(const ModeStudy& study) {
         motion_files(study.model(), study.structure_motion(point, scene.analysis.motion_points).displacement);
   record.figure =
       motion_figure(scene, response, std::round(100.0 * ratio * study.linear_frequency()) / 100.0);
+  lead_with_output(record, scene);
   return record;
 }
 

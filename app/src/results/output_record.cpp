@@ -28,27 +28,6 @@ std::vector<const MeasuredPoint*> in_rows(const SweepOutputs& outputs, bool with
   return points;
 }
 
-/// The table with the columns of all outputs.
-Table with_outputs(const Table& table, const SweepOutputs& outputs, int harmonics, bool with_branches) {
-  std::vector<std::string> columns = table.columns();
-  for (const Output& output : outputs.outputs)
-    for (std::string& column : columns_of(output, harmonics)) columns.push_back(std::move(column));
-  Table wide(columns);
-  const std::vector<const MeasuredPoint*> points = in_rows(outputs, with_branches);
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    std::vector<Cell> cells = table.row(row);
-    const MeasuredPoint* point = row < points.size() ? points[row] : nullptr;
-    for (std::size_t i = 0; i < outputs.outputs.size(); ++i) {
-      const bool known = point != nullptr && !point->empty();
-      for (const double cell :
-           cells_of(outputs.outputs[i], known ? (*point)[i] : OutputMeasures(), harmonics))
-        cells.emplace_back(cell);
-    }
-    wide.append_row(std::move(cells));
-  }
-  return wide;
-}
-
 double relative_error(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
 
 /// Of an output along a curve, as its points and what was solved for between them tell.
@@ -174,17 +153,6 @@ Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& me
   return table;
 }
 
-/// Puts the output that leads and what is known of each of analysis.outputs right behind how the run ended.
-void insert_outputs(Summary& summary, const Scene& scene, const std::vector<Output>& outputs,
-                    Summary entries) {
-  for (Entry& one : entries) one.kind = EntryKind::result;
-  if (const auto leading = leading_output(outputs, scene))
-    entries.emplace(entries.begin(), quantities::leading_output, outputs[*leading].name);
-  const auto status = std::find_if(summary.begin(), summary.end(),
-                                   [](const Entry& one) { return one.name == quantities::status.name; });
-  summary.insert(status == summary.end() ? status : status + 1, entries.begin(), entries.end());
-}
-
 /// Of each of analysis.outputs along a curve.
 Summary curve_entries(const Sweep& sweep, const SweepOutputs& outputs, const Table& peaks,
                       std::size_t count) {
@@ -217,10 +185,38 @@ Summary motion_entries(const std::vector<Output>& outputs, const MeasuredPoint& 
 
 }  // namespace
 
+Table with_outputs(const Table& table, const std::vector<Output>& outputs,
+                   const std::vector<const MeasuredPoint*>& points, int harmonics) {
+  std::vector<std::string> columns = table.columns();
+  for (const Output& output : outputs)
+    for (std::string& column : columns_of(output, harmonics)) columns.push_back(std::move(column));
+  Table wide(columns);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::vector<Cell> cells = table.row(row);
+    const MeasuredPoint* point = row < points.size() ? points[row] : nullptr;
+    const bool known = point != nullptr && !point->empty();
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      for (const double cell : cells_of(outputs[i], known ? (*point)[i] : OutputMeasures(), harmonics))
+        cells.emplace_back(cell);
+    wide.append_row(std::move(cells));
+  }
+  return wide;
+}
+
+void insert_outputs(Summary& summary, const Scene& scene, const std::vector<Output>& outputs,
+                    Summary entries) {
+  for (Entry& one : entries) one.kind = EntryKind::result;
+  if (const auto leading = leading_output(outputs, scene))
+    entries.emplace(entries.begin(), quantities::leading_output, outputs[*leading].name);
+  const auto status = std::find_if(summary.begin(), summary.end(),
+                                   [](const Entry& one) { return one.name == quantities::status.name; });
+  summary.insert(status == summary.end() ? status : status + 1, entries.begin(), entries.end());
+}
+
 void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs) {
   if (outputs.empty()) return;
-  record.sweep =
-      with_outputs(record.sweep, outputs, scene.analysis.output_harmonics, scene.analysis.branches);
+  record.sweep = with_outputs(record.sweep, outputs.outputs, in_rows(outputs, scene.analysis.branches),
+                              scene.analysis.output_harmonics);
   const Table peaks = peaks_table(sweep, outputs);
   insert_outputs(record.summary, scene, outputs.outputs,
                  curve_entries(sweep, outputs, peaks, scene.analysis.outputs.size()));
@@ -232,12 +228,12 @@ void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, cons
       {"outputs", std::move(figure), "the vibration of each output along the curve"});
 }
 
-void append_outputs(Record& record, const Scene& scene, const StructureModel& model,
-                    const Response& response) {
+void append_outputs(Record& record, const Scene& scene, const StructureModel& model, const Response& response,
+                    const LoadAt& load) {
   const std::vector<Output> outputs = outputs_of(scene);
   if (outputs.empty() || !response.moves || response.recorded || response.contacts.empty()) return;
   const Eigen::MatrixXd motion =
-      values_of_outputs(outputs, scene, model, response.contacts, response.structure, response.periods);
+      values_of_outputs(outputs, scene, model, response.contacts, response.structure, load);
   const int harmonics = scene.analysis.output_harmonics;
   const Eigen::MatrixXd force = response.forces_are_known() ? response.contacts.force : Eigen::MatrixXd();
   record.outputs.add_column("time_fraction", time_fractions(int(motion.cols())));

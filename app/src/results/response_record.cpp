@@ -248,7 +248,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, scene, model);
   append_rest(record, scene, model);
-  append_outputs(record, scene, model, response);
+  append_outputs(record, scene, model, response, {scene.forcing.frequency, 1.0, response.periods});
   if (!response.moves || response.contacts.empty()) return record;
   record.response = response_table(response.leading());
   record.figure = response_figure(scene, response);

@@ -249,6 +249,29 @@ bool DampedMotions::solve_bordered(const Eigen::VectorXd& row, double last, cons
   return solve_bordered_dense(jacobian(), row, last, right, last_right, change, parameter_change);
 }
 
+Eigen::MatrixXcd DampedMotions::modal_coefficients(const DampedPoint& point) const {
+  const Eigen::MatrixXd motion = point.displacement.transpose().rowwise() - problem_.rest.transpose();
+  const Eigen::MatrixXd beyond_rest = (point.force.transpose().rowwise() - problem_.rest_force.transpose()) -
+                                      motion * problem_.rest_slope.transpose();
+  const Eigen::MatrixXd psi = detail::product(problem_.transform.pair.projection, beyond_rest);
+  const Index m = problem_.mode;
+  Eigen::MatrixXcd modes(problem_.shape_inertia.size(), problem_.highest() + 1);
+  for (int k = 0; k <= problem_.highest(); ++k) {
+    Eigen::MatrixXcd stiffness =
+        stiffness_at(k, point.omega / problem_.omega, point.xi / problem_.omega).value;
+    Eigen::VectorXcd right = Eigen::VectorXcd::Zero(modes.rows());
+    for (int c = 0; c < problem_.contacts(); ++c)
+      right -= problem_.contact_shapes.row(c).transpose() * force_coefficient(psi, c, k);
+    if (k == 1) {  // as in set_first()
+      stiffness.row(m).setZero();
+      stiffness(m, m) = 1.0;
+      right[m] = point.amplitude / (problem_.wave * problem_.reach);
+    }
+    modes.col(k) = detail::Lu<Complex>(stiffness).solve(right);
+  }
+  return modes;
+}
+
 Eigen::MatrixXd DampedMotions::force() const {
   return forces_.force.reshaped(problem_.points(), problem_.contacts());
 }

@@ -17,11 +17,13 @@ struct DampedProblem {
   Eigen::VectorXd shape_inertia;   ///< r, X^T M X times omega_m^2: 1 of mode m, 0 of one without mass
   Eigen::MatrixXd shape_damping;   ///< r x r, X^T C X omega_m
   Eigen::MatrixXd shape_loss;      ///< r x r, eta X^T K X; empty without structural damping
+  Eigen::MatrixXd shapes;          ///< n x r, X
   Eigen::MatrixXd contact_shapes;  ///< C x r, S X
   double omega = 0.0;              ///< rad/s, of the linear mode
   double reach = 0.0;              ///< the largest contact displacement of the mode's shape
   double wave = 0.0;               ///< amplitude of the first harmonic of a unit Re a(1)
-  Eigen::VectorXd rest;            ///< C, m, displacements under the static loads
+  Eigen::VectorXd rest_state;      ///< n, displacements under the static loads
+  Eigen::VectorXd rest;            ///< C, m, those of the contacts
   Eigen::VectorXd rest_force;      ///< C, N
   Eigen::MatrixXd rest_slope;      ///< C x C, N/m: D
   DampedTransform transform;
@@ -74,6 +76,9 @@ class DampedMotions {
   /// Displacements and forces at the samples, N x C, of the state last evaluated.
   const Eigen::MatrixXd& displacement() const { return samples_; }
   Eigen::MatrixXd force() const;
+
+  /// Coefficients of the modes in a motion of the curve, r x (K + 1), beside the state of rest. O(M r^3).
+  Eigen::MatrixXcd modal_coefficients(const DampedPoint& point) const;
 
   /// The derivatives of the residual by the unknowns, and by the parameter in the last column.
   Eigen::MatrixXd jacobian() const;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
 #include "linalg/option_checks.hpp"
 #include "modes/damped_equations.hpp"
@@ -187,6 +189,17 @@ double DampedMode::linear_amplitude() const {
 DampedBackbone DampedMode::backbone(const DampedBackboneOptions& options) const {
   options.validate();
   return DampedFollower(*problem_, options).follow();
+}
+
+Eigen::MatrixXcd DampedMode::amplitudes(const DampedPoint& point, const Eigen::MatrixXd& places) const {
+  const PairTransform& pair = problem_->transform.pair;
+  const Eigen::MatrixXd shapes = detail::product(places, problem_->shapes);
+  const Eigen::MatrixXcd spectra =
+      shapes.cast<std::complex<double>>() * DampedMotions(*problem_, {}).modal_coefficients(point);
+  Eigen::MatrixXcd amplitudes = spectra * pair.harmonics.transpose();
+  amplitudes += spectra.conjugate() * pair.conjugated.transpose();
+  amplitudes.col(0) += places * problem_->rest_state;
+  return amplitudes;
 }
 
 }  // namespace wavebalance::solvers

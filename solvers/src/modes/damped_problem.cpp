@@ -90,7 +90,8 @@ void set_modes(const LinearStructure& structure, DampedProblem& problem, int mod
     throw std::invalid_argument(
         "DampedMode: the stiffness with that of the contacts at rest is not positive definite; it must be");
   const Eigen::VectorXd inertia = modes->values.reverse();  // 1 / omega^2, of the lowest mode first
-  const Eigen::MatrixXd shapes = modes->vectors.rowwise().reverse();
+  problem.shapes = modes->vectors.rowwise().reverse();
+  const Eigen::MatrixXd& shapes = problem.shapes;
   const double rounding = 1e-13 * inertia[0];
   const auto moving = static_cast<int>((inertia.array() > rounding).count());
   if (mode > moving) detail::reject(damped_mode, "mode", mode, ("in 1.." + std::to_string(moving)).c_str());
@@ -131,7 +132,8 @@ DampedProblem damped_problem(const LinearStructure& structure, const TimePair& p
   DampedProblem problem;
   problem.transform = make_damped_transform(pair);
   problem.wave = first_wave(problem.transform.pair);
-  problem.rest = structure.contact_directions * displacements_at_rest(structure, laws);
+  problem.rest_state = displacements_at_rest(structure, laws);
+  problem.rest = structure.contact_directions * problem.rest_state;
   ContactsAtRest rest = contacts_at_rest(laws, problem.rest);
   problem.rest_force = std::move(rest.force);
   problem.rest_slope = std::move(rest.slope);

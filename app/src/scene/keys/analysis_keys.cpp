@@ -97,8 +97,9 @@ void set_outputs(Scene& scene, const SceneValue& value) {
 void places_of_outputs(SceneKey& key) { key.set = set_outputs; }
 
 void add_outputs(std::vector<SceneKey>& keys) {
-  const Condition moves = analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep",
-                                       "time_stepping", "limit_cycle", "bifurcation_diagram"});
+  const Condition moves =
+      analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "time_stepping", "nonlinear_mode",
+                   "limit_cycle", "bifurcation_diagram"});
   const Section outputs(keys, "analysis", analysis_part, moves);
   outputs(&Analysis::outputs, "outputs", "",
           "places whose motion is written and shown first: \"row 7\" or 7 of matrices, with "
@@ -111,8 +112,8 @@ void add_outputs(std::vector<SceneKey>& keys) {
           "true makes each contact an output, with its force",
           derived("true in a sweep with 2 to 6 contact degrees of freedom", contact_outputs_by_default));
   outputs(&Analysis::output_harmonics, "output_harmonics", "",
-          "forcing harmonics whose amplitude and phase are written for each output", within(0, 1000),
-          optional);
+          "forcing harmonics, or harmonics of a mode, whose amplitude and phase are written for each output",
+          within(0, 1000), optional);
   const Section sweep(keys, "analysis", analysis_part, of_sweeps());
   sweep(&Analysis::peak_of, "peak_of", "",
         "output that defines the peak, as \"node 1052 z\", \"row 17\" or \"contact 2\": its "

@@ -18,17 +18,23 @@ class DampedStudy {
   DampedStudy(const Scene& scene, const StructureModel& model);
 
   const Scene& scene() const { return scene_; }
+  const StructureModel& model() const { return model_; }
   const solvers::DampedMode& mode() const { return mode_; }
   /// m, at which a contact first slips, opens or closes
   double slip_amplitude() const { return slip_amplitude_; }
 
   /// From half the amplitude of first slip to `largest` times it.
   solvers::DampedBackbone curve(double largest, const solvers::Observer& observer) const;
-  /// One period of the contacts at analysis.output_points times.
-  solvers::Motion contact_motion(const solvers::DampedPoint& point) const;
+  /// One period of the contacts at `points` uniform times.
+  solvers::Motion contact_motion(const solvers::DampedPoint& point, int points) const;
+  /// The same of `places`, rows times the degrees of freedom of the reduced structure, without forces. A
+  /// condensation.
+  solvers::Motion motion_of(const Eigen::MatrixXd& places, const solvers::DampedPoint& point,
+                            int points) const;
 
  private:
   Scene scene_;
+  StructureModel model_;
   solvers::DampedMode mode_;
   double slip_amplitude_;
 };

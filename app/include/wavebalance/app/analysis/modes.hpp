@@ -81,6 +81,8 @@ class ModeStudy {
   Backbone backbone(double largest_energy, const solvers::Observer& observer = {}) const;
   /// A point of the linear mode, energy ratio 0..1.
   solvers::ModePoint linear_mode(double energy_ratio) const;
+  /// The branch below contact, energy ratios 0, 0.2, .., 1; empty where a law acts from rest on.
+  std::vector<solvers::ModePoint> linear_points() const;
   /// The motion of an energy ratio > 0: the linear mode up to 1, beyond it a point of the curve.
   solvers::ModePoint at_energy(double energy_ratio) const;
   /// The same on a given curve of a mode with a rigid obstacle.
@@ -90,8 +92,11 @@ class ModeStudy {
   /// obstacle are known at analysis.samples times only and hold that of the nearest one. Empty unless the
   /// point is a solution. O(c N points).
   solvers::Motion contact_motion(const solvers::ModePoint& point, int points) const;
-  /// The same of all degrees of freedom of the reduced structure, without forces; model().recover() gives
-  /// the whole structure's displacements from these. O(n N points).
+  /// The same of `places`, rows times the degrees of freedom of the reduced structure, without forces. O(rows
+  /// (n r + N points)).
+  solvers::Motion motion_of(const Eigen::MatrixXd& places, const solvers::ModePoint& point, int points) const;
+  /// The same of all degrees of freedom; model().recover() gives the whole structure's displacements from
+  /// these. O(n N points).
   solvers::Motion structure_motion(const solvers::ModePoint& point, int points) const;
 
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
@@ -109,6 +114,9 @@ class ModeStudy {
 
 /// "3:2"
 std::string resonance_name(const solvers::InternalResonance& resonance);
+
+/// One period of the motion with these amplitudes, as ModePoint has them (rows x (N + 1)), without forces.
+solvers::Motion synthesised_motion(const Eigen::MatrixXcd& amplitudes, double omega, int points);
 
 /// The extremes and the rms of the contacts' displacements u (contacts x instants), each at the contact where
 /// it is largest, as columns of a table; missing without a motion.

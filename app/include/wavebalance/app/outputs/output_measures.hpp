@@ -32,7 +32,7 @@ using MeasuredPoint = std::vector<OutputMeasures>;
 /// The load at a motion.
 struct LoadAt {
   double frequency = 0.0;  ///< Hz
-  double factor = 1.0;     ///< on that of the scene, but its static part
+  double factor = 1.0;     ///< on that of the scene, but its static part; 0 of a free motion
   int periods = 1;         ///< of the load, in the motion
 };
 
@@ -45,7 +45,7 @@ Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const solv
 /// The same from the motion of the structure that is solved; it may be empty where all are contacts.
 Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const Scene& scene,
                                   const StructureModel& model, const solvers::Motion& contacts,
-                                  const solvers::Motion& structure, int periods);
+                                  const solvers::Motion& structure, const LoadAt& load);
 
 /// What is measured of `values`, outputs x points at uniform times of `periods` periods of the load, with
 /// `harmonics` harmonics of the load. Forces are those of the contacts. O(outputs harmonics points).

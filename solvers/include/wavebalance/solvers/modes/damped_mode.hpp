@@ -94,6 +94,12 @@ class DampedMode {
   /// The curve between two amplitudes. Throws as the options' validate() does.
   DampedBackbone backbone(const DampedBackboneOptions& options) const;
 
+  /// Amplitudes q_n, n = 0..N, of `places` (rows times the structure's degrees of freedom) in a motion of
+  /// this mode, places x (N + 1), as ModePoint has them, with the state of rest: the structure follows the
+  /// forces of its contacts by dynamic condensation at each harmonic, in which that of mode m at the first is
+  /// given. N is half the number of samples unless the trial basis is Fourier. O(M n^3).
+  Eigen::MatrixXcd amplitudes(const DampedPoint& point, const Eigen::MatrixXd& places) const;
+
  private:
   std::shared_ptr<const DampedProblem> problem_;
 };
