@@ -32,6 +32,7 @@ struct Backbone {
   double linear_frequency = 0.0;  // Hz
   std::vector<ModePoint> points;
   std::vector<solvers::ModeStability> stability;
+  Eigen::MatrixXd shapes = {};  // n x r, of the linear modes
 };
 
 app::StructureModes modes_of(const solvers::LinearStructure& structure, const solvers::ContactLaws& laws,
@@ -87,16 +88,36 @@ Backbone backbone(const Structure& structure, const py::object& laws, const solv
   all.require(structure.contacts());
   return unlocked([&](const solvers::Observer& observer) {
     const app::StructureModes modes = modes_of(structure, all, gaps);
-    return all.have_finite_force() ? elastic_backbone(modes.model, pair, all, of, observer)
-                                   : rigid_backbone(modes.model, of, observer);
+    Backbone found = all.have_finite_force() ? elastic_backbone(modes.model, pair, all, of, observer)
+                                             : rigid_backbone(modes.model, of, observer);
+    found.shapes = modes.shapes;
+    return found;
   });
+}
+
+/// Of the whole structure at a point.
+solvers::Motion structure_motion(const Backbone& one, int index, int points) {
+  const ModePoint& point = one.points.at(static_cast<std::size_t>(index));
+  if (point.amplitudes.size() == 0)
+    throw std::invalid_argument("index is " + std::to_string(index) + ": no motion was found there (" +
+                                std::string(to_string(point.status)) + "); expected a point with a motion");
+  return app::synthesised_motion(one.shapes * point.amplitudes, point.omega, points);
 }
 
 /// A nonlinear mode of a structure that loses energy, over its amplitude.
 struct DampedCurve {
   double linear_frequency = 0.0, linear_damping_ratio = 0.0, linear_amplitude = 0.0;  // Hz, 1, m
+  solvers::DampedMode mode;
+  int size;  // degrees of freedom of the structure
   solvers::DampedBackbone curve;
 };
+
+/// Of the whole structure at a point.
+solvers::Motion structure_motion(const DampedCurve& one, int index, int points) {
+  const solvers::DampedPoint& point = one.curve.points.at(static_cast<std::size_t>(index));
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(one.size, one.size);
+  return app::synthesised_motion(one.mode.amplitudes(point, all), point.omega, points);
+}
 
 /// Amplitudes of 0: half of that of first slip, and ten times it.
 DampedCurve damped_curve(const Structure& structure, const py::object& laws, const solvers::TimePair& pair,
@@ -108,6 +129,8 @@ DampedCurve damped_curve(const Structure& structure, const py::object& laws, con
     DampedCurve result{damped.linear_omega() / (2.0 * std::numbers::pi),
                        damped.linear_damping_ratio(),
                        damped.linear_amplitude(),
+                       damped,
+                       structure.size(),
                        {}};
     const bool slips = std::isfinite(result.linear_amplitude) && result.linear_amplitude > 0.0;
     if (!slips && !(first > 0.0 && last > 0.0))
@@ -169,6 +192,7 @@ void add_modes(py::module_& module) {
                                                   &solvers::ModeStability::unstable, self);
                              })
       .def("__len__", [](const Backbone& one) { return one.points.size(); })
+      .def("structure_motion", py::overload_cast<const Backbone&, int, int>(&structure_motion))
       .def("amplitudes", [](const Backbone& one, int index) {
         return one.points.at(static_cast<std::size_t>(index)).amplitudes;
       });
@@ -196,6 +220,7 @@ void add_modes(py::module_& module) {
       .def_property_readonly("damping_ratio",
                              [](const DampedCurve& one) { return owned(damping_ratios(one)); })
       .def("__len__", [](const DampedCurve& one) { return one.curve.points.size(); })
+      .def("structure_motion", py::overload_cast<const DampedCurve&, int, int>(&structure_motion))
       .def("displacement",
            [](const DampedCurve& one, int index) {
              return one.curve.points.at(static_cast<std::size_t>(index)).displacement;

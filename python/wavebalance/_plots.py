@@ -93,9 +93,17 @@ def record_diagram(columns: dict[str, Any], ax: Any = None) -> Any:
     return ax
 
 
-def record_backbone(columns: dict[str, Any], ax: Any = None) -> Any:
+def record_backbone(columns: dict[str, Any], ax: Any = None, column: str | None = None, unit: str = "m") -> Any:
     ax = axes(ax)
-    if "amplitude_ratio" in columns:
+    damped = "amplitude_ratio" in columns
+    if column:
+        known = np.array([one in ("converged", "linear") for one in columns["status"]], bool)
+        drawn = columns["damping_ratio" if damped else "frequency_Hz"]
+        (ax.semilogx if damped else ax.plot)(columns[column], np.where(known, drawn, np.nan))
+        ax.set_xlabel(_labelled(column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit))
+        ax.set_ylabel("Damping ratio" if damped else "Frequency (Hz)")
+        return ax
+    if damped:
         ax.semilogx(columns["amplitude_ratio"], columns["damping_ratio"])
         ax.set_xlabel("Amplitude / amplitude of first contact or slip")
         ax.set_ylabel("Damping ratio")

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core, _plots
 from .laws import LawLike, as_laws
+from .responses import Motion
 from .structure import Pair, Structure
 
 __all__ = ["Backbone", "DampedMode", "backbone", "damped_mode"]
@@ -73,6 +74,13 @@ class Backbone(_Points):
     def amplitudes(self, index: int) -> npt.NDArray[np.complex128]:
         """Complex amplitudes of the motion at a point in the linear modes, r × (N + 1), m sqrt(kg)."""
         return self._core.amplitudes(self._place(index))
+
+    def structure_motion(self, index: int, points: int = 1024) -> Motion:
+        """Displacements and velocities of all degrees of freedom at a point, over one period at `points` instants.
+
+        Raises ValueError where no motion was found.
+        """
+        return Motion(self._core.structure_motion(self._place(index), points))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the frequency over the energy with Matplotlib, and returns the axes."""
@@ -176,6 +184,10 @@ class DampedMode(_Points):
     def force(self, index: int) -> Numbers:
         """Forces of the contacts over a period at a point, contacts × samples, N."""
         return self._core.force(self._place(index))
+
+    def structure_motion(self, index: int, points: int = 1024) -> Motion:
+        """Displacements and velocities of all degrees of freedom at a point, over one period at `points` instants."""
+        return Motion(self._core.structure_motion(self._place(index), points))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the damping ratio over the amplitude with Matplotlib, and returns the axes."""

@@ -46,7 +46,7 @@ class Record:
         Motion and force of every contact, where there are several.
     outputs: dict
         Of a motion with analysis.outputs: time_fraction and a column for each, over one period. Of a curve the columns stand
-        in `sweep`.
+        in `sweep`, of a nonlinear mode in `backbone`.
     sweep: dict
         Of a curve: frequency_Hz (or the amplitude), max_displacement_m, ..., unstable, contacts; with analysis.phases
         error_of_displacement, error_of_force, phases_status, stability_by. The summary has these errors of the peak.
@@ -100,16 +100,18 @@ class Record:
     def plot(self, ax: Any = None) -> Any:
         """Draws the motion, the curve (unstable parts dashed), the mode or the dots of a diagram with Matplotlib, and returns the axes.
 
-        With ``analysis.outputs`` the motion and the curve are those of the output that leads, otherwise of contacts.
+        With ``analysis.outputs`` the motion, the curve and the mode's amplitude are those of the output that leads, otherwise
+        of contacts.
         """
         leading, unit = self._leading_output()
+        curve = self.sweep or self.backbone
+        column = next((name for name in curve if leading and name.startswith(f"{leading}_half_peak_to_peak")), None)
         if self.sweep:
-            column = next((name for name in self.sweep if name.startswith(f"{leading}_half_peak_to_peak")), None)
-            return _plots.record_sweep(self.sweep, ax, column, unit) if leading and column else _plots.record_sweep(self.sweep, ax)
+            return _plots.record_sweep(self.sweep, ax, column, unit) if column else _plots.record_sweep(self.sweep, ax)
         if self.section and not self.response:
             return _plots.record_diagram(self.section, ax)
         if self.backbone:
-            return _plots.record_backbone(self.backbone, ax)
+            return _plots.record_backbone(self.backbone, ax, column, unit)
         column = next((name for name in self.outputs if name in (leading, f"{leading}_{_suffix(unit)}")), None)
         return _plots.record_response(self.outputs, ax, column, unit) if leading and column else _plots.record_response(self.response, ax)
 
