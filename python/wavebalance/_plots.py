@@ -72,7 +72,7 @@ def record_sweep(columns: dict[str, Any], ax: Any = None, column: str = "max_dis
         curve(ax, columns[name][of], columns[column][of], unstable[of])
     ax.set_xlabel("Frequency (Hz)" if name == "frequency_Hz" else name.replace("_", " "))
     if column == "max_displacement_m":
-        ax.set_ylabel("Largest displacement (m)")
+        ax.set_ylabel(_labelled("Largest displacement", unit))
     else:
         ax.set_ylabel(_labelled(column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit))
     return ax

@@ -106,14 +106,17 @@ class Record:
         leading, unit = self._leading_output()
         curve = self.sweep or self.backbone
         column = next((name for name in curve if leading and name.startswith(f"{leading}_half_peak_to_peak")), None)
+        of_contacts = str(self.summary.get("displacement_unit", "m"))
         if self.sweep:
-            return _plots.record_sweep(self.sweep, ax, column, unit) if column else _plots.record_sweep(self.sweep, ax)
+            return _plots.record_sweep(self.sweep, ax, column, unit) if column else _plots.record_sweep(self.sweep, ax, unit=of_contacts)
         if self.section and not self.response:
             return _plots.record_diagram(self.section, ax)
         if self.backbone:
             return _plots.record_backbone(self.backbone, ax, column, unit)
         column = next((name for name in self.outputs if name in (leading, f"{leading}_{_suffix(unit)}")), None)
-        return _plots.record_response(self.outputs, ax, column, unit) if leading and column else _plots.record_response(self.response, ax)
+        if leading and column:
+            return _plots.record_response(self.outputs, ax, column, unit)
+        return _plots.record_response(self.response, ax, unit=of_contacts)
 
     def _leading_output(self) -> tuple[str, str]:
         """How its columns begin, and its unit; empty without analysis.outputs."""

@@ -1,4 +1,5 @@
 #include "wavebalance/app/attractors/recorded_motion.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -147,7 +148,7 @@ class PlaceMeasures {
     add("min_in_a_period", unit, negative_of(batch_mean(values_.at("bottom"))));
     add("max", unit, largest_of_record(values_.at("top")));
     add("min", unit, negative_of(largest_of_record(values_.at("bottom"))));
-    mean_if("f", "mean_force", unit == "rad" ? "N m" : "N");
+    mean_if("f", "mean_force", force_unit(unit));
     if (!impulsive) append_force();
     mean_if("closed", "contact_fraction", "");
     append_events();
@@ -163,7 +164,7 @@ class PlaceMeasures {
   }
   void append_force() {
     if (!values_.contains("ff")) return;
-    const std::string unit = place_.unit == "rad" ? "N m" : "N";
+    const std::string unit = force_unit(place_.unit);
     add("rms_force", unit, root_of(batch_mean(values_.at("ff"))));
     add("max_force_in_a_period", unit, batch_mean(values_.at("force")));
     add("max_force", unit, largest_of_record(values_.at("force")));

@@ -48,6 +48,14 @@ Cantilever cantilever() {
   return beam;
 }
 
+/// The names of its rows: deflection and rotation of each node from the clamp on.
+std::string row_names(Eigen::Index rows) {
+  std::string text = "row,node,direction\n";
+  for (Eigen::Index row = 0; row < rows; ++row)
+    text += std::to_string(row + 1) + "," + std::to_string(row / 2 + 1) + (row % 2 == 0 ? ",z\n" : ",ry\n");
+  return text;
+}
+
 std::string matrix_text(const Eigen::SparseMatrix<double>& matrix) {
   std::ostringstream text;
   fem::write_matrix_market(text, matrix, fem::MatrixMarketSymmetry::symmetric);
@@ -84,6 +92,7 @@ std::vector<RecordFile> starter_scene(const std::string& kind, const std::string
     const Cantilever beam = cantilever();
     files.push_back({stem + "_mass.mtx", matrix_text(beam.mass), ""});
     files.push_back({stem + "_stiffness.mtx", matrix_text(beam.stiffness), ""});
+    files.push_back({stem + "_rows.csv", row_names(beam.mass.rows()), ""});
   }
   return files;
 }

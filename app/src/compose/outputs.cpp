@@ -52,14 +52,16 @@ void set_numbered_place(Output& output, int number, int size) {
   output.rows = {number - 1};
 }
 
-/// The rows of a place, and its name: that of the dof map where it has the row.
-void set_place(Output& output, OutputWords& words, const Scene& scene, bool& rotation) {
+/// The rows of a place, and its name: that of the dof map where it has the row. Sets whether it rotates,
+/// which of matrices without a dof map is not known.
+void set_place(Output& output, OutputWords& words, const Scene& scene, std::optional<bool>& rotation) {
   const bool negative = words.place.starts_with('-');
   std::string place = negative ? words.place.substr(1) : words.place;
   if (scene.structure.type != StructureType::matrices) {
     const std::optional<int> node = number_after(place, "node ");
     if (!node) fail_at_place(words);
     set_numbered_place(output, *node, scene.structure.elements);
+    rotation = false;
   } else {
     const auto files = structure_files(scene);
     const auto named = named_dof(place);
@@ -76,7 +78,7 @@ void set_place(Output& output, OutputWords& words, const Scene& scene, bool& rot
       set_numbered_place(output, *row, int(files->file_rows()));
     }
     if (output.rows.size() == 1) place = files->row_name(output.rows.front());
-    rotation = is_rotation(*files, output.rows.front());
+    if (files->dof_map) rotation = is_rotation(*files, output.rows.front());
     for (const int row : output.rows)
       if (std::binary_search(files->moving.begin(), files->moving.end(), row))
         throw std::invalid_argument(fmt::format(
@@ -108,7 +110,7 @@ void add_carried(Output& output, const Scene& scene) {
 Output output_of(const Scene& scene, const std::string& text) {
   OutputWords words = output_words(text);
   Output output;
-  bool rotation = false;
+  std::optional<bool> rotation;
   set_place(output, words, scene, rotation);
   const OutputUnit& unit = output_unit(words, rotation);
   output.name = output_name(words);
@@ -170,6 +172,10 @@ std::string displacement_unit(const Scene& scene) {
   const std::vector<SceneContact> contacts = contact_places(scene);
   const auto rotates = [&](const SceneContact& one) { return displacement_unit(scene, one) == "rad"; };
   return !contacts.empty() && std::ranges::all_of(contacts, rotates) ? "rad" : "m";
+}
+
+std::string force_unit(const std::string& displacement_unit) {
+  return displacement_unit == "rad" ? "N m" : "N";
 }
 
 std::vector<Output> outputs_of(const Scene& scene) {

@@ -84,8 +84,10 @@ std::string law_text(const std::vector<SceneContact>& contacts) {
 std::string contact_line(const Scene& scene) {
   if (scene.contact.law == no_law) return "contact    none: the problem is linear\n";
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  return "contact    " + law_text(contacts) + " " + contact_place(scene) + ", " +
-         gap_text(contacts, displacement_unit(scene)) + sides_text(scene) + "\n";
+  const std::string unit = displacement_unit(scene);
+  return "contact    " + law_text(contacts) + " " + contact_place(scene) + ", " + gap_text(contacts, unit) +
+         sides_text(scene) +
+         (unit == "rad" ? "; between rotations: forces in N m, stiffnesses in N m/rad\n" : "\n");
 }
 
 }  // namespace wavebalance::app

@@ -204,15 +204,16 @@ void scale_amplitudes(Figure& figure, const SweepAxis& axis) {
   }
 }
 
-Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output) {
+Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output,
+                      const std::string& of_contacts) {
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
   const Output* drawn = output ? &outputs.outputs[*output] : nullptr;
-  const Scale scale = scale_of(lines, output, drawn == nullptr ? "m" : drawn->unit);
+  const Scale scale = scale_of(lines, output, drawn == nullptr ? of_contacts : drawn->unit);
   Panel panel;
   panel.title = drawn == nullptr ? "Vibration of the contacts" : vibration_title(*drawn);
   panel.x.label = sweep_axis(sweep).label();
-  panel.y.label =
-      drawn == nullptr ? "Vibration (" + scale.prefix + "m)" : ordinate(*drawn, scale, "Vibration");
+  panel.y.label = drawn == nullptr ? "Vibration (" + scale.prefix + of_contacts + ")"
+                                   : ordinate(*drawn, scale, "Vibration");
   panel.y.lower = 0.0;
   draw_vibrations(panel, lines, output, scale.factor);
   return panel;

@@ -28,8 +28,10 @@ std::string vibration_title(const Output& output);
 void scale_amplitudes(Figure& figure, const SweepAxis& axis);
 
 /// The vibration along a sweep, its branches and isolas with their special points: half the peak-to-peak
-/// value and the rms without the mean, of an output or, without one, of the contact that vibrates most.
-Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output);
+/// value and the rms without the mean, of an output or, without one, of the contact that vibrates most, whose
+/// displacement has the unit `of_contacts`.
+Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output,
+                      const std::string& of_contacts);
 
 /// Each output over one period, which a response has; `motion` is outputs x points.
 Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd& motion,

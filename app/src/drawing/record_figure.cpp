@@ -195,7 +195,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   const PeriodWindow window(response);
   const MotionPicture picture{response, window, contact_spans(scene, response, window),
                               contacts.size() > 1 ? ", " + plain(name_of(contact)) : ""};
-  const std::string unit = displacement_unit(scene, contact), force_unit = unit == "rad" ? "N m" : "N";
+  const std::string unit = displacement_unit(scene, contact);
   add_motion(figure, picture, "Displacement", unit, response.displacement());
   if (response.impacts || !response.struck.empty()) {
     add_velocity_with_jumps(figure, window, "Velocity" + picture.name, response.struck, response.contact,
@@ -207,7 +207,7 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
   if (response.forces_are_known())
     add_motion(figure, picture,
                has_friction(contact.law) && contact.place > 0 ? "Friction force" : "Contact force",
-               force_unit, response.force());
+               force_unit(unit), response.force());
   if (has_gap(contact.law) && !has_friction(contact.law)) {
     const Scale scale = axis_scale(response.displacement().cwiseAbs().maxCoeff());
     figure.panels.front().mark_level(scale.factor * contact.gap, "gap", quantity(contact.gap, unit));
@@ -301,14 +301,16 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   figure.panel_height = 420;
   const std::optional<std::size_t> output = leading_output(outputs.outputs, scene);
   const bool about_a_mean = vibrates_about_a_mean(scene);
-  if (output || about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, output));
-  if (output && about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, std::nullopt));
+  const std::string unit = displacement_unit(scene);
+  if (output || about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, output, unit));
+  if (output && about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, std::nullopt, unit));
   // A rigid obstacle leaves a line at its gap, and without gaps the vibration of the contacts says it all.
   const bool is_shown = !about_a_mean || has_gaps(scene);
   if (is_shown && !is_rigid(scene.contact.law)) add_displacements_along(figure, scene, sweep);
   if (!sweep.impacts.empty()) {
-    add_impacts_along(figure, sweep, &PointImpacts::largest_impulse, "Impulses of impacts", "N s");
-    add_impacts_along(figure, sweep, &PointImpacts::largest_speed, "Speeds of impacts", "m/s");
+    add_impacts_along(figure, sweep, &PointImpacts::largest_impulse, "Impulses of impacts",
+                      force_unit(unit) + " s");
+    add_impacts_along(figure, sweep, &PointImpacts::largest_speed, "Speeds of impacts", unit + "/s");
   }
   if (figure.panels.size() == 1)
     figure.panels.front().title = "";

@@ -291,6 +291,7 @@ Overlay read_overlay(std::span<const fs::path> folders, const std::string& quant
   for (const fs::path& folder : folders) scenes.push_back(scene_in(folder));
   const Scene& first = scenes.front();
   overlay.quantity = overlay_quantity(folders, scenes, quantity);
+  if (!overlay.quantity.is_output()) overlay.quantity.unit = displacement_unit(first);
   overlay.logarithmic = std::ranges::any_of(scenes, [](const Scene& scene) { return scene.plot.log; });
   overlay.gap = common_gap(first);
   const bool over_time = std::all_of(folders.begin(), folders.end(), is_response);
@@ -337,7 +338,7 @@ Figure overlay_figure(const Overlay& overlay) {
   }
   const bool is_largest = quantity.name == "max" || quantity.name == "max_abs";
   if (std::isfinite(overlay.gap) && !quantity.is_output() && (over_time || is_largest))
-    panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, "m"));
+    panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, quantity.unit));
   if (overlay.logarithmic && !over_time) take_logarithmic_ordinates(figure);
   return figure;
 }

@@ -10,6 +10,7 @@
 #include "report/run_words.hpp"
 #include "results/rest_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
@@ -67,7 +68,8 @@ std::vector<std::string> rest_sentences(const Scene& scene, const Summary& summa
   for (int row = 0; row < int(forces.size()); ++row)
     largest = std::max(largest, largest_contact_force(scene, at_rest, row));
   return {fmt::format("At rest under the static loads {} of {} contacts {} closed, with at most {}.", closed,
-                      whole_contact_count(scene), closed == 1 ? "is" : "are", quantity(largest, "N"))};
+                      whole_contact_count(scene), closed == 1 ? "is" : "are",
+                      quantity(largest, force_unit(displacement_unit(scene))))};
 }
 
 /// The pictures of the outputs, with what was measured of them; empty without any.

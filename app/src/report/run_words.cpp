@@ -12,6 +12,7 @@
 #include "report/other_motions.hpp"
 #include "report/peak_words.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
@@ -32,6 +33,8 @@ std::string length_unit(const Summary& summary) {
   const std::string unit = text_in(summary, quantities::displacement_unit);
   return unit.empty() ? "m" : unit;
 }
+
+std::string force_unit_in(const Summary& summary) { return force_unit(length_unit(summary)); }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
@@ -138,20 +141,22 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
     sentences.emplace_back("There is no contact.");
     return;
   }
-  const std::string largest = quantity(impulse, "N s");
+  const std::string largest = quantity(impulse, force_unit_in(summary) + " s");
   if (std::isfinite(count))
-    sentences.push_back(
-        fmt::format("There {} {:.0f} impact{} in the period of the motion, at up to {}. The largest impulse "
-                    "is {}. Impacts dissipate {} per forcing period.",
-                    count == 1.0 ? "is" : "are", count, count == 1.0 ? "" : "s",
-                    with_unit(summary, quantities::max_impact_velocity), largest,
-                    with_unit(summary, quantities::impact_energy)));
+    sentences.push_back(fmt::format(
+        "There {} {:.0f} impact{} in the period of the motion, at up to {}. The largest impulse is {}. "
+        "Impacts dissipate {} per forcing period.",
+        count == 1.0 ? "is" : "are", count, count == 1.0 ? "" : "s",
+        quantity(number_in(summary, quantities::max_impact_velocity), length_unit(summary) + "/s"), largest,
+        with_unit(summary, quantities::impact_energy)));
   else
-    sentences.push_back(fmt::format("Impacts have speeds of up to {} and impulses of up to {}.",
-                                    with_unit(summary, quantities::max_impact_velocity), largest));
+    sentences.push_back(fmt::format(
+        "Impacts have speeds of up to {} and impulses of up to {}.",
+        quantity(number_in(summary, quantities::max_impact_velocity), length_unit(summary) + "/s"), largest));
   if (share > 0.0)
-    sentences.push_back(fmt::format("Contact lasts for {} of the period. Its largest force is {}.",
-                                    percent(share), with_unit(summary, quantities::max_contact_force)));
+    sentences.push_back(
+        fmt::format("Contact lasts for {} of the period. Its largest force is {}.", percent(share),
+                    quantity(number_in(summary, quantities::max_contact_force), force_unit_in(summary))));
 }
 
 /// What contacts with friction do over a period: each of a few, or their sums.
@@ -203,9 +208,10 @@ void append_contact(std::vector<std::string>& sentences, const Summary& summary,
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
     sentences.push_back(fmt::format("Contact lasts for {}{} of the period. The largest contact force is {}.",
-                                    limit, percent(share), quantity(force, "N")));
+                                    limit, percent(share), quantity(force, force_unit_in(summary))));
   } else if (std::isfinite(force)) {
-    sentences.push_back(fmt::format("The largest contact force is {}.", quantity(force, "N")));
+    sentences.push_back(
+        fmt::format("The largest contact force is {}.", quantity(force, force_unit_in(summary))));
   }
 }
 
@@ -319,7 +325,8 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
     sentences.push_back(fmt::format(
         "Mode {:.0f} was followed over {}. Below an amplitude of {} no contact slips and the frequency is {}.",
         number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"),
-        with_unit(summary, quantities::slip_amplitude), with_unit(summary, quantities::linear_frequency)));
+        quantity(number_in(summary, quantities::slip_amplitude), length_unit(summary)),
+        with_unit(summary, quantities::linear_frequency)));
     sentences.push_back(
         fmt::format("The frequency falls to {:.4g} of this value. The damping ratio is at most {:.4g}.",
                     number_in(summary, quantities::least_frequency_ratio), most));

@@ -160,15 +160,17 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
                   motion.recorded, with_error(of("vibration_rms"), contact.unit),
                   quantity(of("min").value, contact.unit), quantity(of("max").value, contact.unit))};
   if (has(quantities::mean_contact_force))
-    sentences.push_back("Its contact force has a mean of " + with_error(of("mean_force"), "N") +
-                        (has(quantities::max_contact_force)
-                             ? " and a largest value of " + quantity(of("max_force").value, "N") + "."
-                             : "."));
+    sentences.push_back(
+        "Its contact force has a mean of " + with_error(of("mean_force"), force_unit(contact.unit)) +
+        (has(quantities::max_contact_force)
+             ? " and a largest value of " + quantity(of("max_force").value, force_unit(contact.unit)) + "."
+             : "."));
   if (has(quantities::impacts))
     sentences.push_back(fmt::format(
         "There are {:.4g} ± {:.2g} impacts per forcing period, at up to {}. They dissipate {}.",
         sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
-        quantity(of("max_impact_velocity").value, "m/s"), with_error(sum("impact_energy_in_a_period"), "J")));
+        quantity(of("max_impact_velocity").value, contact.unit + "/s"),
+        with_error(sum("impact_energy_in_a_period"), "J")));
   if (has(quantities::friction_work))
     sentences.push_back(fmt::format("Friction dissipates {} per forcing period.",
                                     with_error(sum("friction_work_in_a_period"), "J")));

@@ -30,7 +30,7 @@ std::string contact_text(const SceneContact& contact, const std::string& name, c
     text += fmt::format(", {} {} its gap of {}", quantity(std::abs(past), unit),
                         past < 0.0 ? "short of" : "past", quantity(contact.gap, unit));
   }
-  return text + ", " + quantity(force, unit == "rad" ? "N m" : "N");
+  return text + ", " + quantity(force, force_unit(unit));
 }
 
 // A contact is closed where its first direction, its normal one where it has tangents, has a force. One with

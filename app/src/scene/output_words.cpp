@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -81,12 +82,12 @@ OutputWords output_words(std::string_view text) {
   return found;
 }
 
-const OutputUnit& output_unit(const OutputWords& words, bool rotation) {
+const OutputUnit& output_unit(const OutputWords& words, std::optional<bool> rotation) {
   const std::span<const OutputUnit> units = units_of(words.quantity);
-  if (words.unit.empty()) return units[rotation ? 1 : 0];
+  if (words.unit.empty()) return units[rotation.value_or(false) ? 1 : 0];
   std::vector<std::string> names;
   for (const OutputUnit& unit : units) {
-    if (is_of_rotation(unit) != rotation || unit.name.empty()) continue;
+    if (unit.name.empty() || is_of_rotation(unit) != rotation.value_or(is_of_rotation(unit))) continue;
     if (unit.name == words.unit) return unit;
     names.emplace_back(unit.name);
   }

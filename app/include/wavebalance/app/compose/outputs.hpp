@@ -52,6 +52,8 @@ std::string column_of(const std::string& name);
 std::string displacement_unit(const Scene& scene, const SceneContact& contact);
 /// "rad" where all contacts are between rotations, otherwise "m".
 std::string displacement_unit(const Scene& scene);
+/// "N", or "N m" of contacts whose displacement has the unit "rad".
+std::string force_unit(const std::string& displacement_unit);
 
 /// The name of an output as that of a column begins, "minus_row_17".
 std::string column_of(const std::string& name);

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,9 +25,10 @@ struct OutputUnit {
   double size = 1.0;        ///< in the SI unit, or in rad
 };
 
-/// The unit of an output; the SI unit, or that with rad, where the words name none. Throws
-/// std::invalid_argument with what is expected for one of another quantity.
-const OutputUnit& output_unit(const OutputWords& words, bool rotation);
+/// The unit of an output; the SI unit, or that with rad, where the words name none. Whether the place rotates
+/// is not known without a value: a unit then says so. Throws std::invalid_argument with what is expected for
+/// one of another quantity.
+const OutputUnit& output_unit(const OutputWords& words, std::optional<bool> rotation);
 
 /// The unit at the end of a column's name, after an underscore; null for columns that end with none.
 const OutputUnit* unit_at_end(std::string_view column);
