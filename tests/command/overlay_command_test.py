@@ -16,6 +16,8 @@ RECORDS = {
     "near": (STOP, {"contact.gap": 0.9}),
     "point": (STOP_AT, {"analysis.type": "forced_response"}),
     "mode": (STOP_AT, UNDAMPED_MODE),
+    "high_tip": (STOP, {"analysis.outputs": ["velocity of node 1", "node 1"], "plot.log": True}),
+    "mode_tip": (STOP_AT, {**UNDAMPED_MODE, "analysis.outputs": ["velocity of node 1", "node 1"]}),
 }
 
 
@@ -67,6 +69,30 @@ def test_peaks_of_lightly_damped_responses_lie_on_the_backbone(overlay):
         assert displacement[peak] > 1.0
         assert frequency_at(backbone, displacement[peak]) == pytest.approx(frequency[peak], rel=0.01), name
     assert "overlay.svg" in (drawn.folder / "overlay.html").read_text()
+
+
+@pytest.mark.parametrize("quantity, column", [("node 1", "node_1_half_peak_to_peak_m"),
+                                              ("velocity of node 1", "velocity_of_node_1_half_peak_to_peak_m_per_s")])
+def test_an_output_is_drawn_along_sweeps_and_modes(overlay, quantity, column):
+    drawn = overlay("mode_tip", "high_tip", more=("--quantity", quantity))
+    assert (drawn.code, drawn.errors) == (0, "")
+    assert drawn.summary["quantity"] == quantity
+    curves = {}
+    for row in rows_of(drawn.folder / "overlay.csv"):
+        if row[column]:
+            curves.setdefault(row["kind"], []).append((float(row[column]), float(row["frequency_Hz"])))
+    peak, frequency = max(curves["frequency_sweep"])
+    vibration, of_mode = np.array(sorted(curves["nonlinear_mode"])).T
+    assert np.interp(peak, vibration, of_mode) == pytest.approx(frequency, rel=0.01)
+    assert '"logarithmic":true' in (drawn.folder / "overlay.figure.js").read_text().replace(" ", "")
+
+
+@pytest.mark.parametrize("name", ["node 2", "velocity", "tip"])
+def test_a_wrong_quantity_is_answered_with_the_outputs_there_are(overlay, name):
+    refused = overlay("mode_tip", "high_tip", more=("--quantity", name))
+    assert refused.code == 2
+    assert f'--quantity is "{name}"' in refused.errors
+    assert "the outputs velocity of node 1, node 1" in refused.errors
 
 
 @pytest.mark.parametrize("quantity", ["max", "min", "max_abs", "rms"])

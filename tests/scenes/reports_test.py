@@ -336,3 +336,34 @@ def test_rotations_are_told_and_drawn_in_radians(run, matrix, tmp_path, analysis
     drawing = "".join(one.read_text() for one in record.folder.glob("*.svg"))
     assert "mrad)" in drawing and "mm)" not in drawing
     assert "gap of 1 mrad" in sentences(record.page)
+
+
+def test_forces_between_rotations_are_moments(run, command, matrix, tmp_path):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1e3]])
+    (tmp_path / "turning.dof").write_text("4.5\n")
+    record = run(TURNING.format(analysis='type = "forced_response"'))
+    assert re.search(r"largest contact force is [0-9.]+ N m\.", sentences(record.page))
+    (tmp_path / "turning.toml").write_text(TURNING.format(analysis='type = "forced_response"'))
+    checked = command("check", "turning.toml")
+    assert "between rotations: forces in N m, stiffnesses in N m/rad" in checked.text
+
+
+def test_a_unit_tells_that_a_row_without_a_name_rotates(run, matrix):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1e3]])
+    unnamed = TURNING.replace('dof_map = "turning.dof"\n', "")
+    record = run(unnamed.format(analysis='type = "forced_response"\noutputs = ["row 1 in mrad"]'))
+    assert record.code == 0, record.errors
+    outputs = record.summary["outputs"]
+    assert outputs[0]["unit"] == "mrad" if isinstance(outputs, list) else outputs["unit"] == ["mrad"]
+    assert "(mrad)" in (record.folder / "outputs.svg").read_text()
+
+
+def test_a_length_of_a_rotation_is_refused(command, matrix, tmp_path):
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[1e3]])
+    (tmp_path / "turning.dof").write_text("4.5\n")
+    (tmp_path / "turning.toml").write_text(TURNING.format(analysis='type = "forced_response"\noutputs = ["node 4 ry in mm"]'))
+    refused = command("check", "turning.toml")
+    assert refused.code == 2 and "there is no displacement in mm; expected rad, mrad or deg" in refused.errors

@@ -61,7 +61,9 @@ Panel panel_over(const Scene& scene, bool damped, const ModeOutput& one, std::ve
   if (!one.output.unit.empty()) panel.x.label += " (" + scale.prefix + one.output.unit + ")";
   panel.x.logarithmic = largest > 0.0 && (damped || scene.plot.log);
   if (!panel.x.logarithmic) panel.x.lower = 0.0;
-  if (std::isfinite(one.at_onset)) panel.mark_x(scale.factor * one.at_onset);
+  if (!std::isfinite(one.at_onset)) return panel;
+  panel.mark_x(scale.factor * one.at_onset);
+  panel.title = has_friction(scene) ? " (dotted: first slip)" : " (dotted: first contact)";
   return panel;
 }
 
@@ -72,13 +74,13 @@ std::vector<Panel> panels_over(const Scene& scene, const Table& backbone, const 
   std::vector<Panel> panels(damped ? 2 : 1, panel_over(scene, damped, one, x));
   panels.front().y.label = "Frequency (Hz)";
   if (!damped) {
-    panels.front().title = "Frequency";
+    panels.front().title.insert(0, "Frequency");
     add_frequencies(panels.front(), backbone, x, "frequency", "frequency_Hz");
     return panels;
   }
   panels.back().y.label = "Damping ratio";
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    panels[i].title = i == 0 ? "Frequency" : "Damping";
+    panels[i].title.insert(0, i == 0 ? "Frequency" : "Damping");
     Series series("", x, backbone.numbers(i == 0 ? "frequency_Hz" : "damping_ratio"));
     series.colour = Colour::blue;
     panels[i].add(std::move(series));

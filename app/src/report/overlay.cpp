@@ -252,6 +252,15 @@ std::vector<std::string> names_in(const std::vector<Output>& outputs) {
   return names;
 }
 
+/// A name as outputs have it: without unit and, where it is that of none, as it is.
+std::string name_of_output(const std::string& words) {
+  try {
+    return output_name(output_words(words));
+  } catch (const std::invalid_argument&) {
+    return words;
+  }
+}
+
 /// The output of this name in the first folder, which all must have.
 OverlayQuantity output_quantity(std::span<const fs::path> folders, const std::vector<Scene>& scenes,
                                 const std::string& name) {
@@ -273,7 +282,7 @@ OverlayQuantity overlay_quantity(std::span<const fs::path> folders, const std::v
                                  const std::string& name) {
   for (const OverlayQuantity& one : contact_quantities())
     if (one.name == name) return one;
-  if (!name.empty()) return output_quantity(folders, scenes, output_name(output_words(name)));
+  if (!name.empty()) return output_quantity(folders, scenes, name_of_output(name));
   const std::vector<Output> outputs = outputs_of(scenes.front());
   const std::optional<std::size_t> leading = leading_output(outputs, scenes.front());
   const bool all = leading && std::ranges::all_of(scenes, [&](const Scene& scene) {

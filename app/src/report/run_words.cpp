@@ -238,7 +238,8 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
   std::vector<std::string> errors;
   const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
   const std::string column = curve ? "error_at_peak" : quantities::error_of_vibration.column();
-  for (std::size_t i = 0; outputs != nullptr && i < outputs->rows() && errors.size() < most; ++i) {
+  const bool known = outputs != nullptr && outputs->has_column(column);  // not along modes
+  for (std::size_t i = 0; known && i < outputs->rows() && errors.size() < most; ++i) {
     const std::string name = cell_text(outputs->at(i, "output"));
     const double error = outputs->numbers(column)[i];
     if (!std::isfinite(error) || cell_text(outputs->at(i, "output")).starts_with("contact ")) continue;

@@ -11,13 +11,17 @@
 namespace wavebalance::app {
 namespace {
 
-/// Half the peak-to-peak value of an output at each row, not numbers off the mode.
-std::vector<double> vibrations(const ModeOutputs& outputs, std::size_t output, const Table& backbone) {
-  const std::vector<std::string> statuses = backbone.texts("status");
-  std::vector<double> values(backbone.rows(), missing);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if ((statuses[i] == "converged" || statuses[i] == "linear") && !outputs.points[i].empty())
-      values[i] = outputs.points[i][output].half_peak_to_peak();
+/// Half the peak-to-peak value of an output at each row, not numbers off the mode: points on an internal
+/// resonance are its own only where a curve that is complete ends on one.
+std::vector<double> vibrations(const ModeOutputs& outputs, std::size_t output, const Record& record) {
+  const std::vector<std::string> statuses = record.backbone.texts("status");
+  std::vector<double> values(statuses.size(), missing);
+  const bool resonant = record.converged && !statuses.empty() && statuses.back() == "tongue";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool on_mode =
+        statuses[i] == "converged" || statuses[i] == "linear" || (resonant && statuses[i] == "tongue");
+    if (on_mode && !outputs.points[i].empty()) values[i] = outputs.points[i][output].half_peak_to_peak();
+  }
   return values;
 }
 
@@ -48,9 +52,10 @@ struct AlongMode {
   double frequency = missing, at_onset = missing, at_largest_damping = missing;
 };
 
-AlongMode along_mode(const ModeOutputs& outputs, std::size_t output, const Table& backbone) {
+AlongMode along_mode(const ModeOutputs& outputs, std::size_t output, const Record& record) {
   AlongMode found;
-  const std::vector<double> vibration = vibrations(outputs, output, backbone);
+  const Table& backbone = record.backbone;
+  const std::vector<double> vibration = vibrations(outputs, output, record);
   found.at_onset = vibration_at_onset(backbone, vibration);
   if (const auto row = row_of_largest(vibration)) {
     found.most = outputs.points[*row][output];
@@ -75,7 +80,7 @@ std::vector<ModeOutput> append_outputs(Record& record, const Scene& scene, const
   Summary entries;
   for (std::size_t k = 0; k < outputs.outputs.size(); ++k) {
     const Output& output = outputs.outputs[k];
-    const AlongMode found = along_mode(outputs, k, record.backbone);
+    const AlongMode found = along_mode(outputs, k, record);
     const double vibration = found.most.half_peak_to_peak();
     std::vector<Cell> row{output.name,    output.unit,     vibration,       found.most.max,
                           found.most.min, found.most.mean, found.frequency, found.at_onset};
