@@ -366,4 +366,4 @@ def test_a_length_of_a_rotation_is_refused(command, matrix, tmp_path):
     (tmp_path / "turning.dof").write_text("4.5\n")
     (tmp_path / "turning.toml").write_text(TURNING.format(analysis='type = "forced_response"\noutputs = ["node 4 ry in mm"]'))
     refused = command("check", "turning.toml")
-    assert refused.code == 2 and "there is no displacement in mm; expected rad, mrad or deg" in refused.errors
+    assert refused.code == 2 and "there is no displacement in mm; expected rad, mrad, deg" in refused.errors
