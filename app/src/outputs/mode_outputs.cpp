@@ -48,9 +48,9 @@ class ModePointMeasurer {
 
 }  // namespace
 
-ModeOutputs measure_outputs(const ModeStudy& study, const Backbone& curve, const Observer& observer) {
+ModeOutputs measure_outputs(const ModeStudy& study, const Backbone& curve) {
   if (!study.scene().analysis.has_outputs()) return {};
-  ModePointMeasurer measurer(study, observer);
+  ModePointMeasurer measurer(study, Observer());
   measurer(study.linear_points());
   measurer(curve.points);
   return measurer.found();

@@ -242,7 +242,7 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   append_stability(record.summary, study, stability);
   record.backbone = backbone_table(study, curve);
   const std::vector<ModeOutput> outputs =
-      append_outputs(record, study.scene(), measure_outputs(study, curve, observer));
+      append_outputs(record, study.scene(), measure_outputs(study, curve));
   add_stability(record.backbone, stability);
   record.figure = backbone_figure(study.scene(), record.backbone, leading_of(outputs, study.scene()));
   draw_stability(record.figure, record.backbone, stability);

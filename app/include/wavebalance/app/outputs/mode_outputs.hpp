@@ -20,7 +20,7 @@ struct ModeOutputs {
 /// Measures the outputs of the scene at each point of its mode, with what sweeps measure. Nothing without
 /// outputs. With friction or dampers a condensation for each point. The points of a curve that was
 /// interrupted are solutions, and all of them are measured.
-ModeOutputs measure_outputs(const ModeStudy& study, const Backbone& curve, const Observer& observer = {});
+ModeOutputs measure_outputs(const ModeStudy& study, const Backbone& curve);
 ModeOutputs measure_outputs(const DampedStudy& study, const solvers::DampedBackbone& curve,
                             const Observer& observer = {});
 
