@@ -43,10 +43,11 @@ bool is_damped(const Table& backbone) { return backbone.has_column("damping_rati
 
 /// Frequencies as points, since neighbours may lie either side of an internal resonance, and those on one.
 void add_frequencies(Panel& panel, const Table& backbone, const std::vector<double>& x,
-                     const std::string& label, std::string_view column) {
-  panel.add({label, x, motions_in(backbone, column), SeriesStyle::points});
+                     std::string_view column) {
+  panel.add({"ω", x, motions_in(backbone, column), SeriesStyle::points});
   Series resonances("on an internal resonance", x, motions_in(backbone, column, true), SeriesStyle::points);
   resonances.colour = Colour::grey;
+  resonances.marker = 3;
   panel.add(std::move(resonances));
 }
 
@@ -75,7 +76,7 @@ std::vector<Panel> panels_over(const Scene& scene, const Table& backbone, const 
   panels.front().y.label = "Frequency (Hz)";
   if (!damped) {
     panels.front().title.insert(0, "Frequency");
-    add_frequencies(panels.front(), backbone, x, "frequency", "frequency_Hz");
+    add_frequencies(panels.front(), backbone, x, "frequency_Hz");
     return panels;
   }
   panels.back().y.label = "Damping ratio";
@@ -181,7 +182,8 @@ Figure backbone_figure(const Scene& scene, const Table& backbone, const ModeOutp
   panel.x.upper = shown_energy(motions_in(backbone, "energy_ratio"), scene.analysis.largest_energy);
   panel.y.label = "Frequency / linear frequency";
   const std::vector<double> energy = backbone.numbers("energy_ratio");
-  add_frequencies(panel, backbone, energy, "ω", "frequency_ratio");
+  if (leading != nullptr) panel.title = "Frequency over the energy";
+  add_frequencies(panel, backbone, energy, "frequency_ratio");
   Series rayleigh("√r, Rayleigh quotient", energy, motions_in(backbone, "rayleigh_frequency_ratio"),
                   SeriesStyle::points);
   panel.series.insert(panel.series.begin() + 1, std::move(rayleigh));
