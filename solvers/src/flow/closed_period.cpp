@@ -213,16 +213,19 @@ std::vector<Index> free_states(const Eigen::MatrixXd& map) {
   return kept;
 }
 
-double period_operations(const ContactFlow& flow, int rows) {
-  // What forces make of the poles at the points of a panel, the forces, and what they do to perturbations of
-  // all states, where these are carried along, by products of large matrices.
-  constexpr double of_waves = 2e3, of_products = 0.2;
-  const double forces = double(rows * panel_nodes), states = double(flow.state().size()),
-               columns = std::max(1.0, double(flow.perturbation().cols())),
+double panel_operations(Index states, int rows, Index perturbations) {
+  // What forces make of the poles at the points of a panel, the forces, and what they do to perturbations,
+  // where these are carried along, by products of large matrices.
+  constexpr double least = 2e5, of_waves = 2e3, of_products = 0.2;
+  const double forces = double(rows * panel_nodes), columns = std::max(1.0, double(perturbations)),
                products =
                    2.0 / 3.0 * forces * forces * forces + 2.0 * forces * columns * (forces + 2.0 * columns);
+  return least + of_waves * double(states) * double(panel_nodes) + of_products * products;
+}
+
+double period_operations(const ContactFlow& flow, int rows) {
   return double(flow.panels().size()) *
-         (operations_of_panel + of_waves * states * double(panel_nodes) + of_products * products);
+         panel_operations(flow.state().size(), rows, flow.perturbation().cols());
 }
 
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer,

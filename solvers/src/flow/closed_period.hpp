@@ -30,9 +30,10 @@ struct ClosedPeriod {
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer = {},
                           Eigen::MatrixXd map = {}, bool free_period = false);
 
-/// About so many floating-point operations a panel takes at least, and the last period of a flow with so many
-/// rows and its perturbations took, in those of small matrices.
-inline constexpr double operations_of_panel = 2e5;
+/// About so many floating-point operations a panel takes with so many states and rows, and perturbations that
+/// are carried along; and the last period of a flow with those that it carried took, in those of small
+/// matrices.
+double panel_operations(Eigen::Index states, int rows, Eigen::Index perturbations);
 double period_operations(const ContactFlow& flow, int rows);
 
 /// The states that a map of a period changes: a memory that it leaves as it is has a row of the unit matrix,

@@ -121,17 +121,21 @@ class MotionSearch {
     return !exhausted_ && !cancelled_;
   }
 
+  // In a period; the first one carries the perturbations of all states along.
+  int affordable_panels(int most) const {
+    const Index states = from_.state.size(), perturbations = found_.map.size() > 0 ? 0 : states;
+    const double of_panel = panel_operations(states, problem_.dynamics.contacts(), perturbations);
+    return int(std::min(operations_left_ / of_panel, double(most)));
+  }
+
   // The motion with a tolerance of the flow, and how far it lies from the one before.
   bool refine(double tolerance) {
     constexpr double least = 1e-13;
-    const FlowOptions flow_options;
-    exhausted_ = operations_left_ < flow_options.panels * operations_of_panel;
+    const FlowOptions usual;
+    const int most_panels = affordable_panels(usual.max_panels);
+    exhausted_ = most_panels < usual.panels;
     if (exhausted_) return false;
-    ContactFlow flow(problem_, {.tolerance = tolerance,
-                                .max_panels = int(std::clamp(operations_left_ / operations_of_panel,
-                                                             double(flow_options.panels),
-                                                             double(flow_options.max_panels))),
-                                .length = length_});
+    ContactFlow flow(problem_, {.tolerance = tolerance, .max_panels = most_panels, .length = length_});
     if (found_.found && free_period_) flow.set_period(found_.period);
     if (found_.found)
       flow.start(found_.state, found_.contacts);
@@ -140,6 +144,7 @@ class MotionSearch {
     const Observer observer = [&](const Progress& progress) { return goes_on_after(flow, progress); };
     ClosedPeriod closed = close_period(flow, options_.max_iterations, observer, found_.map, free_period_);
     iterations_ += closed.iterations;
+    exhausted_ = exhausted_ || int(flow.panels().size()) >= most_panels;
     if (!closed.found) return false;
     const double begin = free_period_ ? begin_by_event(flow) : from_.begin;
     motion_ = motion_of({original_.dynamics, original_.laws, original_.contact_free, 1.0 / closed.period},

@@ -110,6 +110,18 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
       cancelled);
 }
 
+// A panel of this chain takes 4e5 operations, and a period has 16 of them at least.
+TEST(ExactMotion, APeriodThatTakesMoreThanTheOperationsIsNotBegun) {
+  int periods = 0;
+  const ContactPhasesOptions options{.max_operations = 5e6, .observer = [&periods](const Progress&) {
+                                       ++periods;
+                                       return true;
+                                     }};
+  const FrictionMotion chain(testing::chain_of_three(3.0, 0.85), options, 15, 64);
+  EXPECT_EQ(to_string(chain.phases.motion.status), "too_many_phases");
+  EXPECT_EQ(periods, 0);
+}
+
 // Phases of too few nodes miss the tolerance, so that the flow is tried, too.
 TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
   std::mt19937 generator(11);
