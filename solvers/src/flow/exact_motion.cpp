@@ -93,8 +93,12 @@ class MotionSearch {
   }
 
   PhaseMotion run() {
-    for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12})
-      if (!refine(tolerance) || error_ <= options_.tolerance) break;
+    for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
+      const bool refined = refine(tolerance);
+      // Rounding may leave no digits to the last one, of tables with many points above all.
+      if (!refined && found_.found && !exhausted_ && !cancelled_) refine(10.0 * tolerance);
+      if (!refined || error_ <= options_.tolerance) break;
+    }
     const bool found = std::isfinite(error_);  // by two solutions at least
     if (found)
       set_multipliers(motion_, multipliers_of(*flow_, found_, free_period_));
