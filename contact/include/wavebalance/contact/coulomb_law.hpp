@@ -9,7 +9,7 @@
 
 namespace wavebalance::contact {
 
-/// What a contact with friction does at an instant.
+/// State of a contact with friction at an instant.
 enum class FrictionState { open, stick, slip };
 
 /// Coulomb friction along one or two directions.
@@ -87,7 +87,7 @@ class CoulombLaw {
   double surface_speed() const { return parameters_.surface_speed; }
   double tangential_damping() const { return parameters_.tangential_damping; }
   double normal_damping() const { return parameters_.normal_damping; }
-  /// Whether its force follows from a machine of states alone, and not from steps.
+  /// Whether its force follows only from a machine of states, not from steps.
   bool needs_states() const;
   double gap() const { return normal_ ? normal_->gap() : 0.0; }  ///< g0, m; 0 without a normal direction
   /// k_n, N/m; 0 without a normal direction.

@@ -47,7 +47,7 @@ struct LawParameter {
   bool required() const { return !fallback && same_as.empty() && !may_lack; }
 };
 
-/// What a law says of itself: static texts, so that the description may be copied freely.
+/// Description of a law by static texts; copies are cheap.
 struct LawDescription {
   std::string_view name;   ///< as contact.law of a scene
   std::string_view force;  ///< the force in words and formulas of the parameters, opposed to u

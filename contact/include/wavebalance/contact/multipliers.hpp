@@ -38,7 +38,7 @@ enum class MultiplierAction {
   stalled                             ///< did not improve, and the penalties in question are at their largest
 };
 
-/// What one outer iteration changed, and the measures that decided it.
+/// Changes of one outer iteration, and the measures that decided them.
 struct MultiplierStep {
   MultiplierAction inequality = MultiplierAction::satisfied;
   MultiplierAction equality = MultiplierAction::satisfied;

@@ -5,10 +5,10 @@
 
 namespace wavebalance::app {
 
-/// What `analyse` is expected to take on one core of 2 to 3 GHz.
+/// Expected time and memory of `analyse` on one core of 2 to 3 GHz.
 struct CostEstimate {
   double seconds = 0.0;  ///< processor time of a response or a curve; NaN where only the solution shows it
-  /// That of the stability and the structure's own curve beside a curve, at least and at most; zero without.
+  /// Bounds of the time for stability and the exact curve; zero without them.
   double least_stability_seconds = 0.0, most_stability_seconds = 0.0;
   /// That of the exact motion near a response, with its stability, at least and at most; zero without, or
   /// below a second.

@@ -12,7 +12,7 @@
 
 namespace wavebalance::app {
 
-/// What a contact with friction does in a period of its motion.
+/// States and energy of a contact with friction over a period.
 struct FrictionMeasures {
   int row = 0;     ///< the first of its directions of contact, from 0
   int number = 1;  ///< SceneContact::number
@@ -35,7 +35,7 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 /// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
-/// What friction does at one contact in a period of its motion.
+/// Friction at one contact over a period.
 struct ContactWork {
   int number = 1;      ///< SceneContact::number
   double work = 0.0;   ///< J
@@ -60,7 +60,7 @@ struct FrictionShares {
 
 FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);
 
-/// Of a contact with the normal force times its distance of slip, J.
+/// Normal force times slip distance of a contact, J.
 ContactWork contact_work(const SceneContact& contact, double work, double normal_work);
 
 /// As columns of a table.

@@ -34,7 +34,7 @@ struct Backbone {
   bool complete = true;  ///< it goes to that energy or to the last frequency asked for
 
   int count(solvers::ModeStatus status) const;
-  /// The curve is complete, and each interruption lies on a named internal resonance.
+  /// The branch is complete, and each interruption is on a named internal resonance.
   bool converged() const;
   /// "converged", early_end, or why the curve is not complete.
   std::string status() const;
@@ -68,7 +68,7 @@ class ModeStudy {
   const solvers::NonlinearMode& mode() const { return mode_; }
   /// The mode with the scene's law; empty where the obstacle is rigid.
   const std::optional<solvers::ElasticMode>& elastic_mode() const { return elastic_; }
-  /// Unknowns after condensation on the contacts.
+  /// Unknowns after exact dynamic condensation.
   int unknowns() const;
   /// n x r, mass-normalised, of the (reduced) structure's own coordinates.
   const Eigen::MatrixXd& linear_shapes() const { return modes_.shapes; }

@@ -19,7 +19,7 @@ struct FoundMotion {
 
 /// The motions at forcing.frequency.
 struct Motions {
-  /// solvers::MotionsStatus, or of motions from event to event that settle to none solvers::PhasesStatus
+  /// solvers::MotionsStatus, or solvers::PhasesStatus if event-driven integration does not converge.
   std::string status = "not_settled";
   std::vector<FoundMotion> motions{};
   std::vector<solvers::UnsolvedMotion> unsolved{};

@@ -35,7 +35,7 @@ struct Refinement {
   std::vector<solvers::RefinementLevel> levels;  ///< in the order solved
 };
 
-/// What a structure settles to from rest, beside an unstable response.
+/// The attractor reached from rest, in addition to an unstable response.
 struct SettledBeside {
   int periods = -1;               ///< of the load, solvers::SettledMotion::attractor_periods
   double max_displacement = 0.0;  ///< m, of any contact in a period of the load; of periods > 0

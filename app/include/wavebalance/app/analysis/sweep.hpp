@@ -29,7 +29,7 @@ struct PointImpacts {
       {};  ///< m/s, the largest of each direction of contact up to the last that is struck
 };
 
-/// What a sweep varies, in words, columns and units.
+/// Parameter of a sweep in words, columns and units.
 struct SweepAxis {
   std::string quantity = "frequency";  ///< or "amplitude"
   std::string unit = "Hz";             ///< or "N", "m" or "m/s^2"
@@ -39,7 +39,7 @@ struct SweepAxis {
   std::string label() const;  ///< "Frequency (Hz)"
 };
 
-/// How motions beside a curve were sought.
+/// How isolated branches were searched for.
 struct IsolaSearch {
   std::vector<double> frequencies = {};  ///< Hz; empty where they were not sought
   std::vector<double> unmatched = {};    ///< Hz, solvers::IsolatedCurves::unmatched
@@ -48,7 +48,7 @@ struct IsolaSearch {
   double wall_seconds = 0.0;             ///< with the curves found, without their stability
 };
 
-/// Where a curve beside another was found.
+/// Where an isolated branch was found.
 struct IsolaOrigin {
   double frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz; NaN of a curve that is no isola
   int start = 0;                                                ///< solvers::IsolatedCurve::start
@@ -70,7 +70,7 @@ struct Sweep {
   std::vector<std::vector<solvers::PhaseMotion>> exact_motions = {};
   std::vector<double> unexplained = {};  ///< of an exact curve: ExactCurve::unexplained, values of the points
   std::string start_status = {};         ///< of impacts and exact curves: why there is no first motion
-  /// Set by add_phases() with analysis.stability: the special points of the structure.
+  /// The exact bifurcation points; set by add_phases() with analysis.stability.
   std::optional<solvers::StructurePoints> structure_points = {};
   bool phases_cancelled = false;  ///< the observer stopped add_phases()
   int periods = 1;                ///< of the load, over which its motions are solved for
@@ -85,8 +85,8 @@ struct Sweep {
   /// solved for.
   std::optional<solvers::CurvePeak> solved_peak = {};
   bool outputs_cancelled = false;  ///< the observer stopped measure_outputs()
-  /// Set by add_isolas() with analysis.isolas: the curves found beside this one and its branches, in the
-  /// order in which they were found, and how it was sought for them.
+  /// Isolated branches in the order in which they were found, and their search; set by add_isolas() with
+  /// analysis.isolas.
   std::vector<Sweep> isolas;
   IsolaSearch isola_search = {};
   IsolaOrigin origin = {};  ///< of one of the isolas
@@ -117,8 +117,7 @@ struct Sweep {
   const solvers::CurveStability& balances_of(std::size_t number) const {
     return number == 0 ? stability : branches[number - 1].stability;
   }
-  /// Of the curve, 0, or of a branch, from 1: its phases, null where they were not sought, and the stability
-  /// that its record tells.
+  /// Exact solutions (null if not computed) and stability of the curve, 0, or of a branch, from 1.
   const SweepPhases* phases_of(std::size_t number) const;
   StabilityAlong stability_of(std::size_t number) const;
 };

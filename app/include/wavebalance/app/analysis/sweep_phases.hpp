@@ -20,10 +20,10 @@ struct SweepPhases {
   std::vector<Point> points;          ///< one for each point of the curve with analysis.phases; else none
 };
 
-/// "converged", "converged_beside" where that holds a few points of the curve away alone, another
-/// solvers::PhasesStatus, or "not_computed" where they were not sought.
+/// "converged", "converged_beside" if found only a few points along the curve away, another
+/// solvers::PhasesStatus, or "not_computed".
 std::string phases_status(const SweepPhases::Point& point);
-/// Whether it was sought and not found near.
+/// Whether the search found none nearby.
 bool was_not_found(const SweepPhases::Point& point);
 
 /// The stability along a curve that its record tells.

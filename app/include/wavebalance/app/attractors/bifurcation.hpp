@@ -8,7 +8,7 @@
 
 namespace wavebalance::app {
 
-/// What the structure does at one value of a diagram.
+/// The motion at one value of a diagram.
 struct DiagramValue {
   double value = 0.0;    ///< Hz, or an amplitude in the unit of the load
   bool forwards = true;  ///< or on the way back

@@ -29,7 +29,7 @@ struct MotionMeasure {
   solvers::Estimate estimate;
 };
 
-/// What a motion that was recorded for many periods is.
+/// Kind of a motion that was recorded for many periods.
 enum class MotionKind {
   chaotic,         ///< perturbations grow: the largest Lyapunov exponent is positive beyond its error
   quasi_periodic,  ///< they neither grow nor decay, and the section is a closed curve

@@ -12,7 +12,7 @@ namespace wavebalance::app {
 struct BasisPair {
   std::string trial, weight;
 
-  /// What stands for contact phases beside the pairs of bases: it has no weighting functions.
+  /// The exact solution among the pairs of bases: it has no weighting functions.
   static BasisPair phases() { return {"phases", ""}; }
   bool is_phases() const { return *this == phases(); }
   bool is_fourier() const { return trial == "fourier" && weight == "fourier"; }
@@ -46,7 +46,7 @@ struct PairStyle {
 /// functions and dashes by their weights.
 PairStyle style_of(const BasisPair& pair);
 
-/// `series` so; that of contact phases is black and wider.
+/// `series` in this style; the exact solution is black and wider.
 Series styled(Series series, const BasisPair& pair);
 
 }  // namespace wavebalance::app

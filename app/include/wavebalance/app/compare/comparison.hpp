@@ -12,7 +12,7 @@
 
 namespace wavebalance::app {
 
-/// What is compared and for how long.
+/// Options of a comparison.
 struct ComparisonOptions {
   std::vector<BasisPair> pairs;  ///< empty: every admissible one of common_pairs()
   double budget = 10.0;          ///< s, wall time of everything, > 0
@@ -20,7 +20,7 @@ struct ComparisonOptions {
   int largest_functions = 1 << 15;
   std::vector<int> points_per_function = {1, 2, 4, 8};
   std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
-  /// Which error decides; empty: both where that of the force is defined, else that of the displacement.
+  /// Error that decides; empty: both if the force error is defined, else the displacement error.
   std::optional<ErrorMeasure> measure = {};
   int threads = 0;         ///< that solve pairs side by side; 0: one per core
   StartMotion start = {};  ///< near which the reference and a sweep begin; empty: as a run without a start
@@ -91,7 +91,7 @@ struct SplitPairs {
 /// Splits the pairs of the options, or common_pairs(), by whether they are admissible.
 SplitPairs split_pairs(const Scene& scene, const ComparisonOptions& options);
 
-/// What each pair did, in the order of `pairs`; `points` as size_study() returns them.
+/// Results of each pair, in the order of `pairs`; `points` as size_study() returns them.
 std::vector<PairResult> pair_results(const std::vector<BasisPair>& pairs,
                                      const std::vector<SolvePoint>& points, double reference_error);
 

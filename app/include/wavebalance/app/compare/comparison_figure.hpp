@@ -7,7 +7,7 @@
 
 namespace wavebalance::app {
 
-/// What a pair reaches at best: its points that none of its own beats in time and error, styled.
+/// Pareto front of a pair in time and error, styled.
 Series best_of(const BasisPair& pair, const std::vector<SolvePoint>& points);
 /// The Pareto front over everything, as a grey band.
 Series pareto_front(const std::vector<SolvePoint>& points);

@@ -29,12 +29,11 @@ enum class BasisMatters {
 
 std::string_view to_string(BasisMatters value);
 
-/// What to take for an error.
+/// The recommendation for one requested error.
 struct Recommendation {
   double error = 0.0;                                 ///< relative rms
   ErrorMeasure measure = ErrorMeasure::displacement;  ///< of what
-  /// The cheapest, or that of Fourier:Fourier where it takes at most a tenth longer; empty where no pair
-  /// reaches the error.
+  /// The cheapest solve, or Fourier:Fourier if at most a tenth slower; empty if no pair reaches the error.
   std::optional<SolvePoint> choice;
   std::optional<SolvePoint> fourier;  ///< the cheapest of Fourier:Fourier
   /// The cheapest of all other pairs, where the choice is that of Fourier:Fourier; or one of them that takes
@@ -51,11 +50,11 @@ struct Recommendation {
   std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice
   std::string stability;   ///< of the choice's motion; empty where it was not computed
 
-  /// Time of Fourier:Fourier over that of the choice; NaN without one of them.
+  /// Time of Fourier:Fourier over the time of the choice; NaN without one of them.
   double fourier_time_ratio() const;
 };
 
-/// Of an error that is asked for: what a reference may have itself.
+/// Largest fraction of a requested error that the reference may have.
 inline constexpr double known_share = 0.25;
 
 /// The recommendation from points whose errors are relative to a reference that has an error of its own.

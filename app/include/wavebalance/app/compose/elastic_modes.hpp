@@ -6,7 +6,7 @@
 
 namespace wavebalance::app {
 
-/// Whether the scene is a nonlinear mode with friction, which takes energy.
+/// Whether the scene is a nonlinear mode with friction, which dissipates energy.
 bool is_damped_mode(const Scene& scene);
 
 /// Whether the scene is a nonlinear mode with a law of contact in place of a rigid obstacle.

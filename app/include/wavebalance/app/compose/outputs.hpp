@@ -37,7 +37,7 @@ struct Output {
   std::vector<SupportMotion> over = {};   ///< over whose half peak-to-peak value it is a ratio; or none
 
   bool is_contact() const { return contact >= 0; }
-  /// Whether its name says more than its place.
+  /// Whether its name holds more than the place.
   bool names_quantity() const { return !is_contact() && name.find(" of ") != std::string::npos; }
   /// "node_1052_z_max_m".
   std::string column_of(const std::string& value) const;
@@ -45,7 +45,7 @@ struct Output {
   std::string quantity_words(const std::string& of_displacement) const;
 };
 
-/// The name of a place as that of a column begins: "minus_node_18_x", "contact_2".
+/// Name of a place as the beginning of a column: "minus_node_18_x", "contact_2".
 std::string column_of(const std::string& name);
 
 /// The unit of the displacement of a contact: "rad" between rotations alone, otherwise "m".
@@ -55,7 +55,7 @@ std::string displacement_unit(const Scene& scene);
 /// "N", or "N m" of contacts whose displacement has the unit "rad".
 std::string force_unit(const std::string& displacement_unit);
 
-/// The name of an output as that of a column begins, "minus_row_17".
+/// Name of an output as the beginning of a column, "minus_row_17".
 std::string column_of(const std::string& name);
 
 /// analysis.outputs of a scene and, with analysis.contact_outputs, its contacts after them. Throws
@@ -65,8 +65,8 @@ std::vector<Output> outputs_of(const Scene& scene);
 /// The output of analysis.peak_of by the name that it has; empty where none is asked for.
 std::string peak_name(const Scene& scene);
 
-/// The index of the output that was asked for first: that of analysis.peak_of, else the first of
-/// analysis.outputs; none where contacts alone are outputs.
+/// Index of the first output: analysis.peak_of, else the first of analysis.outputs; none if only contacts are
+/// outputs.
 std::optional<std::size_t> leading_output(const std::vector<Output>& outputs, const Scene& scene);
 
 /// outputs x r: the displacements of degrees of freedom from the coordinates of the structure that is solved;

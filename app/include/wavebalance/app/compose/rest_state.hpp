@@ -8,14 +8,14 @@
 
 namespace wavebalance::app {
 
-/// Where a structure stands under its static loads alone, with the contacts that they close.
+/// Static equilibrium under the static loads, with the contacts that they close.
 struct RestState {
   bool converged = false;
   std::string status;            ///< "converged", or why not
   Eigen::VectorXd displacement;  ///< m, of each contact
   Eigen::VectorXd force;         ///< N, of each contact
 
-  /// Whether nothing moves or presses, so that there is nothing to say.
+  /// Whether nothing moves or presses.
   bool trivial() const { return converged && displacement.isZero(0.0) && force.isZero(0.0); }
 };
 

@@ -40,7 +40,7 @@ struct StructureModel {
   Eigen::MatrixXd recovery;
   std::shared_ptr<const fem::Blade> blade;  ///< its mesh; null for other structures
   std::shared_ptr<const MovedMesh> mesh;    ///< of structure.mesh; null without
-  /// How many threads condense problems that are made of it, as CondensedProblem::set_threads() takes them.
+  /// Threads that condense its problems, as in CondensedProblem::set_threads().
   int threads = 0;
   /// The dynamics of `structure`, for all runs that share the model.
   std::shared_ptr<solvers::StructureDynamics> dynamics = std::make_shared<solvers::StructureDynamics>();

@@ -6,7 +6,7 @@
 
 namespace wavebalance::app {
 
-/// A special point of a curve in a picture.
+/// A bifurcation or grazing point in a picture.
 struct PlacedPoint {
   solvers::SpecialPointType type = solvers::SpecialPointType::fold;
   double x = 0.0, y = 0.0;

@@ -15,7 +15,7 @@ namespace wavebalance::app {
 using SummaryValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>,
                                   std::vector<std::string>, Table>;
 
-/// What a value of a summary says something about.
+/// The subject of a value of a summary.
 enum class EntryKind {
   heading,     ///< which analysis it is, how it ended and how long it took
   setting,     ///< the scene: its bases, sizes and frequency
@@ -23,7 +23,7 @@ enum class EntryKind {
   result,      ///< the motion or the curve; without a meaning where the solution did not converge
 };
 
-/// What is known of a value by its name. Texts are literals.
+/// Properties of a value, by its name. Texts are literals.
 struct Quantity {
   std::string_view name;  ///< of its entry in summary.json and of its columns: "max_displacement_m"
   EntryKind kind = EntryKind::diagnostic;

@@ -50,7 +50,7 @@ std::string figure_html(const FigureBlock& block);
 /// table without rows.
 std::string table_html(const std::vector<std::vector<std::string>>& rows, bool names = false);
 
-/// What page_html() puts together.
+/// The parts of a page, for page_html().
 struct PageParts {
   std::string title;
   std::string body = {};  ///< HTML, with one `main` element

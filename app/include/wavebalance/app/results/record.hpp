@@ -29,7 +29,7 @@ struct Record {
   std::string status;
   /// Reasons why the result may be inaccurate, one sentence each; also in the summary.
   std::vector<std::string> warnings;
-  /// What came out, where the analysis says it itself and not by the values of the summary.
+  /// Sentences on the result, if the analysis writes its own.
   std::vector<std::string> sentences;
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
@@ -77,8 +77,8 @@ inline constexpr std::array<RecordTable, 6> record_tables{{
 
 /// Where a solution starts, what watches it, and on how many threads it runs.
 struct AnalysisOptions {
-  /// A motion near which the response or the first point of a sweep is sought, see require_start_fits(); what
-  /// is not found near it is not sought elsewhere. Empty: none.
+  /// Start of a response or of the first point of a sweep, see require_start_fits(); no other start is tried.
+  /// Empty: none.
   StartMotion start{};
   Observer observer{};
   int threads = 0;  ///< that condense several harmonics side by side; 0: one per core. Digits do not change

@@ -24,7 +24,7 @@ enum class AnalysisType {
 /// by phases of contact, or from event to event whatever the contacts are.
 enum class MotionsBy { equations, time, phases, events };
 
-/// What is said of an analysis wherever analyses differ by a word or a flag alone.
+/// The words and flags in which analyses differ.
 struct AnalysisKind {
   AnalysisType type;
   std::string_view name;     ///< analysis.type
@@ -74,10 +74,10 @@ struct MotionAt {
   bool operator==(const MotionAt&) const = default;
 };
 
-/// Of time stepping: with fewer its statistics have no batches.
+/// Least number for batch statistics of time stepping.
 inline constexpr int least_recorded_periods = 40;
 
-/// What is computed, and how finely it is written down.
+/// The analysis and the resolution of its output.
 struct Analysis {
   AnalysisType type = AnalysisType::forced_response;
   int output_points = 1024;  ///< uniform points of one period in the output

@@ -11,10 +11,10 @@ namespace wavebalance::app {
 
 using solvers::ContactForm;
 
-/// What becomes of the mass at the contacts, contact.mass: it stays, or the rest of the structure takes it.
-/// `automatic` redistributes it where the law is rigid.
+/// Treatment of the contact mass, contact.mass: keep it or redistribute it. `automatic` redistributes it for
+/// rigid laws.
 enum class ContactMass { automatic, keep, redistribute };
-/// Where the obstacles of a contact direction stand, contact.pairs.side.
+/// Side of the obstacles of a contact degree of freedom, contact.pairs.side.
 enum class ObstacleSide { positive, negative, both };
 
 /// The contact.law of a scene without contact.
@@ -25,8 +25,7 @@ inline constexpr std::string_view no_law = "none";
 struct ContactPair {
   std::vector<int> dofs = {};             ///< from 1, none twice
   std::vector<double> coefficients = {};  ///< one each, not all zero; empty before loading: 1, or 1 and -1
-  /// Of a law with friction the first tangent beside the normal direction above, and the second one; empty:
-  /// the direction above is itself the tangent.
+  /// Tangents of a law with friction; empty: the direction above is the tangent.
   std::vector<int> tangent = {}, second_tangent = {};
   std::vector<double> tangent_coefficients = {}, second_tangent_coefficients = {};
   ObstacleSide side = ObstacleSide::positive;

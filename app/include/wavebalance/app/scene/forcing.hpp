@@ -10,7 +10,7 @@ namespace wavebalance::app {
 
 /// Place of the load on a blade's tip.
 enum class TipPlace { leading_edge, mid_chord, trailing_edge };
-/// What a further load is, forcing.terms.kind: a force, or the motion of supports.
+/// Kind of a further load, forcing.terms.kind: a force, or the motion of supports.
 enum class LoadKind { force, base_displacement, base_acceleration, unbalance };
 
 /// One entry of [[forcing.terms]]: amplitude cos(harmonic 2 pi frequency t + phase), or amplitude times a
@@ -54,7 +54,7 @@ struct Forcing {
 
 /// Of the amplitude of a term: "N", "m", "m/s^2" or "kg m", mass times eccentricity of an unbalance.
 std::string_view unit_of(LoadKind kind);
-/// Of the amplitude of a term, which may be in "g".
+/// Unit of the amplitude of a term; may be "g".
 std::string_view unit_of(const ForcingTerm& term);
 inline constexpr double standard_gravity = 9.80665;  ///< m/s^2 in a g
 

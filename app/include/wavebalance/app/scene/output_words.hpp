@@ -5,7 +5,7 @@
 
 namespace wavebalance::app {
 
-/// What is written of a place of the structure.
+/// Quantity that is written for a place of the structure.
 enum class OutputQuantity { displacement, velocity, acceleration, transmissibility };
 /// In which frame where supports move; `given`: in that in which it is solved for.
 enum class OutputFrame { given, absolute, relative };
@@ -33,7 +33,7 @@ const OutputUnit& output_unit(const OutputWords& words, std::optional<bool> rota
 /// The unit at the end of a column's name, after an underscore; null for columns that end with none.
 const OutputUnit* unit_at_end(std::string_view column);
 
-/// Throws std::invalid_argument that says what is expected.
+/// Throws std::invalid_argument with the expected form.
 OutputWords output_words(std::string_view text);
 
 /// The words without their unit as they name an output: a displacement by its place alone, "node 5 y", others

@@ -21,7 +21,7 @@ using solvers::NyquistCoefficient;
 enum class TimeMethod { balance, exact };
 /// Fourier functions of the balances from which phases are sought, in turn until there is a motion.
 inline constexpr std::array phases_starts{63, 127, 255, 511};
-/// time.tolerance of phases unless it is said.
+/// Default of time.tolerance for exact solutions.
 inline constexpr double default_phases_tolerance = 1e-9;
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
@@ -90,7 +90,7 @@ bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);
 
-/// Whether its coexisting motions are sought from event to event.
+/// Whether coexisting motions are searched for by event-driven integration.
 bool seeks_by_events(const Scene& scene);
 /// Whether analysis and method, which are read before contacts, ask for exact motions of other laws than
 /// impacts.
@@ -109,8 +109,7 @@ bool turns_along_curve(const Scene& scene);
 /// points, and the functions of as many times the harmonics, so that it has the scene's motions repeated.
 Scene with_longer_period(Scene scene, int times);
 
-/// Whether the mass of the contacts is redistributed: in responses and sweeps as contact.mass says, in modes
-/// where it says redistribute.
+/// Whether the contact mass is redistributed: by contact.mass, in modes only for redistribute.
 bool redistributes_mass(const Scene& scene);
 
 /// Number of coefficients of the Daubechies basis called `basis` ("daubechies6" gives 6), 0 for any other

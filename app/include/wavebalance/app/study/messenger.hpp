@@ -27,8 +27,8 @@ class Messenger {
   virtual void give_up(int rank) = 0;
 };
 
-/// What the component `mpi` exports under `messenger_symbol`. Null if MPI could not be started; `reason` then
-/// points to a text that says why.
+/// Factory that the component `mpi` exports as `messenger_symbol`. Null if MPI could not be started; `reason`
+/// then explains it.
 using MessengerFactory = Messenger* (*)(const char** reason);
 inline constexpr const char* messenger_symbol = "wavebalance_mpi_messenger";
 

@@ -19,7 +19,7 @@ enum class Sampling {
 };
 std::string name_of(Sampling sampling);
 
-/// A key of a scene and what it takes: values, or an interval.
+/// A key of a scene with its values or its interval.
 struct StudyParameter {
   std::string key;                  ///< "contact.gap"
   std::vector<std::string> values;  ///< as TOML; empty for an interval
@@ -60,7 +60,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::str
 /// The study as one text, equal for studies of the same runs. O(scene + values).
 std::string study_identity(const Study& study);
 
-/// What the parameters are in each run, numbered from 0.
+/// The values of the parameters in each run, numbered from 0.
 class StudyRuns {
  public:
   /// Throws SceneError if a sampling cannot have these parameters. O(samples x parameters).

@@ -10,7 +10,7 @@
 
 namespace wavebalance::app {
 
-/// What came of one run of a study.
+/// Result of one run of a study.
 struct StudyRow {
   std::int64_t run = 0;  ///< from 0
   std::string status;    ///< of the record; "refused" or "failed" if there is none
@@ -24,8 +24,7 @@ struct StudyRow {
 /// machine has, "failed" for any other. After an observer has returned false the row has no meaning.
 StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run,
                    const solvers::Observer& observer = {});
-/// The same with the structure of the last run if that of this one is the same, since a reduction takes
-/// longer than many a response. Equal digits.
+/// The same, reusing the reduced structure of the last run if it is equal. Equal digits.
 StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, LastStructure& last,
                    const solvers::Observer& observer = {});
 

@@ -70,7 +70,7 @@ class CondensedProblem {
   const LinearStructure& structure() const { return *structure_; }
   const Eigen::VectorXcd& load_harmonics() const { return load_harmonics_; }
 
-  /// Threads of each condensation, as Condensation::set_threads() takes them; 1 until it is called.
+  /// Threads of each condensation, as in Condensation::set_threads(); 1 by default.
   void set_threads(int threads) { harmonics_->set_threads(threads); }
   int threads() const { return harmonics_->threads(); }
 

@@ -128,7 +128,7 @@ class AnyContactLaw {
   [[noreturn]] static void refuse_instant();
   [[noreturn]] static void refuse_steps();
 
-  /// Unless it is said otherwise, that of a law over a period, which has no force at one instant.
+  /// Default for a law over a period, which has no force at one instant.
   struct Interface {
     virtual ~Interface() = default;
     virtual int rows() const = 0;

@@ -23,9 +23,9 @@ class HarmonicCompliance {
 
   /// Whether all compliances are symmetric.
   virtual bool symmetric() const = 0;
-  /// Condition of the systems last solved, as Condensation::condition() says it.
+  /// Condition of the last solved systems, as Condensation::condition().
   virtual double condition() const = 0;
-  /// Threads of condense(), as Condensation::set_threads() takes them; without effect where there are none.
+  /// Threads of condense(), as in Condensation::set_threads(); no effect without threads.
   virtual void set_threads(int) {}
   virtual int threads() const { return 1; }
 };

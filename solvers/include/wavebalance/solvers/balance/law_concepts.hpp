@@ -48,8 +48,8 @@ concept OffersResolvent = requires(const Law& law, double v, double flexibility)
   { law.resolvent(v, flexibility).tangent } -> std::convertible_to<double>;  // N/m
 };
 
-/// A law that says whether it acts beyond its gap alone, `unilateral()`. One that does not say is asked for
-/// its force below the gap.
+/// A law with `unilateral()`: whether it acts only beyond its gap. Without it the force below the gap is
+/// evaluated.
 template <class Law>
 concept SaysWhereItActs = requires(const Law& law) {
   { law.unilateral() } -> std::convertible_to<bool>;

@@ -27,7 +27,7 @@ std::string_view to_string(BranchEnd end);
 /// How a branch ended whose curve has this status: `special_point` for SweepStatus::ended.
 BranchEnd end_of(SweepStatus status);
 
-/// A curve of periodic responses that begins at a special point of another.
+/// A branch of periodic responses that begins at a bifurcation point of another one.
 struct Branch {
   int parent = 0;         ///< the curve that it leaves: 0 for the main one, i for the i-th branch, from 1
   int special_point = 0;  ///< index among the special points of the parent

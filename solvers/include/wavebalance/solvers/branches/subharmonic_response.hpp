@@ -5,7 +5,7 @@
 
 namespace wavebalance::solvers {
 
-/// How a motion of several periods of the load is sought.
+/// Options of the search for a motion of several forcing periods.
 struct SubharmonicOptions {
   ForcedResponseOptions response;
   FloquetOptions floquet;             ///< of the perturbations

@@ -118,7 +118,7 @@ struct ResponseEquations {
     const double share = from.parameter_tangent * from.parameter_tangent / squared_parameter_scale();
     return system.problem().contacts() > many_contacts && share > along;
   }
-  /// Whether corrections must lower the residual: those of laws over a period.
+  /// Whether corrections must lower the residual, for laws over a period.
   bool lowers_residual() const { return system.laws().act_over_period(); }
 };
 

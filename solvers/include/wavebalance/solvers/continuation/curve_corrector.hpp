@@ -193,7 +193,7 @@ class CurveCorrector {
   Eigen::VectorXd change_;
 };
 
-/// What an attempt at a step showed.
+/// Outcome of an attempted step.
 enum class StepAttempt { taken, too_long, lost };
 
 /// Halves `step` until `attempt(step)` is taken. False, with a step of at least `shortest`, where one is lost

@@ -41,7 +41,7 @@ struct ExactPoint {
   int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
 };
 
-/// A special point, solved for with the parameter as unknown.
+/// A bifurcation or grazing point, solved for with the parameter as unknown.
 struct ExactEvent {
   SpecialPointType type = SpecialPointType::fold;
   double value = 0.0;                                 ///< Hz or load scale
@@ -54,7 +54,7 @@ struct ExactEvent {
 /// A curve of motions of the structure.
 struct ExactCurve {
   SweepStatus status = SweepStatus::no_start;
-  /// Of the first motion: why a curve with `no_start` has none.
+  /// Status of the first motion: why a curve has `no_start`.
   PhasesStatus start = PhasesStatus::converged;
   std::vector<ExactPoint> points;
   std::vector<ExactEvent> events;

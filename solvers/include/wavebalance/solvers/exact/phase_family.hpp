@@ -7,9 +7,8 @@
 
 namespace wavebalance::solvers {
 
-/// What contact_phases() takes of a problem, over the frequency of its load (Hz) or its load scale.
-///
-/// One object per thread.
+/// Inputs of contact_phases() from a problem, over its forcing frequency (Hz) or load scale. One object per
+/// thread.
 class PhaseFamily {
  public:
   /// Takes the structure, the load and the other parameter from `problem`, which may change afterwards.

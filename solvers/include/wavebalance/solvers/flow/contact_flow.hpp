@@ -122,7 +122,7 @@ class ContactFlow {
   Eigen::VectorXd displacements_by_state() const;
   /// The same of the pole that a number belongs to, whatever the phase in which it turns.
   Eigen::VectorXd amplitudes_by_state() const;
-  /// What each machine's contact did in the last period.
+  /// Transitions of each contact in the last period.
   const std::vector<FrictionCycle>& cycles() const;
   /// Impacts without rebound since they were below rest_velocity, in the last period.
   int rests() const;

@@ -41,7 +41,7 @@ struct StateExit {
   std::optional<Impulse> impulse{};
 };
 
-/// What a contact with friction does at an instant.
+/// State of a contact with friction at an instant.
 struct Sliding {
   double speed = 0.0;  ///< m/s, of the slider over its surface
   double wear = 0.0;   ///< W, the normal force times that speed [Archard]

@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers {
 
-/// The exact motion that a structure settles to.
+/// The exact motion that time integration converges to.
 struct SettledExact {
   FlowMotion settled;    ///< what was integrated
   int load_periods = 1;  ///< after which the motion repeats

@@ -29,7 +29,7 @@ struct SettlingOptions {
   void validate() const;
 };
 
-/// The motion that a structure settles to under its load.
+/// The motion that time integration converges to.
 struct SettledMotion {
   static constexpr int unknown = -1;
   /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for

@@ -19,7 +19,7 @@ struct ResponsePhases {
 PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws& laws,
                              const ContactDynamics& dynamics);
 
-/// What seeks a motion by phases from displacements and forces of the contacts, as contact_phases() does.
+/// Solver for an exact motion from displacements and forces of the contacts, as contact_phases().
 using PhaseFinder = PhaseMotion (*)(const PhasesProblem& problem, const Eigen::MatrixXd& start,
                                     const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force);
 

@@ -7,7 +7,7 @@
 
 namespace wavebalance::solvers {
 
-/// From where the motions of one frequency are sought, and how far.
+/// Options of the search for coexisting motions.
 struct MotionsOptions {
   int random_starts = 24;    ///< states from which the structure settles, beside that of rest
   unsigned seed = 20140817;  ///< of these states: the same ones for the same seed
@@ -19,7 +19,7 @@ struct MotionsOptions {
   void validate() const;
 };
 
-/// What a motion was found by first.
+/// The first method that found a motion.
 enum class MotionSource {
   rest,    ///< the structure settles to it from rest
   random,  ///< or from a random state

@@ -28,7 +28,7 @@ class FreeContacts;
 /// larger ones has the status `inaccurate`.
 inline constexpr double largest_rounding_error = 1e-3;
 
-/// Where a response is sought first, samples() values each.
+/// Starts of the search for a response, samples() values each.
 struct ResponseStart {
   Eigen::VectorXd displacement{};  ///< m; empty: the contact-free response
   Eigen::VectorXd force{};         ///< N; empty where none is known

@@ -5,11 +5,11 @@
 
 namespace wavebalance::solvers {
 
-/// Where curves beside those known are sought, and how far.
+/// Extent of the search for isolated branches.
 struct IsolatedCurvesOptions {
   FrequencySweepOptions sweep;  ///< those of the curves known; its observer sees all that is done
-  /// Hz, between the frequencies at which motions are sought; 0: a 20th of the interval. They lie at the
-  /// middles of equal parts of it, none larger, so that one of them lies within each curve that is wider.
+  /// Hz, largest spacing of the frequencies of the search; 0: a 20th of the interval. They are midpoints of
+  /// equal parts, so every wider branch contains one.
   double spacing = 0.0;
   int random_starts = 4;     ///< at each frequency: states from which the structure settles, beside rest
   unsigned seed = 20140817;  ///< of these states: the same ones for the same seed
@@ -21,7 +21,7 @@ struct IsolatedCurvesOptions {
   void validate() const;
 };
 
-/// A curve of responses through a motion that lies on no other curve.
+/// A branch through a motion that is on no known branch.
 struct IsolatedCurve {
   double found_at = 0.0;  ///< Hz, where the structure settles to a motion of it, or comes near to one
   int start = 0;  ///< what it settled from there: 0 rest, the number of the random state, or -1: a resonance
@@ -32,7 +32,7 @@ struct IsolatedCurve {
   bool meets_known = false;
 };
 
-/// The curves found beside those known.
+/// The isolated branches that were found.
 struct IsolatedCurves {
   std::vector<IsolatedCurve> curves;
   std::vector<double> frequencies;  ///< Hz, at which motions were sought

@@ -7,7 +7,7 @@
 
 namespace wavebalance::solvers {
 
-/// What the structure has near a special point of a balance.
+/// The exact counterpart of a bifurcation point of harmonic balance.
 enum class StructurePointStatus {
   found,      ///< one of its type
   repeated,   ///< one of its type, to which another special point of the balance is nearer
@@ -23,12 +23,12 @@ struct NearStructurePoint {
   std::size_t event = 0;  ///< that of StructurePoints::events, where it is found or repeated
 };
 
-/// Where special points of the structure are sought, and with how much work.
+/// Extent and effort of the search for exact bifurcation points.
 struct StructurePointsOptions {
   /// The interval of the parameter in which they lie, Hz or load scale, as of the sweep.
   double from = 0.0, to = 0.0;
-  /// How far beside a special point of the balance they are sought, as arc length of its curve: a change of
-  /// the parameter by a 20th of the interval, and of the displacement by the largest one, have length 1 each.
+  /// Arc length of the search on either side of a bifurcation point of harmonic balance. A 20th of the
+  /// interval and the largest displacement have length 1 each.
   double reach = 0.25;
   std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
   int max_points = 2000;           ///< motions on the whole curve; and on all stretches together
@@ -43,7 +43,7 @@ struct StructurePointsOptions {
   void validate() const;
 };
 
-/// Special points of the structure near those of a balance.
+/// Exact bifurcation points near the points of harmonic balance.
 struct StructurePoints {
   /// Each once, in the order of the curve; ExactEvent::next_point is the number of the point of the balance's
   /// curve with which the stretch begins in which it was found.

@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers {
 
-/// How a forced response is sought.
+/// Options of a forced response.
 struct ForcedResponseOptions {
   NewtonOptions newton;
   ContactForm form = ContactForm::automatic;

@@ -44,7 +44,7 @@ struct SweepPoint {
   double rms_vibration = 0.0;         ///< m, rms without the mean
 };
 
-/// What varies along a curve.
+/// The parameter that varies along a curve.
 enum class SweepParameter { frequency, load_scale };
 
 /// Half the peak-to-peak value, and the rms without the mean, of the row of displacements (rows x points)

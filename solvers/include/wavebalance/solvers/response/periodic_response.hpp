@@ -8,7 +8,7 @@
 
 namespace wavebalance::solvers {
 
-/// What found a periodic response, in the order in which they are tried.
+/// Strategies for a periodic response, in the order in which they are tried.
 enum class Strategy {
   none,    ///< no response was found
   newton,  ///< Newton's method from the start given, or no contact at all

@@ -56,7 +56,7 @@ struct RefinementOptions {
 /// points.
 using ProblemFactory = std::function<CondensedProblem(int functions, int points)>;
 
-/// What a refinement found, and how.
+/// Result of a refinement.
 struct RefinementResult {
   RefinementStatus status = RefinementStatus::not_converged;
   double estimated_error = 0.0;             ///< relative rms, of the last level

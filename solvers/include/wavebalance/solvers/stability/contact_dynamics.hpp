@@ -106,7 +106,7 @@ class ContactDynamics {
 /// frequency. One object per thread.
 class DynamicsAlong {
  public:
-  /// Of the structure where it does not turn; must outlive the object.
+  /// Dynamics of a structure that does not turn; must outlive the object.
   DynamicsAlong(const ContactDynamics& dynamics)
       : given_(std::shared_ptr<const ContactDynamics>(), &dynamics) {}
 

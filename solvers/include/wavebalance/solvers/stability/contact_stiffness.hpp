@@ -62,10 +62,10 @@ struct FrictionPart {
       0.0;  ///< of stick after closing: the tangential velocity over the normal one at that instant
 };
 
-/// What a contact does at an instant.
+/// State of a contact at an instant.
 enum class ContactState { open, closed, stick, slip };
 
-/// What a contact does in a period, to the accuracy of its forces and velocities.
+/// States of a contact over a period, to the accuracy of its forces and velocities.
 struct FrictionCycle {
   int row = 0;                        ///< the first of its contact directions
   double work = 0.0;                  ///< J, that friction takes over its surface, with dashpots beside it
@@ -116,7 +116,7 @@ struct PeriodicStiffness {
   std::function<double(int contact, double time)> impulse = {};
   /// Contacts with friction, whose forces remember where they began to stick. They have no intervals.
   std::vector<FrictionAlong> friction = {};
-  /// Whether multipliers follow from the map of a period alone, and not from a determinant.
+  /// Whether multipliers follow only from the map of a period, not from a determinant.
   bool needs_map() const { return damping || coupling; }
   bool held = false;  ///< whether springs that hold a free structure were taken back from it
 };

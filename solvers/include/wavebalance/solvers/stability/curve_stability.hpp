@@ -18,7 +18,7 @@ struct PointStability {
   int flip = 0;       ///< StabilitySigns::flip
 };
 
-/// What happens at a special point of a curve.
+/// The type of a bifurcation or grazing point of a curve.
 enum class SpecialPointType {
   fold,             ///< a real multiplier passes 1 where the frequency reverses
   period_doubling,  ///< a real multiplier passes -1: a motion of two periods begins

@@ -20,7 +20,7 @@ struct StabilityOptions {
   int max_states = 400;
   /// The same with friction, where each interval between two transitions takes a matrix exponential.
   int max_states_with_friction = 400;
-  /// Whether the monodromy also gives the leading multiplier, which takes its eigenvalues.
+  /// Whether the monodromy also gives the leading multiplier, which requires its eigenvalues.
   bool leading = true;
   int max_evaluations = 2000;    ///< of the determinant in one call
   double max_operations = 1e12;  ///< estimated, real ones, of all these evaluations
@@ -29,8 +29,8 @@ struct StabilityOptions {
   void validate() const;
 };
 
-/// The Floquet multipliers outside the unit circle. One that lies on it within its own error has no side: the
-/// status is then undamped or on_unit_circle unless others lie outside.
+/// The Floquet multipliers outside the unit circle. If one is on it within its error and none is outside, the
+/// status is undamped or on_unit_circle.
 struct UnstableMultipliers {
   StabilityStatus status = StabilityStatus::converged;
   int count = -1;        ///< -1 unless converged
@@ -71,9 +71,9 @@ struct UnstableMultipliers {
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                          double frequency, const StabilityOptions& options);
 
-/// The same of a response of `problem` to `laws`. Of rigid contact without mass the count is that of
-/// rigid_monodromy(); with mass it is unknown, no_finite_stiffness. `dynamics` must be that of
-/// problem.structure(); a sweep makes it once.
+/// The same for a response of `problem` to `laws`. Massless rigid contact uses rigid_monodromy(); with mass
+/// the count is unknown (no_finite_stiffness). `dynamics` must belong to problem.structure(); a sweep makes
+/// it once.
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const CondensedProblem& problem,
                                          const ContactLaws& laws, const PeriodicResponse& response,
                                          const StabilityOptions& options = {});

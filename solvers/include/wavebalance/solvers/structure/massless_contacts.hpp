@@ -5,7 +5,7 @@
 
 namespace wavebalance::solvers {
 
-/// A structure whose contacts have no mass, in coordinates of its own.
+/// A structure with massless contacts, in reduced coordinates.
 struct MasslessContacts {
   LinearStructure structure;
   Eigen::MatrixXd recovery;  ///< displacements of the given degrees of freedom from those of `structure`
