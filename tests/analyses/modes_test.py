@@ -104,7 +104,7 @@ def test_points_without_a_motion_are_a_warning_with_their_number_and_places():
     failed = sum(record.summary[f"points_{kind}"] for kind in ("cycling", "no_contact", "singular"))
     assert failed > 0
     points = record.summary["points"]
-    assert warns(record, f"{failed} of {points} points of the curve no motion was found"), record.warnings
+    assert warns(record, f"{failed} of {points} points of the branch no motion was found"), record.warnings
     assert warns(record, f"{record.summary['points_cycling']} cycling")
     assert warns(record, "at frequency ratios 1.")
     assert record.summary["warnings"] == record.warnings

@@ -89,8 +89,8 @@ def test_a_sweep_warns_where_its_turning_points_cannot_be_all(solved):
     record = solved("case2_sweep", time__quadrature_points=256)
     assert record.status == "reached_end"
     odd = len(record.summary["turning_points_Hz"]) % 2 == 1
-    assert warns(record, "a curve with this end turns an even number of times") == odd
-    assert not warns(record, "the other turns are an error")
+    assert warns(record, "a curve with this end has an even number of folds") == odd
+    assert not warns(record, "the other turns are discretisation artefacts")
 
 
 def test_a_sweep_without_special_points_has_the_same_counts(solved):

@@ -63,7 +63,7 @@ def test_a_start_is_the_first_point_of_a_curve():
 
 def test_a_response_warns_of_a_motion_far_from_its_start():
     far = solved(STOP_RESPONSE, {"forcing.frequency": 0.24}, start_from=curve_with("peak") / "motion_peak.csv")
-    assert far.converged and warns(far, "may lie on another branch")
+    assert far.converged and warns(far, "may be on another branch")
 
 
 def test_a_start_of_the_motion_itself_is_solved_at_once():

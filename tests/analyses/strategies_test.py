@@ -44,4 +44,4 @@ def test_a_balance_that_stalls_says_that_the_structure_settles_to_a_motion_of_th
                                      "contact.gap": -1e-3, "forcing.frequency": 45}, unset=["contact.stiffness"])
     assert not record.converged
     assert record.summary["attractor_periods"] == 1
-    assert warns(record, "settles to a motion of this period")
+    assert warns(record, "converges to a motion of this period")

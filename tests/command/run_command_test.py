@@ -158,7 +158,7 @@ def test_a_mode_without_a_motion_of_that_energy_is_three(run):
 def test_more_memory_than_allowed_is_two_before_anything_is_taken(run, large):
     record = run(BAR, "--max-memory", "0.5", set=[large])
     assert record.code == 2
-    assert "this scene would take about " in record.errors
+    assert "this scene would need about " in record.errors
     assert " GB of memory and --max-memory allows 500 MB" in record.errors
     assert not record.folder.exists()
 

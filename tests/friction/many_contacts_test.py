@@ -55,7 +55,7 @@ def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path
     assert panel["title"] == "Wear, the 7 largest of 10"
     seen = {re.sub(" normal$", "", one["label"]) for one in panel["series"]}
     assert seen == set(sorted(wears, key=wears.get, reverse=True)[:7])
-    words = "Stability was not computed; analysis.stability = true asks for it."
+    words = "Stability was not computed. analysis.stability = true computes it."
     assert words in (tmp_path / "report.html").read_text()
 
 

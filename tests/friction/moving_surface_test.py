@@ -159,7 +159,7 @@ def test_functions_that_would_have_no_part_are_refused(tmp_path):
              "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 128}}
     with pytest.raises(ValueError, match="time.trial = \"fourier\": not with friction of surface_speed"):
         wb.run(scene)
-    with pytest.raises(ValueError, match="friction of surface_speed, .* has no balance to compare"):
+    with pytest.raises(ValueError, match="friction with surface_speed, .* without bases to compare"):
         wb.compare(scene | {"time": {}})
 
 
