@@ -103,7 +103,7 @@ void require_states(const CoulombLaw& law, bool has_normal) {
                    "at least friction = " + detail::text(law.friction()));
   if (law.tangential_damping() > 0.0 && law.rigid())
     detail::reject(who, "tangential_damping", law.tangential_damping(),
-                   "0 without tangential_stiffness, the spring beside it");
+                   "0 without tangential_stiffness, the spring parallel to it");
   if (law.normal_damping() > 0.0 && !has_normal)
     detail::reject(who, "normal_damping", law.normal_damping(),
                    "0 where there is no normal direction, whose spring it is beside");
@@ -236,39 +236,38 @@ LawDescription CoulombLaw::description() {
   return {
       .name = "coulomb",
       .force =
-          "elastic Coulomb friction: along the tangents a spring tangential_stiffness in series with a "
-          "slider of the limit friction N, N = normal_load, or max(normal_load + normal_stiffness (u - "
-          "normal_gap), 0) of the displacement u along a normal direction",
+          "elastic Coulomb friction: along the tangents a spring tangential_stiffness in series "
+          "with a slider of limit friction N; N = normal_load, or max(normal_load + "
+          "normal_stiffness (u - normal_gap), 0) with a normal displacement u",
       .parameters =
           {{"friction", "", "coefficient of friction", LawRange{.lower = 0.0, .upper = 1e3}},
-           may_lack(
-               {"tangential_stiffness", "N/m",
-                "stiffness along the tangents while the contact sticks; without it friction is rigid, and the "
-                "contact has no mass unless it is integrated in time",
-                above_zero}),
-           with_default({"normal_load", "N",
-                         "normal force at zero displacement; above 0 where there is no normal direction",
-                         at_least_zero},
-                        0.0),
+           may_lack({"tangential_stiffness", "N/m",
+                     "stiffness along the tangents in stick; without it friction is rigid, and the contact "
+                     "must be massless unless it is integrated in time",
+                     above_zero}),
+           with_default(
+               {"normal_load", "N", "normal force at zero displacement; above 0 without a normal direction",
+                at_least_zero},
+               0.0),
            with_default({"normal_stiffness", "N/m",
                          "stiffness along the normal direction; 0: there is none, and the normal force is "
                          "normal_load",
                          at_least_zero},
                         0.0),
            with_default({"slider", "m", "position of the slider at rest, along every tangent"}, 0.0),
-           with_default({"wear_coefficient", "1/Pa",
-                         "volume that wear takes over normal force and distance of slip", at_least_zero},
-                        0.0),
+           with_default(
+               {"wear_coefficient", "1/Pa", "wear volume per normal force and slip distance", at_least_zero},
+               0.0),
            with_default({"tangents", "", "number of tangents", {.lower = 1.0, .upper = 2.0}}, 1.0),
            with_default({"normal_gap", "m", "normal displacement at which the normal spring has no force"},
                         0.0),
            may_lack({"static_friction", "",
-                     "coefficient of friction that ends sticking, at least friction; without it friction",
+                     "static coefficient of friction, at least friction; default: friction",
                      LawRange{.lower = 0.0, .upper = 1e3}}),
            may_lack({"surface_speed", "m/s",
-                     "speed of the surface along the tangent, as of a belt or a journal; without it 0"}),
+                     "speed of the surface along the tangent, as of a belt or a journal; default: 0"}),
            may_lack({"tangential_damping", "N s/m",
-                     "dashpot beside the spring tangential_stiffness; without it none", at_least_zero}),
+                     "dashpot parallel to the spring tangential_stiffness; default: none", at_least_zero}),
            may_lack(
                {"normal_damping", "N s/m",
                 "dashpot beside the spring normal_stiffness, of a contact that does not pull; without it "
@@ -276,13 +275,13 @@ LawDescription CoulombLaw::description() {
                 at_least_zero}),
            may_lack(
                {"normal_load_speed2", "N s^2",
-                "normal force over the square of the angular frequency of the load, beside normal_load: a "
-                "mass times its radius; without it none",
+                "normal force per squared angular forcing frequency, in addition to normal_load: a mass times its "
+                "radius; default: none",
                 at_least_zero}),
            may_lack(file_parameter(
                "normal_load_table",
-               "CSV file with the columns frequency_Hz and normal_load, in N over the frequency of the load, "
-               "beside normal_load and monotone between its rows; without it none"))},
+               "CSV file with the columns frequency_Hz and normal_load in N, in addition to normal_load and "
+               "interpolated monotonically; default: none"))},
       .beyond_gap_alone = false};
 }
 

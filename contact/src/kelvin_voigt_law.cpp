@@ -39,7 +39,7 @@ LawDescription KelvinVoigtLaw::description() {
                at_least_zero},
               with_default(
                   {"damping_depth", "m",
-                   "penetration over which that damper rises smoothly to its full value; 0: at once, with a "
+                   "penetration over which the damper rises smoothly to its full value; 0: at once, with a "
                    "jump of the force",
                    at_least_zero},
                   0.0),

@@ -42,13 +42,12 @@ LawDescription PeriodicStiffnessLaw::description() {
           "the sum of stiffness_harmonics[m] cos(m 2 pi frequency t + stiffness_phases[m]), m = 1, 2, ...",
       .parameters =
           {{"stiffness", "N/m", "mean of a periodic stiffness", above_zero},
-           list_parameter(
-               {"stiffness_harmonics", "N/m",
-                "amplitudes of a periodic stiffness: at the frequency of the load, at twice it, ..."}),
-           may_lack(
-               list_parameter({"stiffness_phases", "degrees",
-                               "phases of stiffness_harmonics ahead of a cosine, one each; without them 0"})),
-           may_lack({"gap", "m", "half the backlash of a periodic stiffness; without it 0", at_least_zero})},
+           list_parameter({"stiffness_harmonics", "N/m",
+                           "amplitudes of a periodic stiffness at the forcing frequency, at twice it, ..."}),
+           may_lack(list_parameter(
+               {"stiffness_phases", "degrees",
+                "phase leads of stiffness_harmonics relative to a cosine, one each; default: 0"})),
+           may_lack({"gap", "m", "half the backlash of a periodic stiffness; default: 0", at_least_zero})},
       .beyond_gap_alone = false};
 }
 

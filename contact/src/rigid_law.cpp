@@ -27,13 +27,14 @@ ForceAndTangent RigidLaw::resolvent(double v, double flexibility) const {
 }
 
 LawDescription RigidLaw::description() {
-  return {.name = "rigid",
-          .force = "whatever keeps u <= gap; with a restitution, impacts of a contact with mass",
-          .parameters = {may_lack({"restitution", "",
-                                   "velocity after an impact over that before, of contacts with mass",
-                                   zero_to_one}),
-                         gap_parameter},
-          .rigid = true};
+  return {
+      .name = "rigid",
+      .force = "whatever keeps u <= gap; with a restitution, impacts of a contact with mass",
+      .parameters = {may_lack({"restitution", "",
+                               "ratio of the velocities after and before an impact, for contacts with mass",
+                               zero_to_one}),
+                     gap_parameter},
+      .rigid = true};
 }
 
 RigidLaw RigidLaw::of(const LawValues& values) {
