@@ -262,12 +262,12 @@ LawDescription CoulombLaw::description() {
            with_default({"normal_gap", "m", "normal displacement at which the normal spring has no force"},
                         0.0),
            may_lack({"static_friction", "",
-                     "static coefficient of friction, at least friction; default: friction",
+                     "static coefficient of friction, at least friction; equal to friction if not given",
                      LawRange{.lower = 0.0, .upper = 1e3}}),
            may_lack({"surface_speed", "m/s",
-                     "speed of the surface along the tangent, as of a belt or a journal; default: 0"}),
-           may_lack({"tangential_damping", "N s/m",
-                     "dashpot parallel to the spring tangential_stiffness; default: none", at_least_zero}),
+                     "speed of the surface along the tangent, as of a belt or a journal; 0 if not given"}),
+           may_lack({"tangential_damping", "N s/m", "dashpot parallel to the spring tangential_stiffness",
+                     at_least_zero}),
            may_lack(
                {"normal_damping", "N s/m",
                 "dashpot beside the spring normal_stiffness, of a contact that does not pull; without it "
@@ -276,12 +276,12 @@ LawDescription CoulombLaw::description() {
            may_lack(
                {"normal_load_speed2", "N s^2",
                 "normal force per squared angular forcing frequency, in addition to normal_load: a mass times its "
-                "radius; default: none",
+                "radius",
                 at_least_zero}),
            may_lack(file_parameter(
                "normal_load_table",
                "CSV file with the columns frequency_Hz and normal_load in N, in addition to normal_load and "
-               "interpolated monotonically; default: none"))},
+               "interpolated monotonically"))},
       .beyond_gap_alone = false};
 }
 

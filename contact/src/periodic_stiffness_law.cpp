@@ -46,8 +46,9 @@ LawDescription PeriodicStiffnessLaw::description() {
                            "amplitudes of a periodic stiffness at the forcing frequency, at twice it, ..."}),
            may_lack(list_parameter(
                {"stiffness_phases", "degrees",
-                "phase leads of stiffness_harmonics relative to a cosine, one each; default: 0"})),
-           may_lack({"gap", "m", "half the backlash of a periodic stiffness; default: 0", at_least_zero})},
+                "phase leads of stiffness_harmonics relative to a cosine, one each; 0 if not given"})),
+           may_lack(
+               {"gap", "m", "half the backlash of a periodic stiffness; 0 if not given", at_least_zero})},
       .beyond_gap_alone = false};
 }
 
