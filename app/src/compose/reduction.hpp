@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/fem/matrices.hpp"
+
+namespace wavebalance::app {
+
+/// What acts on a structure before its reduction: see solvers::LinearStructure.
+struct Loads {
+  Eigen::VectorXd load;
+  std::vector<solvers::PeriodicForce> forces;
+};
+
+/// Sets the structure of a model to that of the matrices, reduced to the unknowns of the boundary and so many
+/// modes. Modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
+/// gyroscopic and circulatory forces, are projected on them.
+void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
+            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
+            const solvers::Observer& observer, const solvers::TurningParts& turning = {});
+
+}  // namespace wavebalance::app
