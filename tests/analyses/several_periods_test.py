@@ -100,6 +100,34 @@ def test_every_branch_is_written_with_its_period():
     assert between.any() and (record.sweep["unstable"][between] == 1.0).all()
 
 
+# At the frequency of the first period doubling under 0.8 N.
+OVER_AMPLITUDE = {**SWEEP, "forcing": {"amplitude": 0.8, "frequency": DOUBLINGS[0] / TWO_PI},
+                  "analysis": {"type": "amplitude_sweep", "amplitude_from": 0.5, "amplitude_to": 1.2}}
+
+
+def test_branches_of_an_amplitude_sweep_begin_where_those_of_a_frequency_sweep_do():
+    record = solved(OVER_AMPLITUDE, BRANCHES)
+    assert record.converged, record.status
+    branches = record.summary["branches"]
+    assert branches["amplitude_N"][0] == pytest.approx(0.8, abs=1e-4)
+    assert branches["period"][0] == 2.0
+    branch, amplitude = record.sweep["branch"], record.sweep["amplitude_N"]
+    assert amplitude[branch == 1.0][0] == branches["amplitude_N"][0]
+    assert branches["end_amplitude_N"][0] == amplitude[branch == 1.0][-1]
+    assert set(branches["end"]) <= {"amplitude_from", "amplitude_to", "special_point", "parent_curve"}
+
+
+def test_a_motion_of_a_branch_over_the_amplitude_is_that_of_a_response():
+    record = solved(OVER_AMPLITUDE, BRANCHES)
+    mine = record.sweep["branch"] == 1.0
+    amplitude, highest = (record.sweep[name][mine] for name in ("amplitude_N", "max_displacement_m"))
+    at = len(amplitude) // 2
+    response = solved(OSCILLATOR, {"forcing.frequency": DOUBLINGS[0] / TWO_PI, "forcing.amplitude": float(amplitude[at]),
+                                   "analysis.subharmonic": 2, "analysis.output_points": 2048})
+    assert response.summary["period_of_motion"] == 2
+    assert response.summary["max_displacement_m"] == pytest.approx(highest[at], rel=1e-8, abs=0.0)
+
+
 @pytest.mark.parametrize("trial, weight", [("bspline", "bspline"), ("daubechies6", "bspline"), ("fourier", "fourier")])
 def test_branches_are_those_of_every_pair_of_bases(trial, weight):
     """Motions of two periods have twice the functions and points, so that one of the curve repeated is one."""

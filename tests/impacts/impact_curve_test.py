@@ -112,6 +112,23 @@ def test_motions_of_twice_the_period_are_followed_from_a_doubling():
         assert set(sweep["period"][mine]) == {2.0 * sweep["period"][sweep["branch"] == parent][0]}
 
 
+def test_over_the_amplitude_motions_of_twice_the_period_begin_where_they_do_over_the_frequency():
+    omega = 0.6
+    ends = {"amplitude_from": 1.3, "amplitude_to": 0.7}
+    record = wb.run(scene_of(oscillator(0.04, 1.0, 0.7, omega), "amplitude_sweep", **ends, branches=True))
+    (load,) = special(record, "period_doubling", "amplitude_N")
+    # Of a gap of 1 / load a load of 1 N has the same motion, smaller.
+    same = curve(oscillator(0.04, 1.0 / load, 0.7, 0.65), 0.65, 0.5)
+    assert min(abs(TAU * one - omega) for one in special(same, "period_doubling")) <= 1e-9
+    sweep, branches = record.sweep, record.summary["branches"]
+    mine = sweep["branch"] == 1.0
+    assert mine.sum() >= 10 and set(sweep["period"][mine]) == {2.0}
+    assert branches["amplitude_N"][0] == load
+    assert branches["lowest_amplitude_N"][0] == sweep["amplitude_N"][mine].min()
+    assert branches["end_amplitude_N"][0] == pytest.approx(0.7, rel=1e-12) and branches["end"][0] == "amplitude_to"
+    assert "amplitude_N" in record.summary["special_points_of_branches"]
+
+
 def test_a_curve_passes_the_motions_that_the_structure_settles_to():
     structure = between_stops(0.2, 0.4, 0.7, 0.5)
     sweep = curve(structure, 0.7, 2.5).sweep

@@ -19,6 +19,13 @@ double largest_of(const std::vector<double>& values, double so_far) {
   return so_far;
 }
 
+/// The stable part of a curve that has none, the series `first` of two, which the legend would name.
+void leave_out_unseen(Panel& panel, std::size_t first) {
+  if (panel.series.size() < first + 2) return;
+  if (std::ranges::none_of(panel.series[first].y, [](double y) { return std::isfinite(y); }))
+    panel.series.erase(panel.series.begin() + std::ptrdiff_t(first));
+}
+
 /// The vibration of an output along one curve.
 void add_line(Panel& panel, const SweepLine& line, std::size_t output, double factor) {
   if (line.curve.points.empty()) return;
@@ -33,8 +40,10 @@ void add_line(Panel& panel, const SweepLine& line, std::size_t output, double fa
   for (const auto& point : line.stability.points) marks.push_back(point.unstable > 0);
   auto [solid, dashed] = parts_by_stability(series, marks);
   if (line.name.empty()) dashed.label = "unstable";
+  const std::size_t first = panel.series.size();
   panel.add(std::move(solid));
   if (!dashed.x.empty()) panel.add(std::move(dashed));
+  leave_out_unseen(panel, first);
 }
 
 /// The multiple of the unit in which the vibration along all curves is readable.
@@ -68,12 +77,16 @@ void draw_vibrations(Panel& panel, const std::vector<SweepLine>& lines, std::opt
     const bool main = line.name.empty();
     const Series drawn = line.series(main ? "half peak to peak" : line.name, line.vibration(output), factor);
     const std::vector<PlacedPoint> special = placed_on(drawn, line, output.has_value(), factor);
+    const std::size_t before = panel.series.size();
     draw_by_stability(panel, drawn, line.stability.points, special);
+    leave_out_unseen(panel, before);
     marks.insert(marks.end(), special.begin(), special.end());
     if (!main) continue;
     Series rms = line.series("rms without mean", line.vibration(output, true), factor);
     rms.colour = Colour::orange;
+    const std::size_t first = panel.series.size();
     draw_by_stability(panel, rms, line.stability.points, {});
+    leave_out_unseen(panel, first);
   }
   draw_special_points(panel, marks);
 }

@@ -138,19 +138,24 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
     panel.add(extremes_of_runs(curve));
 }
 
-/// A quantity of impacts along a curve, in a panel of its own.
+/// A quantity of impacts along a curve and its branches, in a panel of its own.
 void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::*value,
                        const std::string& title, const std::string& unit) {
-  std::vector<double> values;
-  for (const PointImpacts& point : sweep.impacts.front()) values.push_back(point.*value);
-  const Scale scale = take_to_scale(values);
+  double largest = 0.0;
+  for (const auto& along : sweep.impacts)
+    for (const PointImpacts& point : along) largest = std::max(largest, point.*value);
+  const Scale scale = axis_scale(largest);
   Panel& panel = figure.add_panel(title);
   panel.x.label = sweep_axis(sweep).label();
   panel.y.label = "Largest (" + scale.prefix + unit + ")";
   panel.y.lower = 0.0;
-  Series series("", places_along(sweep.curve), values);
-  series.colour = Colour::blue;
-  add_curve(panel, series, sweep.stability.points, {});
+  const std::vector<SweepLine> lines = lines_of(sweep);
+  for (std::size_t i = 0; i < std::min(lines.size(), sweep.impacts.size()); ++i) {
+    if (lines[i].curve.points.empty()) continue;
+    std::vector<double> values;
+    for (const PointImpacts& point : sweep.impacts[i]) values.push_back(point.*value);
+    add_curve(panel, lines[i].series("", values, scale.factor), lines[i].stability.points, {});
+  }
 }
 
 }  // namespace

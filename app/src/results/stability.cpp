@@ -189,17 +189,24 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
 
 namespace {
 
+/// "frequency_to", or "amplitude_to" of a branch that left the interval of an amplitude sweep there.
+std::string end_of_branch(const solvers::Branch& branch, const SweepAxis& axis) {
+  const std::string end(to_string(branch.end));
+  const bool left = branch.end == solvers::BranchEnd::from_end || branch.end == solvers::BranchEnd::to_end;
+  return left ? axis.quantity + end.substr(end.find('_')) : end;
+}
+
 /// Where a branch began and how it ended.
 std::vector<Cell> branch_row(const Sweep& sweep, std::size_t index) {
   const solvers::Branch& branch = sweep.branches[index];
   const solvers::CurveStability& parent = sweep.balances_of(std::size_t(branch.parent));
   const solvers::SpecialPoint& origin = parent.special_points[std::size_t(branch.special_point)];
   const std::vector<solvers::SweepPoint>& points = branch.curve.points;
-  return row_of(index + 1, branch.parent, to_string(origin.type), origin.frequency,
-                branch.periods * sweep.periods, least_of(points, &solvers::SweepPoint::frequency),
-                largest_of(points, &solvers::SweepPoint::frequency),
+  const auto place = [&](const auto& point) { return parameter_of(point, sweep.curve.parameter); };
+  return row_of(index + 1, branch.parent, to_string(origin.type), place(origin),
+                branch.periods * sweep.periods, least_of(points, place), largest_of(points, place),
                 largest_of(points, &solvers::SweepPoint::max_displacement), points.size(),
-                to_string(branch.end), points.empty() ? missing : points.back().frequency,
+                end_of_branch(branch, sweep_axis(sweep)), points.empty() ? missing : place(points.back()),
                 branch.stability.points.empty() ? "none" : to_string(branch.stability.status()));
 }
 
@@ -213,9 +220,9 @@ bool ended_well(const solvers::Branch& branch) {
 }  // namespace
 
 void append_branches(Record& record, const Sweep& sweep) {
-  Table table({"branch", "parent", "type", "frequency_Hz", "period", "lowest_frequency_Hz",
-               "highest_frequency_Hz", "max_displacement_m", "points", "end", "end_frequency_Hz",
-               "stability"});
+  const std::string place = sweep_axis(sweep).column();
+  Table table({"branch", "parent", "type", place, "period", "lowest_" + place, "highest_" + place,
+               "max_displacement_m", "points", "end", "end_" + place, "stability"});
   for (std::size_t i = 0; i < sweep.branches.size(); ++i) {
     table.append_row(branch_row(sweep, i));
     warn_of_quasi_periodic_motions(record, sweep.branches[i].stability.special_points, sweep);

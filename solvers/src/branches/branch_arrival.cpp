@@ -38,20 +38,21 @@ double alternating_share(const Eigen::VectorXd& samples, int contacts) {
 
 double Scales::inner(const CurvePoint& a, const CurvePoint& b) const {
   return a.displacement.dot(b.displacement) / (double(a.displacement.size()) * displacement * displacement) +
-         a.parameter * b.parameter / (frequency * frequency);
+         a.parameter * b.parameter / (parameter * parameter);
 }
 
 std::optional<SweepStart> motion_beside(ContactSystem& system, const CurvePoint& origin,
-                                        const Eigen::VectorXd& change, const Scales& scales) {
-  const FrequencyParameter frequency;
+                                        const Eigen::VectorXd& change, const Scales& scales,
+                                        SweepParameter parameter) {
+  const CurveParameter& along = curve_parameter(parameter);
   ArcLengthOptions lengths;
   lengths.displacement_scale = scales.displacement;
-  lengths.parameter_scale = scales.frequency;
+  lengths.parameter_scale = scales.parameter;
   lengths.max_corrections = 32;
   CurvePoint beyond = origin, first;
   beyond.displacement += 2.0 * change;
-  if (!ArcLength(system, frequency, lengths).between(origin, beyond, 0.5, first)) return std::nullopt;
-  system.problem().set_load_frequency(first.parameter);
+  if (!ArcLength(system, along, lengths).between(origin, beyond, 0.5, first)) return std::nullopt;
+  along.set(system, first.parameter);
   return SweepStart{response_at(system, first.displacement), change, {}};
 }
 
@@ -62,7 +63,8 @@ bool lies_on(const FrequencySweep& curve, const CurvePoint& origin, const CurveP
   const double length = scales.inner(way, way);
   double nearest = std::numeric_limits<double>::infinity(), cosine = 0.0;
   for (const SweepPoint& point : curve.points) {
-    const CurvePoint to = way_between(curve_point(point.unknown, point.frequency), origin);
+    const CurvePoint to =
+        way_between(curve_point(point.unknown, parameter_of(point, curve.parameter)), origin);
     const double distance = scales.inner(to, to);
     if (distance < length || distance >= nearest) continue;
     nearest = distance;
@@ -81,7 +83,8 @@ Arrival::Arrival(const Parent& parent, int special_point, int contacts, Scales s
   for (std::size_t i = 0; i < parent.special_points().size(); ++i) {
     const SpecialPoint& other = parent.special_points()[i];
     if (other.type != type) continue;
-    ends_.emplace_back(int(i), curve_point(repeated(other.unknown, contacts, times), other.frequency));
+    ends_.emplace_back(int(i), curve_point(repeated(other.unknown, contacts, times),
+                                           parameter_of(other, parent.curve->parameter)));
   }
 }
 

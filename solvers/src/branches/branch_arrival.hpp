@@ -27,18 +27,19 @@ struct Parent {
   const std::vector<SpecialPoint>& special_points() const { return stability->special_points; }
 };
 
-/// Lengths in the space of unknowns and frequencies of a branch's problem.
+/// Lengths in the space of unknowns and of what varies along a branch.
 struct Scales {
-  double displacement = 1.0, frequency = 1.0;
+  double displacement = 1.0, parameter = 1.0;
 
   double inner(const CurvePoint& a, const CurvePoint& b) const;
 };
 
 /// A start of a curve at the solution in the plane perpendicular to `change` through its end from the point
-/// `origin` of another curve, at whatever frequency; nothing where there is none. Sets the frequency of the
-/// problem.
+/// `origin` of another curve, at whatever frequency or load scale; nothing where there is none. Sets that of
+/// the problem.
 std::optional<SweepStart> motion_beside(ContactSystem& system, const CurvePoint& origin,
-                                        const Eigen::VectorXd& change, const Scales& scales);
+                                        const Eigen::VectorXd& change, const Scales& scales,
+                                        SweepParameter parameter = SweepParameter::frequency);
 
 /// Whether `first` lies in the direction, from the point `origin` of a curve, of that curve's next point
 /// farther away.

@@ -25,6 +25,7 @@ class Branches {
         load_periods_(options.load_periods) {}
 
   std::vector<Branch> run(const FrequencySweep& main, const CurveStability& stability) {
+    main_ = &main;
     branches_.reserve(std::size_t(options_.max_branches));  // parents point at them
     follow_all_of({0, 1, &main, &stability});
     for (std::size_t i = 0; i < branches_.size() && !cancelled_; ++i) {
@@ -73,6 +74,7 @@ class Branches {
     const Scales scales{scale_of(from), sweep.arc_length.parameter_scale};
     sweep.arc_length.displacement_scale = scales.displacement;  // where they end is measured by it
     SweepStart start;
+    hold(problem, from);
     if (!begin(parent, from, times, side, problem, scales, start)) return branch;
     trace(parent, problem, sweep, scales, std::move(start), branch);
     return branch;
@@ -83,6 +85,15 @@ class Branches {
     problem.set_periods(periods * load_periods_);
     return problem;
   }
+
+  // What does not vary along the curves keeps its value.
+  void hold(CondensedProblem& problem, const SpecialPoint& at) const {
+    const bool scaled = main_->parameter == SweepParameter::load_scale;
+    problem.set_load_scale(scaled ? at.load_scale : main_->points.front().load_scale);
+    problem.set_load_frequency(at.frequency);
+  }
+
+  double place_of(const SpecialPoint& at) const { return parameter_of(at, main_->parameter); }
 
   double scale_of(const SpecialPoint& from) const {
     const double given = options_.sweep.arc_length.displacement_scale, gap = laws_.largest_gap();
@@ -103,7 +114,7 @@ class Branches {
   // not found.
   Eigen::VectorXd direction(const Parent& parent, const SpecialPoint& from, int times, const TimePair& pair) {
     CondensedProblem before = problem_of(parent.periods);
-    before.set_load_frequency(from.frequency);
+    hold(before, from);
     ContactSystem system(before, laws_, parent.curve->series_flexibility);
     FloquetOptions how;
     how.stability = options_.stability.stability;
@@ -126,12 +137,14 @@ class Branches {
     const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
     if (way.size() != problem.samples()) return false;
     ContactSystem system(problem, laws_, parent.curve->series_flexibility);
-    const CurvePoint origin = curve_point(repeated(from.unknown, problem.contacts(), times), from.frequency);
+    const CurvePoint origin = curve_point(repeated(from.unknown, problem.contacts(), times), place_of(from));
     const double rms = origin.displacement.norm() / std::sqrt(double(origin.displacement.size()));
     for (const double size : {0.01, 0.03, 0.1}) {
-      auto first = motion_beside(system, origin, size * rms * way, scales);
+      auto first = motion_beside(system, origin, size * rms * way, scales, main_->parameter);
       if (!first) continue;
-      const CurvePoint place = curve_point(first->response.unknown, problem.load_frequency());
+      const bool scaled = main_->parameter == SweepParameter::load_scale;
+      const CurvePoint place =
+          curve_point(first->response.unknown, scaled ? problem.load_scale() : problem.load_frequency());
       if (times == 1 && lies_on(*parent.curve, origin, place, scales)) continue;
       start = *std::move(first);
       start.direction = way;
@@ -144,11 +157,13 @@ class Branches {
              const Scales& scales, SweepStart start, Branch& branch) {
     Arrival arrival(parent, branch.special_point, problem.contacts(), scales);
     start.ends = [&](const CurvePoint& before, const CurvePoint& after) { return arrival(before, after); };
-    branch.curve = frequency_sweep(problem, laws_, sweep, start);
+    const bool scaled = main_->parameter == SweepParameter::load_scale;
+    branch.curve = scaled ? amplitude_sweep(problem, laws_, sweep, start)
+                          : frequency_sweep(problem, laws_, sweep, start);
     branch.end = end_of(branch.curve.status);
     if (branch.curve.points.empty()) return;
     const SweepPoint& end = branch.curve.points.back();
-    const CurvePoint last = curve_point(end.unknown, end.frequency);
+    const CurvePoint last = curve_point(end.unknown, parameter_of(end, main_->parameter));
     if (branch.end == BranchEnd::lost && arrival.is_beside(last)) branch.end = BranchEnd::special_point;
     if (branch.end == BranchEnd::special_point) {
       arrival.note_nearest(last, 2.0 * std::max(arrival.step(), sweep.arc_length.max_step));
@@ -195,7 +210,8 @@ class Branches {
       const SpecialPoint& from = parent.special_points()[std::size_t(special_point)];
       const int times = branch.periods / parent.periods;
       return sweep_point(system, evaluator,
-                         curve_point(repeated(from.unknown, problem.contacts(), times), from.frequency));
+                         curve_point(repeated(from.unknown, problem.contacts(), times), place_of(from)),
+                         main_->parameter);
     };
     auto& points = branch.curve.points;
     auto& stability = branch.stability.points;
@@ -211,6 +227,7 @@ class Branches {
   DynamicsAlong dynamics_;
   const BranchOptions& options_;
   int load_periods_;  // in a period of the main curve
+  const FrequencySweep* main_ = nullptr;
   std::vector<Branch> branches_;
   bool cancelled_ = false;
 };

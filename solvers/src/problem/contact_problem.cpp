@@ -338,6 +338,7 @@ std::vector<Branch> ContactProblem::branches(const FrequencySweep& curve, const 
   const auto problems = [&](int periods) {
     CondensedProblem problem(pairs(periods), structure(),
                              solvers::over_periods(condensed_.load_harmonics(), periods));
+    problem.set_load_unit(condensed_.full_load(), condensed_.load_unit());
     problem.set_threads(condensed_.threads());
     return problem;
   };

@@ -115,7 +115,7 @@ class Sweep {
     CurvePoint point;
     point.displacement = first.unknown;
     point.parameter =
-        parameter_ == SweepParameter::frequency ? first.frequency * problem_.periods() : options_.from;
+        parameter_ == SweepParameter::frequency ? first.frequency * problem_.periods() : first.load_scale;
     const bool directed = start_ && start_->direction.size() > 0;
     point.displacement_tangent = directed ? start_->direction : Eigen::VectorXd::Zero(first.unknown.size());
     point.parameter_tangent = directed ? 0.0 : options_.to - options_.from;

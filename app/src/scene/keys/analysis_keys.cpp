@@ -58,8 +58,8 @@ void add_sweep(std::vector<SceneKey>& keys) {
         "true follows exact periodic solutions, started from harmonic balance: bifurcation "
         "points have ten digits, and motions the tolerance 1e-9",
         optional);
-  over_frequency(&Analysis::branches, "branches", "",
-                 "true also follows the branches that begin at period doublings and branch points", optional);
+  sweep(&Analysis::branches, "branches", "",
+        "true also follows the branches that begin at period doublings and branch points", optional);
   over_frequency(&Analysis::isolas, "isolas", "",
                  "true also searches for isolated branches, closed ones included: near shifted resonances "
                  "and by time integration from rest and random states",

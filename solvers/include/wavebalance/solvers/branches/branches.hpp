@@ -12,8 +12,8 @@ namespace wavebalance::solvers {
 enum class BranchEnd {
   special_point,  ///< it arrived at another special point of the curve that it left
   parent_curve,   ///< it arrived at that curve where no special point was found
-  from_end,       ///< it left the frequency interval at `from`
-  to_end,         ///< it left the frequency interval at `to`
+  from_end,       ///< it left the interval at `from`
+  to_end,         ///< it left the interval at `to`
   no_start,       ///< no motion of the branch was found beside the special point
   closed,         ///< it came back to an earlier point of itself
   lost,           ///< no further point was found
@@ -34,7 +34,8 @@ struct Branch {
   int periods = 1;        ///< period of its motions over that of the main curve's problem
   BranchEnd end = BranchEnd::no_start;
   int end_point = -1;        ///< index of the special point of the parent at which it arrived; -1 for none
-  FrequencySweep curve;      ///< of its own problem; frequencies are those of the load, as of the main curve
+  FrequencySweep curve;      ///< of its own problem; frequencies are those of the load, as of the main curve,
+                             ///< and what varies is what varies along that
   CurveStability stability;  ///< likewise
 };
 
@@ -53,7 +54,8 @@ struct BranchOptions {
 
 /// Makes a problem for motions of `periods` periods of the main curve's problem: its load in harmonics
 /// `periods` times as high, `periods` times the points and the functions of as many harmonics, so that a
-/// motion of the main curve repeated is a solution. One without frequency or in the displacement form.
+/// motion of the main curve repeated is a solution. One without frequency or in the displacement form, whose
+/// load scale has the unit of the main curve's.
 using BranchProblems = std::function<CondensedProblem(int periods)>;
 
 /// Follows the branches of a curve, and the period-doubled ones of these, up to largest_period and
