@@ -58,3 +58,42 @@ def test_where_rows_stand_for_themselves_a_name_of_several_is_refused(beam):
     with pytest.raises(wb.SceneError) as refused:
         wb.run(beam)
     assert "4 rows of" in refused.value.allowed and "takes their mean" in refused.value.allowed
+
+
+def reduced(modes):
+    return {"structure.kept_modes": modes}
+
+
+def test_a_reduction_keeps_one_coordinate_for_the_mean_of_a_node(beam):
+    # With all modes of the rest, n - 1, it is exact.
+    whole, same = wb.run(beam), wb.run(beam, reduced(4))
+    assert same.summary["reduced_degrees_of_freedom"] == 5
+    scale = np.abs(whole.response["displacement_m"]).max()
+    np.testing.assert_allclose(same.response["displacement_m"], whole.response["displacement_m"], rtol=0.0,
+                               atol=1e-10 * scale)
+    assert scale > 3e-5
+    for output in ("node_7_z", "node_7_z_2"):
+        key = output + "_amplitude_1_m"
+        assert same.summary[key] == pytest.approx(whole.summary[key], rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize("loaded, kept", [(["node 7 z"], 1), (["node 7 z", "node 8 z"], 2), (["node 8 z"], 2),
+                                          (["node 7 z #2"], 2), (["node 7 z #2", "node 7 z #3"], 2)])
+def test_rows_that_a_load_takes_otherwise_than_a_contact_are_coordinates_of_their_own(beam, loaded, kept):
+    # A load on one or two rows of the node leaves the others one coordinate, and those that it takes another.
+    beam["forcing"]["load_dofs"] = loaded
+    record = wb.run(beam, reduced(5 - kept))
+    assert record.summary["reduced_degrees_of_freedom"] == 5
+    whole = wb.run(beam).response["contact_force_N"]
+    np.testing.assert_allclose(record.response["contact_force_N"], whole, rtol=0.0, atol=1e-9 * max(1.0, whole.max()))
+    with pytest.raises(wb.SceneError, match=f"expected at most {5 - kept}"):
+        wb.run(beam, reduced(6 - kept))
+
+
+def test_a_contact_at_one_row_of_several_is_warned_of(beam):
+    assert not any("corner" in one for one in wb.run(beam).warnings)
+    beam["contact"]["pairs"] = [{"dofs": ["node 7 z #2"]}, {"dofs": ["node 8 z"]}]
+    (warning,) = [one for one in wb.run(beam).warnings if "corner" in one]
+    assert warning.startswith('Contacts act at "node 7 z #2" alone')
+    assert '"node 7 z" without the number is the mean of the node\'s 4 rows' in warning
+    assert warning in wb.check(beam)

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "matrices/boundary.hpp"
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/fem/check_structure.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
@@ -50,6 +51,16 @@ fem::CraigBampton craig_bampton_of(const fem::Matrices& matrices, const std::vec
   return reduced;
 }
 
+/// With the displacements of the structure itself.
+fem::CraigBampton reduction(const fem::Matrices& matrices, const Kept& kept,
+                            const fem::CraigBamptonOptions& options) {
+  if (kept.merging.size() == 0) return craig_bampton_of(matrices, kept.boundary, options);
+  fem::CraigBampton reduced = craig_bampton_of(merged(matrices, kept.merging), kept.boundary, options);
+  if (reduced.status == fem::EigenmodesStatus::converged)
+    reduced.transformation = kept.merging * reduced.transformation;
+  return reduced;
+}
+
 solvers::TurningParts projected(solvers::TurningParts turning, const Eigen::MatrixXd& transformation) {
   for (Sparse* part : {&turning.gyroscopic, &turning.stiffness})
     if (part->size() > 0)
@@ -60,12 +71,12 @@ solvers::TurningParts projected(solvers::TurningParts turning, const Eigen::Matr
 }  // namespace
 
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
-            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
+            const solvers::ContactDirections& directions, const Kept& kept, int kept_modes,
             const solvers::Observer& observer, const solvers::TurningParts& turning) {
   const std::optional<fem::Matrices> parts = symmetric_parts(matrices);
   fem::CraigBampton reduced =
-      craig_bampton_of(parts ? *parts : matrices, boundary,
-                       {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
+      reduction(parts ? *parts : matrices, kept,
+                {.modes = kept_modes, .solver = {}, .observer = reduction_observer(observer)});
   if (reduced.status != fem::EigenmodesStatus::converged)
     throw std::runtime_error("structure.kept_modes = " + std::to_string(kept_modes) +
                              ": the eigenvalue solver did not find them all");
@@ -79,7 +90,8 @@ void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& l
   model.structure.forces = loads.forces;
   for (solvers::PeriodicForce& force : model.structure.forces)
     force.shape = reduced.project_load(force.shape);
-  model.structure.contact_directions = reduced.project_directions(directions);
+  model.structure.contact_directions =
+      reduced.project_directions(kept.merging.size() == 0 ? directions : merged(directions, kept.merging));
   model.recovery = std::move(reduced.transformation);
 }
 

@@ -12,11 +12,17 @@ struct Loads {
   std::vector<solvers::PeriodicForce> forces;
 };
 
-/// Sets the structure of a model to that of the matrices, reduced to the unknowns of the boundary and so many
-/// modes. Modes and static deflections are those of the symmetric parts of the matrices. Their skew parts,
-/// gyroscopic and circulatory forces, are projected on them.
+/// What a reduction keeps beside its modes.
+struct Kept {
+  std::vector<int> boundary;
+  Eigen::SparseMatrix<double> merging = {};  ///< merging() of coordinates of several unknowns, or 0 x 0
+};
+
+/// Sets the structure of a model to that of the matrices, reduced to the boundary and so many modes. Modes
+/// and static deflections are those of the symmetric parts of the matrices. Their skew parts, gyroscopic and
+/// circulatory forces, are projected on them.
 void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
-            const solvers::ContactDirections& directions, const std::vector<int>& boundary, int kept_modes,
+            const solvers::ContactDirections& directions, const Kept& kept, int kept_modes,
             const solvers::Observer& observer, const solvers::TurningParts& turning = {});
 
 }  // namespace wavebalance::app

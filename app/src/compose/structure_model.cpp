@@ -6,6 +6,7 @@
 
 #include "compose/reduction.hpp"
 #include "compose/signals.hpp"
+#include "matrices/boundary.hpp"
 #include "matrices/carried_rows.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"
@@ -154,7 +155,7 @@ StructureModel blade_model(const Scene& scene, const solvers::Observer& observer
                     forces_of(scene.forcing, {.force = blade_load(scene, *blade, 1.0),
                                               .inertia = blade_inertia(scene, *blade, matrices.mass)})};
   reduce(model, matrices, loads, solvers::contact_rows(tip_unknowns(scene, *blade), model.unknowns),
-         blade->boundary_unknowns, scene.structure.kept_modes, observer);
+         {blade->boundary_unknowns}, scene.structure.kept_modes, observer);
   model.blade = blade;
   return model;
 }
@@ -170,7 +171,7 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
   check_against_files(scene, *files);
   const Structure& structure = scene.structure;
   StructureModel model;
-  model.warnings = warnings_of(*files);
+  model.warnings = warnings_of(scene, *files);
   model.unknowns = static_cast<int>(files->matrices.stiffness.rows());
   model.mesh = files->mesh;
   fem::Matrices matrices = files->matrices;
@@ -197,8 +198,9 @@ StructureModel matrices_model(const Scene& scene, const solvers::Observer& obser
     model.plane = rotor_plane(scene, *files, directions);
     return model;
   }
-  reduce(model, matrices, loads, directions, boundary_rows(scene, *files), structure.kept_modes, observer,
-         turning);
+  const std::vector<BoundaryCoordinate> boundary = boundary_coordinates(scene, *files);
+  reduce(model, matrices, loads, directions, {unknowns_of(boundary), merging(boundary, model.unknowns)},
+         structure.kept_modes, observer, turning);
   const Eigen::MatrixXd plane = rotor_plane(scene, *files, directions);
   if (plane.size() > 0) model.plane = plane * model.recovery;
   return model;
@@ -277,7 +279,7 @@ int reduced_size(const Scene& scene) {
   if (structure.type == StructureType::blade) return 3 * tip_corners(structure.blade) + structure.kept_modes;
   const auto files = structure_files(scene);
   if (structure.kept_modes < 0) return static_cast<int>(files->matrices.stiffness.rows());
-  return static_cast<int>(boundary_rows(scene, *files).size()) + structure.kept_modes;
+  return static_cast<int>(boundary_coordinates(scene, *files).size()) + structure.kept_modes;
 }
 
 std::int64_t structure_dofs(const Scene& scene) {

@@ -334,7 +334,7 @@ std::string matrices_lines(const Scene& scene) {
 std::string warning_lines(const Scene& scene) {
   if (scene.structure.type != StructureType::matrices) return "";
   std::string text;
-  for (const std::string& warning : warnings_of(*structure_files(scene)))
+  for (const std::string& warning : warnings_of(scene, *structure_files(scene)))
     text += "warning    " + warning + "\n";
   return text;
 }

@@ -183,16 +183,23 @@ Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFile
   return files.forces_at_unknowns(signs_in_files(dofs, coefficients, files));
 }
 
-std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
+Eigen::MatrixXd boundary_loads(const Scene& scene, const StructureFiles& files) {
   const Eigen::VectorXd unit = unit_load(scene, files);
-  Eigen::VectorXd loads = Eigen::VectorXd::Zero(unit.size());
+  std::vector<Eigen::VectorXd> loads;
   const auto add = [&](const Eigen::VectorXd& load) {
-    if ((load.array() != 0.0).count() <= most_loaded_dofs) loads += load.cwiseAbs();
+    if ((load.array() != 0.0).count() <= most_loaded_dofs) loads.push_back(load);
   };
   add(unit);
   for (std::size_t i = 0; i < scene.forcing.terms.size(); ++i)
     if (scene.forcing.terms[i].kind == LoadKind::force || scene.forcing.terms[i].kind == LoadKind::unbalance)
       add(force_of(scene.forcing, i, files, unit));
+  Eigen::MatrixXd all(unit.size(), std::ssize(loads));
+  for (std::size_t i = 0; i < loads.size(); ++i) all.col(Eigen::Index(i)) = loads[i];
+  return all;
+}
+
+std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files) {
+  const Eigen::VectorXd loads = boundary_loads(scene, files).cwiseAbs().rowwise().sum();
   std::vector<int> rows;
   for (Eigen::Index row = 0; row < loads.size(); ++row)
     if (loads[row] != 0.0) rows.push_back(static_cast<int>(row));

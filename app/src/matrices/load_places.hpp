@@ -18,6 +18,8 @@ void check_loads(const Scene& scene, const StructureFiles& files);
 void check_dofs(const std::vector<int>& dofs, Eigen::Index size, std::string_view key);
 void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, std::string_view key);
 
+/// The loads of amplitude 1 on at most most_loaded_dofs degrees of freedom, n x loads.
+Eigen::MatrixXd boundary_loads(const Scene& scene, const StructureFiles& files);
 /// Rows (from 0) of the loaded degrees of freedom, ascending. Those of a load on more than most_loaded_dofs
 /// of them are left out, and all where they are more together: they act through the modes of a reduction.
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "files/contains.hpp"
+#include "matrices/boundary.hpp"
 #include "matrices/carried_rows.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/massless_rows.hpp"
@@ -257,11 +258,44 @@ Eigen::VectorXd StructureFiles::forces_at_unknowns(const Eigen::VectorXd& forces
   return forces(rows) + followers.transpose() * forces(massless);
 }
 
-std::vector<std::string> warnings_of(const StructureFiles& files) {
-  if (!files.damping_adds_energy) return {};
-  return {
-      "structure.damping is not positive semidefinite: it adds energy to some motion, so that the structure itself "
-      "is unstable"};
+namespace {
+
+/// Rows of contacts, from 0, of nodes with several rows of one name, of which contacts leave some out.
+std::vector<int> corner_rows(const Scene& scene, const StructureFiles& files) {
+  std::vector<int> touched, corners;
+  for (const SceneContact& contact : contact_places(scene))
+    for (const int dof : contact.dofs)
+      if (!contains(touched, dof - 1)) touched.push_back(dof - 1);
+  for (const int row : touched) {
+    fem::NodeDof other = files.dof_map->dof(row);
+    const int copies = files.dof_map->copies(other);
+    for (other.copy = 1; other.copy <= copies; ++other.copy)
+      if (!contains(touched, files.dof_map->row(other))) {
+        corners.push_back(row);
+        break;
+      }
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const Scene& scene, const StructureFiles& files) {
+  std::vector<std::string> warnings;
+  if (files.damping_adds_energy)
+    warnings.emplace_back(
+        "structure.damping is not positive semidefinite: it adds energy to some motion, so that the structure itself "
+        "is unstable");
+  const std::vector<int> corners = files.dof_map ? corner_rows(scene, files) : std::vector<int>();
+  if (corners.empty()) return warnings;
+  fem::NodeDof first = files.dof_map->dof(corners.front());
+  warnings.push_back(fmt::format(
+      "Contacts act at \"{}\"{} alone, a corner of the expanded beam or shell, where a force also twists it. "
+      "\"{}\" without the number is the mean of the node's {} rows.",
+      files.row_name(corners.front()),
+      corners.size() == 1 ? "" : fmt::format(" and {} other such rows", corners.size() - 1), to_string(first),
+      files.dof_map->copies(first)));
+  return warnings;
 }
 
 std::shared_ptr<const StructureFiles> structure_files(const Scene& scene) {
@@ -282,8 +316,8 @@ void check_against_files(const Scene& scene, const StructureFiles& files) {
       check_touched(*rows, files, pair_section(i) + name);
   check_loads(scene, files);
   check_carried(scene, files);
-  const auto boundary = static_cast<Eigen::Index>(boundary_rows(scene, files).size());
   if (scene.structure.kept_modes < 0) return;
+  const Eigen::Index boundary = std::ssize(boundary_coordinates(scene, files));
   if (boundary >= size)
     throw StructureFault("structure.kept_modes",
                          "all degrees of freedom are in contact or loaded; expected "

@@ -60,8 +60,9 @@ struct StructureFiles {
   Eigen::VectorXd forces_at_unknowns(const Eigen::VectorXd& forces) const;
 };
 
-/// What is wrong with a structure that can nevertheless be solved, a sentence each.
-std::vector<std::string> warnings_of(const StructureFiles& files);
+/// What is doubtful about a structure that can nevertheless be solved, and where its contacts act, a sentence
+/// each.
+std::vector<std::string> warnings_of(const Scene& scene, const StructureFiles& files);
 
 /// A key of a structure of matrices that does not fit its files, and why.
 class StructureFault : public std::runtime_error {
@@ -84,7 +85,7 @@ void check_against_files(const Scene& scene, const StructureFiles& files);
 /// The directions of contact among n degrees of freedom, contacts x n: of contact_dofs or of the pairs.
 solvers::ContactDirections contact_directions(const Scene& scene, const StructureFiles& files);
 
-/// The unknowns that a reduction keeps beside its modes: those that the contacts touch, then those loaded.
+/// The unknowns that contacts touch, then those loaded.
 std::vector<int> boundary_rows(const Scene& scene, const StructureFiles& files);
 
 }  // namespace wavebalance::app

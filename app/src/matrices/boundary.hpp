@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "matrices/structure_files.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/fem/matrices.hpp"
+
+namespace wavebalance::app {
+
+/// Unknowns of which a reduction keeps one coordinate, their sum with these weights. The first has the weight
+/// 1.
+struct BoundaryCoordinate {
+  std::vector<int> unknowns;
+  std::vector<double> weights;
+};
+
+/// What a reduction keeps beside its modes: the unknowns that contacts touch, then those loaded. Rows of one
+/// name, as those of a node of an expanded beam, are one coordinate where all contacts and loads take them in
+/// the same proportions.
+std::vector<BoundaryCoordinate> boundary_coordinates(const Scene& scene, const StructureFiles& files);
+
+/// The unknowns whose places the coordinates take, each the first of its own.
+std::vector<int> unknowns_of(const std::vector<BoundaryCoordinate>& boundary);
+
+/// B, n x n, of u = B w with the coordinates in those places of w; 0 x 0 where each coordinate is an unknown.
+Eigen::SparseMatrix<double> merging(const std::vector<BoundaryCoordinate>& boundary, Eigen::Index size);
+
+/// B^T A B of M, C and K.
+fem::Matrices merged(const fem::Matrices& matrices, const Eigen::SparseMatrix<double>& merging);
+
+/// S B without the rounding errors that stand for its zeros.
+solvers::ContactDirections merged(const solvers::ContactDirections& directions,
+                                  const Eigen::SparseMatrix<double>& merging);
+
+}  // namespace wavebalance::app
