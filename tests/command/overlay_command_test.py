@@ -9,6 +9,10 @@ from command_scenes import STOP, STOP_AT, names_in, rows_of
 
 UNDAMPED_MODE = {"analysis.type": "nonlinear_mode", "structure.stiffness_damping": 0,
                  "analysis.last_frequency_ratio": 1.4, "analysis.points": 60, "analysis.largest_energy": 20}
+DIAGRAM = {"analysis.type": "bifurcation_diagram", "analysis.values": 4, "analysis.transient_periods": 200,
+           "analysis.section_points": 16, "analysis.exact_curve": False, "analysis.both_ways": False}
+OVER_AMPLITUDE = {"analysis.amplitude_from": 0.05, "analysis.amplitude_to": 0.15}
+BASES = [f"time.{key}" for key in ("trial", "weight", "functions", "quadrature_points")]
 RECORDS = {
     "low": (STOP, {"forcing.amplitude": 0.1}),
     "high": (STOP, {}),
@@ -18,6 +22,9 @@ RECORDS = {
     "mode": (STOP_AT, UNDAMPED_MODE),
     "high_tip": (STOP, {"analysis.outputs": ["velocity of node 1", "node 1"], "plot.log": True}),
     "mode_tip": (STOP_AT, {**UNDAMPED_MODE, "analysis.outputs": ["velocity of node 1", "node 1"]}),
+    "diagram": (STOP_AT, {**DIAGRAM, "analysis.frequency_from": 0.2, "analysis.frequency_to": 0.24}),
+    "loads": (STOP_AT, {"analysis.type": "amplitude_sweep", **OVER_AMPLITUDE}),
+    "load_diagram": (STOP_AT, {**DIAGRAM, **OVER_AMPLITUDE}),
 }
 
 
@@ -26,7 +33,9 @@ def records(tmp_path_factory):
     """The folder of the records, each solved once."""
     folder = tmp_path_factory.mktemp("records")
     for name, (scene, changes) in RECORDS.items():
-        assert wb.run(scene, changes, folder / name).converged, name
+        unset = BASES if "diagram" in name else ()
+        unset = [*unset, "forcing.frequency"] if name == "diagram" else unset
+        assert wb.run(scene, changes, folder / name, unset=unset).converged, name
     return folder
 
 
@@ -102,6 +111,32 @@ def test_responses_are_points_of_every_quantity(overlay, quantity):
     (point,) = [row for row in rows_of(drawn.folder / "overlay.csv") if row["kind"] == "response"]
     assert float(point["frequency_Hz"]) == 0.18
     assert math.isfinite(float(point["displacement_m"]))
+
+
+@pytest.mark.parametrize("curve, diagram, column", [("high", "diagram", "frequency_Hz"),
+                                                    ("loads", "load_diagram", "amplitude_N")])
+def test_values_of_a_diagram_lie_on_the_curve_of_stable_motions(overlay, curve, diagram, column):
+    drawn = overlay(curve, diagram)
+    assert drawn.code == 0, drawn.errors
+    rows = rows_of(drawn.folder / "overlay.csv")
+    along = [(float(row[column]), float(row["displacement_m"])) for row in rows if row["curve"] == curve]
+    points = [row for row in rows if row["kind"] == "periodic"]
+    assert len(points) == 4 and {row["curve"] for row in points} == {f"{diagram}, repeats"}
+    place, height = np.array(sorted(along)).T
+    for row in points:
+        expected = np.interp(float(row[column]), place, height)
+        assert float(row["displacement_m"]) == pytest.approx(expected, rel=0.01)
+
+
+def test_curves_over_the_frequency_and_the_amplitude_are_not_laid_over_each_other(overlay):
+    refused = overlay("high", "loads")
+    assert refused.code == 2
+    assert "loads is over the amplitude in N, and the first folder over the frequency in Hz" in refused.errors
+
+
+def test_a_diagram_has_no_rms(overlay):
+    refused = overlay("high", "diagram", more=("--quantity", "rms"))
+    assert refused.code != 0 and "has no rms" in refused.errors
 
 
 def test_another_structure_is_refused_with_where_it_differs(overlay, tmp_path):

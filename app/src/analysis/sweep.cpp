@@ -75,10 +75,22 @@ std::string SweepAxis::label() const {
   return (quantity == "frequency" ? "Frequency (" : "Amplitude of the load (") + unit + ")";
 }
 
+namespace {
+
+SweepAxis amplitude_axis(const std::string& unit) {
+  return {"amplitude", unit, unit == "m/s^2" ? "m_per_s2" : unit == "kg m" ? "kg_m" : unit};
+}
+
+}  // namespace
+
 SweepAxis sweep_axis(const Sweep& sweep) {
   if (sweep.curve.parameter == solvers::SweepParameter::frequency) return {};
-  const std::string& unit = sweep.amplitude_unit;
-  return {"amplitude", unit, unit == "m/s^2" ? "m_per_s2" : unit == "kg m" ? "kg_m" : unit};
+  return amplitude_axis(sweep.amplitude_unit);
+}
+
+SweepAxis sweep_axis(const Scene& scene) {
+  if (!is_over_amplitude(scene.analysis)) return {};
+  return amplitude_axis(std::string(reference_load(scene.forcing).value().unit));
 }
 
 bool Sweep::stopped() const {

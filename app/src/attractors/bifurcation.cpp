@@ -166,15 +166,6 @@ void add_exact_curve(const Scene& scene, const StructureModel& model, const Obse
   add_exact_lines(back, diagram.place, diagram);
 }
 
-SweepAxis axis_of(const Scene& scene) {
-  Sweep sweep;
-  if (is_over_amplitude(scene.analysis)) {
-    sweep.curve.parameter = solvers::SweepParameter::load_scale;
-    sweep.amplitude_unit = reference_load(scene.forcing).value().unit;
-  }
-  return sweep_axis(sweep);
-}
-
 void pass_values(const Scene& scene, FlowRows& rows, const Observer& observer, Diagram& diagram) {
   const auto steps = steps_of(scene);
   const double share = 1.0 / double(steps.size());
@@ -198,7 +189,7 @@ int points_shown(const DiagramValue& value) {
 
 Diagram bifurcation_diagram(const Scene& scene, const StructureModel& model, const Observer& observer) {
   const auto start = std::chrono::steady_clock::now();
-  Diagram diagram{.axis = axis_of(scene), .exact_status = "not_sought", .status = "no_modes"};
+  Diagram diagram{.axis = sweep_axis(scene), .exact_status = "not_sought", .status = "no_modes"};
   FlowRows rows(scene, model);
   diagram.places = rows.places();
   if (rows.dynamics() == nullptr) return diagram;

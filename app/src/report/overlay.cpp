@@ -14,11 +14,9 @@
 #include "files/contains.hpp"
 #include "files/missing.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
-#include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -86,6 +84,16 @@ void require_same_structure(const Scene& first, const Scene& scene, const fs::pa
   require_same_directions(first, scene, place);
 }
 
+/// Modes and responses are over the frequency.
+void require_same_axis(const Scene& first, const Scene& scene, const fs::path& place) {
+  const SweepAxis axis = sweep_axis(first), other = sweep_axis(scene);
+  if (axis.column() != other.column())
+    throw std::invalid_argument(
+        fmt::format("{} is over the {} in {}, and the first folder over the {} in {}; "
+                    "expected one for all of them",
+                    place.string(), other.quantity, other.unit, axis.quantity, axis.unit));
+}
+
 /// The names of folders where they tell them apart, else the paths.
 std::vector<std::string> labels_of(std::span<const fs::path> folders) {
   std::vector<std::string> names;
@@ -111,12 +119,12 @@ std::vector<double> unstable_of(const Table& table) {
 }
 
 void add_sweep(std::vector<OverlayCurve>& curves, const fs::path& file, const std::string& label,
-               const std::string& column) {
+               const std::string& column, const SweepAxis& axis) {
   const Table all = read_csv(file);
   const auto add = [&](const Table& table, const std::string& kind, int number) {
     curves.push_back({number == 0 ? label : fmt::format("{}, {} {}", label, kind, number),
-                      number == 0 ? "frequency_sweep" : kind,
-                      column_of(table, quantities::frequency.column(), file),
+                      number == 0 ? axis.quantity + "_sweep" : kind,
+                      column_of(table, axis.column(), file),
                       {},
                       column_of(table, column, file),
                       unstable_of(table)});
@@ -211,39 +219,21 @@ bool is_response(const fs::path& folder) {
   return holds(folder, "response.csv") && !holds(folder, "sweep.csv") && !holds(folder, "backbone.csv");
 }
 
-void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const std::string& label,
-                const OverlayQuantity& quantity) {
+void add_curves(std::vector<OverlayCurve>& curves, const fs::path& folder, const Scene& scene,
+                const std::string& label, const OverlayQuantity& quantity) {
   const std::string& column = quantity.column;
   if (holds(folder, "sweep.csv"))
-    add_sweep(curves, folder / "sweep.csv", label, column);
+    add_sweep(curves, folder / "sweep.csv", label, column, sweep_axis(scene));
+  else if (holds(folder, "envelope.csv"))
+    for (OverlayCurve& one : diagram_curves(folder, scene, label, quantity)) curves.push_back(std::move(one));
   else if (holds(folder, "backbone.csv"))
     add_mode(curves, folder / "backbone.csv", label, column);
   else if (holds(folder, "response.csv"))
     add_response(curves, folder, label, quantity);
   else
-    throw IoError(folder,
-                  "holds neither sweep.csv, backbone.csv nor response.csv; expected the results of a run");
-}
-
-bool any_number(const Series& series) {
-  return std::any_of(series.y.begin(), series.y.end(), [](double value) { return std::isfinite(value); });
-}
-
-void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor) {
-  Series series(plain(curve.label), curve.time.empty() ? curve.frequency : curve.time, curve.displacement);
-  for (double& value : series.y) value *= factor;
-  series.colour = colour;
-  if (curve.kind == "response") series.style = SeriesStyle::points;
-  if (curve.kind == "nonlinear_mode") series.width = 2.4;
-  if (series.x.size() < 2) {
-    panel.add(std::move(series));
-    return;
-  }
-  std::vector<bool> unstable;
-  for (const double count : curve.unstable) unstable.push_back(count > 0.0);
-  auto [solid, dashed] = parts_by_stability(series, unstable);
-  if (any_number(solid) || !any_number(dashed)) panel.add(std::move(solid));
-  if (any_number(dashed)) panel.add(std::move(dashed));
+    throw IoError(
+        folder,
+        "holds neither sweep.csv, envelope.csv, backbone.csv nor response.csv; expected the results of a run");
 }
 
 std::vector<std::string> names_in(const std::vector<Output>& outputs) {
@@ -303,14 +293,16 @@ Overlay read_overlay(std::span<const fs::path> folders, const std::string& quant
   if (!overlay.quantity.is_output()) overlay.quantity.unit = displacement_unit(first);
   overlay.logarithmic = std::ranges::any_of(scenes, [](const Scene& scene) { return scene.plot.log; });
   overlay.gap = common_gap(first);
+  overlay.axis = sweep_axis(first);
   const bool over_time = std::all_of(folders.begin(), folders.end(), is_response);
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const Scene& scene = scenes[i];
     require_same_structure(first, scene, folders[i]);
+    require_same_axis(first, scene, folders[i]);
     if (over_time)
       overlay.curves.push_back(motion_in(folders[i], labels[i], folders.front(), overlay.quantity));
     else
-      add_curves(overlay.curves, folders[i], labels[i], overlay.quantity);
+      add_curves(overlay.curves, folders[i], scene, labels[i], overlay.quantity);
     const double gap = common_gap(scene);
     if (gap == overlay.gap || (std::isnan(gap) && std::isnan(overlay.gap))) continue;
     if (scene.contact.law != no_law && first.contact.law != no_law)
@@ -320,57 +312,6 @@ Overlay read_overlay(std::span<const fs::path> folders, const std::string& quant
     overlay.gap = missing;
   }
   return overlay;
-}
-
-Figure overlay_figure(const Overlay& overlay) {
-  const OverlayQuantity& quantity = overlay.quantity;
-  constexpr std::array colours{Colour::blue,   Colour::orange,   Colour::green,
-                               Colour::purple, Colour::sky_blue, Colour::vermillion};
-  double largest = 0.0;
-  for (const OverlayCurve& curve : overlay.curves)
-    for (const double value : curve.displacement)
-      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-  const Scale scale = axis_scale(largest, quantity.unit);
-  Figure figure;
-  figure.panel_width = 640;
-  figure.panel_height = 420;
-  Panel& panel = figure.add_panel();
-  const bool over_time = is_over_time(overlay);
-  panel.x.label = over_time ? "Time (fraction of a period)" : "Frequency (Hz)";
-  const std::string words = quantity.is_output() && over_time ? quantity.name : quantity.words;
-  panel.y.label = over_time && !quantity.is_output() ? "Displacement" : capitalised(plain(words));
-  if (!quantity.unit.empty()) panel.y.label += fmt::format(" ({}{})", scale.prefix, quantity.unit);
-  std::size_t next = 0;
-  for (const OverlayCurve& curve : overlay.curves) {
-    const bool mode = curve.kind == "nonlinear_mode";
-    draw(panel, curve, mode ? Colour::black : colours[next++ % colours.size()], scale.factor);
-  }
-  const bool is_largest = quantity.name == "max" || quantity.name == "max_abs";
-  if (std::isfinite(overlay.gap) && !quantity.is_output() && (over_time || is_largest))
-    panel.mark_level(scale.factor * overlay.gap, "gap", app::quantity(overlay.gap, quantity.unit));
-  if (overlay.logarithmic && !over_time) take_logarithmic_ordinates(figure);
-  return figure;
-}
-
-bool is_over_time(const Overlay& overlay) {
-  return !overlay.curves.empty() && overlay.curves.front().kind == "motion";
-}
-
-Table overlay_table(const Overlay& overlay) {
-  std::vector<std::string> columns{"curve", "kind", "frequency_Hz", "displacement_m", "unstable"};
-  const bool over_time = is_over_time(overlay);
-  if (overlay.quantity.is_output())
-    columns[3] = over_time ? overlay.quantity.motion : overlay.quantity.column;
-  if (over_time) columns.insert(columns.begin() + 3, "time_fraction");
-  Table table(columns);
-  for (const OverlayCurve& curve : overlay.curves)
-    for (std::size_t i = 0; i < curve.frequency.size(); ++i) {
-      std::vector<Cell> row{curve.label, curve.kind, curve.frequency[i], curve.displacement[i],
-                            curve.unstable[i]};
-      if (over_time) row.insert(row.begin() + 3, curve.time[i]);
-      table.append_row(std::move(row));
-    }
-  return table;
 }
 
 }  // namespace wavebalance::app

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/scene/scene.hpp"
@@ -22,21 +23,27 @@ struct OverlayQuantity {
 };
 
 /// A curve of displacements over the frequency from the results of a run, one point of a response, or its
-/// motion.
+/// motion, or the values of a bifurcation diagram whose motions are of one kind.
 struct OverlayCurve {
   std::string label;
-  std::string kind;  ///< "frequency_sweep", "branch", "isola", "nonlinear_mode", "response" or "motion"
-  std::vector<double> frequency;  ///< Hz
+  /// "frequency_sweep", "amplitude_sweep", "branch", "isola", "nonlinear_mode", "response" or "motion"; of a
+  /// diagram "periodic", "quasi_periodic" or "aperiodic".
+  std::string kind;
+  std::vector<double> frequency;  ///< Hz, or amplitudes of the load: Overlay::axis
   std::vector<double> time;       ///< of a motion, as fractions of its period; empty otherwise
   std::vector<double>
       displacement;              ///< or another quantity, in its unit; NaN where a backbone is interrupted
   std::vector<double> unstable;  ///< Floquet multipliers outside the unit circle; NaN where not known
+  std::vector<double> second_frequency = {};  ///< Hz, of quasi-periodic motions; empty of others
+
+  bool of_diagram() const { return kind == "periodic" || kind == "quasi_periodic" || kind == "aperiodic"; }
 };
 
 /// The curves of several folders of results, of one structure.
 struct Overlay {
   std::vector<OverlayCurve> curves;  ///< motions where all folders hold responses, else none is a motion
   std::vector<std::string> warnings;
+  SweepAxis axis;    ///< over which curves are
   double gap = 0.0;  ///< m, of all contacts of all folders; NaN where they differ
   OverlayQuantity quantity;
   bool logarithmic = false;  ///< plot.log of a scene
@@ -45,19 +52,26 @@ struct Overlay {
 /// Whether motions over their period are laid over each other, and no curves over the frequency.
 bool is_over_time(const Overlay& overlay);
 
-/// Reads sweep.csv, backbone.csv or response.csv of each folder; motions are of the leading contact
-/// in the first. The quantity is one of OverlayQuantity::name or, where none is said, the output that leads
-/// in the first folder and that all have, else "max". Throws IoError for a folder without results or without
-/// that output, and std::invalid_argument for no quantity, and if one is of another structure than the first,
-/// which names the key: mass, stiffness and places of contact must agree; damping, reduction, load, law and
-/// gap may differ.
+/// Reads sweep.csv, backbone.csv, envelope.csv or response.csv of each folder; motions are of the leading
+/// contact in the first. The quantity is one of OverlayQuantity::name or, where none is said, the output that
+/// leads in the first folder and that all have, else "max". Throws IoError for a folder without results or
+/// without that output, and std::invalid_argument for no quantity, and if one is of another structure than
+/// the first, which names the key: mass, stiffness and places of contact must agree; damping, reduction,
+/// load, law and gap may differ. All curves are over the frequency, or over the amplitude of the load.
 Overlay read_overlay(std::span<const std::filesystem::path> folders, const std::string& quantity);
 
 /// All curves in one panel: modes black, sweeps coloured, dashed where unstable, responses beside curves as
 /// points.
 Figure overlay_figure(const Overlay& overlay);
 
-/// curve, kind, frequency_Hz, of motions time_fraction, displacement_m or the output's column, unstable.
+/// curve, kind, frequency_Hz or the amplitude, of motions time_fraction, displacement_m or the output's
+/// column, unstable, and with quasi-periodic motions second_frequency_Hz.
 Table overlay_table(const Overlay& overlay);
+
+/// The values of envelope.csv in a folder of a bifurcation diagram, those of periodic, quasi-periodic and
+/// other motions each a curve of points: of an output half the way between its extremes over all recorded
+/// periods. Throws as read_overlay().
+std::vector<OverlayCurve> diagram_curves(const std::filesystem::path& folder, const Scene& scene,
+                                         const std::string& label, const OverlayQuantity& quantity);
 
 }  // namespace wavebalance::app

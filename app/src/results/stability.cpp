@@ -81,7 +81,7 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   if (places.empty()) return;
   warn(record,
        "At the Neimark-Sacker point{} {} {} quasi-periodic motions begin, which are not on the "
-       "curve. analysis.type = \"bifurcation_diagram\" follows them.",
+       "curve. analysis.type = \"bifurcation_diagram\" follows them, and `wavebalance overlay` draws both.",
        places.size() == 1 ? "" : "s", fmt::join(places, ", "), sweep_axis(sweep).unit);
 }
 

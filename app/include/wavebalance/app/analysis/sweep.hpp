@@ -124,6 +124,8 @@ struct Sweep {
 
 /// The quantity over which a sweep runs, with its unit.
 SweepAxis sweep_axis(const Sweep& sweep);
+/// That of a scene's sweep or diagram; the frequency of other analyses.
+SweepAxis sweep_axis(const Scene& scene);
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same
 /// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step
