@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -51,10 +52,28 @@ void redistribute_mass(Structure& structure) {
   structure.recovery = std::move(model.recovery);
 }
 
+/// C + speed G and K + speed^2 K_s, at the speed of the load where that is 0.
+void let_turn(Structure& structure, const Sparse& gyroscopic, const Sparse& stiffness, double speed) {
+  const Eigen::Index size = structure.size();
+  for (const auto& [part, name] : {std::pair{&gyroscopic, "gyroscopic"}, {&stiffness, "spin_stiffness"}})
+    if (part->rows() != size || part->cols() != size)
+      throw std::invalid_argument(std::string(name) + " is " + std::to_string(part->rows()) + " x " +
+                                  std::to_string(part->cols()) + "; expected " + std::to_string(size) +
+                                  " x " + std::to_string(size));
+  if (speed > 0.0) {
+    structure.damping += speed * gyroscopic;
+    structure.stiffness += speed * speed * stiffness;
+    return;
+  }
+  if (gyroscopic.nonZeros() > 0) structure.turning.gyroscopic = gyroscopic;
+  if (stiffness.nonZeros() > 0) structure.turning.stiffness = stiffness;
+}
+
 std::shared_ptr<Structure> make_structure(Sparse mass, Sparse damping, Sparse stiffness, Eigen::VectorXd load,
                                           const Sparse& contacts, const std::vector<Force>& forces,
                                           double loss_factor, bool unsymmetric, bool free,
-                                          bool redistribute) {
+                                          const Sparse& gyroscopic, const Sparse& spin_stiffness,
+                                          double spin_speed, bool redistribute) {
   auto structure = std::make_shared<Structure>();
   structure->mass = std::move(mass);
   structure->damping = std::move(damping);
@@ -64,8 +83,10 @@ std::shared_ptr<Structure> make_structure(Sparse mass, Sparse damping, Sparse st
   structure->loss_factor = loss_factor;
   for (const auto& [shape, harmonics, derivative] : forces)
     structure->forces.push_back({shape, harmonics, derivative});
+  structure->validate();
+  let_turn(*structure, gyroscopic, spin_stiffness, spin_speed);
   unlocked([&](const solvers::Observer&) {
-    check(*structure, unsymmetric, free);
+    check(*structure, unsymmetric || gyroscopic.nonZeros() > 0, free);
     if (free) structure->rigid_modes = solvers::find_rigid_modes(structure->mass, structure->stiffness);
     if (redistribute) redistribute_mass(*structure);
     return true;

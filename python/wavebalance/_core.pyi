@@ -141,6 +141,9 @@ class Structure:
         loss_factor: float,
         unsymmetric: bool,
         free: bool,
+        gyroscopic: Any,
+        spin_stiffness: Any,
+        spin_speed: float,
         redistribute: bool,
     ) -> None: ...
     @property

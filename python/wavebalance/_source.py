@@ -18,7 +18,8 @@ SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], Iterable[str], None]
 
 #: Keys that name a file of a matrix.
-_MATRIX_KEYS = {("structure", "mass"), ("structure", "stiffness"), ("structure", "damping"), ("forcing", "load")}
+_MATRIX_KEYS = {("structure", key) for key in ("mass", "stiffness", "damping", "gyroscopic", "spin_stiffness")}
+_MATRIX_KEYS |= {("forcing", "load")}
 
 
 @contextlib.contextmanager

@@ -140,6 +140,7 @@ def backbone(
     ValueError
         For options or laws out of range.
     """
+    _require_no_turning(structure)
     given = as_laws(laws)
     rigid = given.is_rigid if isinstance(given, _core.Law) else any(one.is_rigid for one in given)
     count = samples if samples is not None else (2 if rigid else 8) * harmonics
@@ -148,6 +149,11 @@ def backbone(
         mode, largest_energy, largest_frequency_ratio or 0.0, points, harmonics, count, cosine_only, stability
     )
     return Backbone(_core.backbone(structure, given, functions, [float(one) for one in gaps], arguments))
+
+
+def _require_no_turning(structure: Structure) -> None:
+    if structure.turns:
+        raise ValueError("structure has a gyroscopic matrix or a spin stiffness; expected none with a nonlinear mode")
 
 
 class DampedMode(_Points):
@@ -240,6 +246,7 @@ def damped_mode(
     count = samples if samples is not None else 32 * harmonics
     functions = pair if pair is not None else Pair("fourier", 2 * harmonics + 1, max(count, 2 * harmonics + 1))
     first, last = amplitudes if amplitudes is not None else (0.0, 0.0)
+    _require_no_turning(structure)
     if amplitudes is not None and not 0.0 < first < last < np.inf:
         raise ValueError(f"amplitudes is {amplitudes}; expected two numbers in m, 0 < first < last")
     if points < 1:

@@ -12,6 +12,7 @@ import scipy.sparse
 
 from . import _core
 from ._matrices import as_count, as_csc, as_real
+from ._turning import Unbalance, speed, turning_forces, turning_part, unbalance_load
 from .laws import Law, LawLike, as_laws
 
 __all__ = ["Pair", "Structure"]
@@ -48,6 +49,15 @@ class Structure(_core.Structure):
         Whether C and K may be unsymmetric, as gyroscopic and circulatory ones are.
     free:
         Whether the structure is free to move and held by its contacts alone.
+    gyroscopic:
+        G, n × n and skew-symmetric: the damping is C + Omega G at the speed Omega.
+    spin_stiffness:
+        K_s, n × n and symmetric: the stiffness is K + Omega^2 K_s.
+    spin_speed:
+        Omega, rad/s; 0 turns with the load, Omega = 2 pi f, also along a curve over its frequency.
+    unbalance:
+        Loads (amount, dofs) or (amount, dofs, phase): kg m, one or two degrees of freedom, from 0, towards the second of which it
+        turns from the first, and degrees. Its force is amount Omega^2 with Omega = 2 pi f.
     contact_mass:
         "keep", or "redistribute" for contacts without mass, which rigid obstacles need: the structure is replaced by its
         lowest n - C modes beside contacts that deflect by the flexibility of the others. O(n^3).
@@ -82,6 +92,10 @@ class Structure(_core.Structure):
         loss_factor: float = 0.0,
         unsymmetric: bool = False,
         free: bool = False,
+        gyroscopic: Matrix | None = None,
+        spin_stiffness: Matrix | None = None,
+        spin_speed: float = 0.0,
+        unbalance: Sequence[Unbalance] = (),
         contact_mass: str = "keep",
     ) -> None:
         self.M, self.K = as_csc(M, "M"), as_csc(K, "K")
@@ -94,6 +108,12 @@ class Structure(_core.Structure):
         self._forces = [(_vector(shape, "shape of a force"), np.ravel(np.asarray(h, complex)), 0) for shape, h in forces]
         if static_load is not None:
             self._forces.append((_vector(static_load, "static_load"), np.ones(1, complex), 0))
+        self._unbalance = [unbalance_load(one, len(self.load)) for one in unbalance]
+        self.gyroscopic = turning_part(gyroscopic, "gyroscopic", -1.0)
+        self.spin_stiffness = turning_part(spin_stiffness, "spin_stiffness", 1.0)
+        self.spin_speed = speed(spin_speed, self.turns)
+        if self.spin_stiffness is not None and not spin_speed and (free or loss_factor):
+            raise ValueError("spin_stiffness follows the load; expected spin_speed > 0 beside free or loss_factor")
         self._problem: tuple[_core.Pair, Any] | None = None
         self._arguments = {
             "static_load": static_load,
@@ -101,20 +121,33 @@ class Structure(_core.Structure):
             "loss_factor": loss_factor,
             "unsymmetric": unsymmetric,
             "free": free,
+            "gyroscopic": gyroscopic,
+            "spin_stiffness": spin_stiffness,
+            "spin_speed": spin_speed,
+            "unbalance": tuple(unbalance),
             "contact_mass": contact_mass,
         }
+        none = scipy.sparse.csc_matrix(self.K.shape)
         super().__init__(
             self.M,
             self.C,
             self.K,
             self.load,
             as_csc(self.S, "contacts"),
-            self._forces,
+            self._forces + [force for one in self._unbalance for force in turning_forces(*one, len(self.load))],
             loss_factor,
             unsymmetric,
             free,
+            none if self.gyroscopic is None else self.gyroscopic,
+            none if self.spin_stiffness is None else self.spin_stiffness,
+            self.spin_speed,
             contact_mass == "redistribute",
         )
+
+    @property
+    def turns(self) -> bool:
+        """Whether it has a gyroscopic matrix or a spin stiffness."""
+        return self.gyroscopic is not None or self.spin_stiffness is not None
 
     def __reduce__(self) -> Any:
         damping = self.C if self.C.nnz else None
@@ -148,11 +181,20 @@ class Structure(_core.Structure):
         for key, value in (("unsymmetric", self.unsymmetric), ("free", self.is_free), ("loss_factor", self.loss_factor)):
             if value:
                 structure[key] = value
+        for key, matrix in (("gyroscopic", self.gyroscopic), ("spin_stiffness", self.spin_stiffness)):
+            if matrix is not None:
+                structure[key] = matrix
+        if self.spin_speed:
+            structure["spin_speed"] = self.spin_speed
         forcing: dict[str, Any] = {"load": self.load, "amplitude": 1.0}
         if frequency is not None:
             forcing["frequency"] = float(frequency)
-        if self._forces:
-            forcing["terms"] = [term for shape, series, _ in self._forces for term in _terms(shape, series)]
+        terms = [term for shape, series, _ in self._forces for term in _terms(shape, series)]
+        for amount, dofs, phase in self._unbalance:
+            rows = [dof + 1 for dof in dofs]
+            terms.append({"kind": "unbalance", "dofs": rows, "amplitude": amount, "phase": phase})
+        if terms:
+            forcing["terms"] = terms
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}
         if self.contact_mass != "keep":
             result["contact"]["mass"] = self.contact_mass
