@@ -15,7 +15,8 @@ namespace {
 std::vector<std::string> places_of(const Scene& scene, const OverlayQuantity& quantity) {
   if (quantity.is_output()) return {quantity.column.substr(0, quantity.column.find("_half_peak_to_peak"))};
   std::vector<std::string> places;
-  for (const SceneContact& contact : contact_places(scene)) places.push_back(app::column_of(name_of(contact)));
+  for (const SceneContact& contact : contact_places(scene))
+    places.push_back(app::column_of(name_of(contact)));
   return places;
 }
 
