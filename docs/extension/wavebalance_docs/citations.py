@@ -4,6 +4,8 @@ from docutils import nodes
 from sphinx import addnodes
 
 SHOWN = {
+    "Archard": "Archard 1953", "Jenkins": "Jenkins 1962", "Krack": "Krack 2015", "Krieg": "Krieg & Krieg 1977",
+    "PetrovEwins": "Petrov & Ewins 2003",
     "JL14": "Jones & Legrand 2014", "LL10": "Laxalde & Legrand 2010", "AllgowerGeorg": "Allgower & Georg",
     "Beylkin": "Beylkin 1992", "CameronGriffin": "Cameron & Griffin 1989", "CottlePangStone": "Cottle, Pang & Stone",
     "CraigBampton": "Craig & Bampton 1968", "DankowiczSchilder": "Dankowicz & Schilder 2013", "Daubechies": "Daubechies 1992", "Hairer": "Hairer, Nørsett & Wanner",
