@@ -56,17 +56,22 @@ def environment(app):
     return values
 
 
-def run_command(env, command, expected):
-    """Output and error output of a shell command in the folder of the page."""
+def answer(env, command):
+    """Exit code and output, with that of errors, of a shell command in the folder of the page."""
     try:
         done = subprocess.run(["sh", "-e", "-c", command], cwd=work_folder(env), env=environment(env.app), text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=MAX_SECONDS)
     except subprocess.TimeoutExpired as error:
         raise ExtensionError(f"{env.docname}: `{command}` took more than {MAX_SECONDS} s") from error
-    if done.returncode != expected:
-        raise ExtensionError(f"{env.docname}: `{command}` ended with {done.returncode} in place of {expected}:\n"
-                             f"{done.stdout}")
-    return done.stdout
+    return done.returncode, done.stdout
+
+
+def run_command(env, command, expected):
+    """The output of a command that has to end with the expected exit code."""
+    code, output = answer(env, command)
+    if code != expected:
+        raise ExtensionError(f"{env.docname}: `{command}` ended with {code} in place of {expected}:\n{output}")
+    return output
 
 
 def shortened(text, limit):
@@ -130,19 +135,23 @@ class File(Directive):
 
 class Picture(Directive):
     """`.. picture:: file` shows a picture from the folder of the page; `:alt:` says what it shows, the content is its
-    caption."""
+    caption. `:page:` shows the picture of that name of another page, and leads there."""
 
     required_arguments = 1
     has_content = True
-    option_spec = {"alt": directives.unchanged_required}
+    option_spec = {"alt": directives.unchanged_required, "page": directives.unchanged_required}
 
     def run(self):
         env = self.state.document.settings.env
+        if "alt" not in self.options:
+            raise ExtensionError(f"{env.docname}: the picture {self.arguments[0]} has no :alt:")
+        if "page" in self.options:  # check_links.py finds those that the page does not show
+            page = self.options["page"]
+            address = address_of(env, page, Path(self.arguments[0]))
+            return [figure(address, self.options["alt"], self.caption(), env.app.builder.get_relative_uri(env.docname, page))]
         source = work_folder(env) / self.arguments[0]
         if not source.is_file():
             raise ExtensionError(f"{env.docname}: no picture {source}")
-        if "alt" not in self.options:
-            raise ExtensionError(f"{env.docname}: the picture {self.arguments[0]} has no :alt:")
         return [picture(env, source, self.options["alt"], self.caption())]
 
     def caption(self):
@@ -153,17 +162,25 @@ class Picture(Directive):
 
 def picture(env, source, alt, caption):
     """A figure node around a copy of the picture `source` in the site."""
-    name = f"{env.docname.replace('/', '_')}_{re.sub('[^A-Za-z0-9.]', '_', source.parent.name + '_' + source.name)}"
+    address = address_of(env, env.docname, source)
     folder = Path(env.app.outdir) / "pictures"
     folder.mkdir(exist_ok=True)
-    shutil.copy(source, folder / name)
-    up = "../" * env.docname.count("/")
+    shutil.copy(source, folder / Path(address).name)
+    return figure(address, alt, caption, address)
+
+
+def address_of(env, page, source):
+    """Where the copy of a picture of a page is, seen from the page that is being read."""
+    name = f"{page.replace('/', '_')}_{re.sub('[^A-Za-z0-9.]', '_', source.parent.name + '_' + source.name)}"
+    return f"{'../' * env.docname.count('/')}pictures/{name}"
+
+
+def figure(address, alt, caption, leads_to):
     escaped = alt.replace("&", "&amp;").replace('"', "&quot;")
-    figure = nodes.container(classes=["picture"])
-    address = f"{up}pictures/{name}"
-    figure += nodes.raw("", f'<a href="{address}"><img src="{address}" alt="{escaped}" loading="lazy"></a>', format="html")
-    figure.extend(caption)
-    return figure
+    node = nodes.container(classes=["picture"])
+    node += nodes.raw("", f'<a href="{leads_to}"><img src="{address}" alt="{escaped}" loading="lazy"></a>', format="html")
+    node.extend(caption)
+    return node
 
 
 class ResultTable(Directive):
