@@ -14,6 +14,7 @@ LOOK = """(() => {
   const count = selector => root.querySelectorAll(selector).length;
   if (root.scrollWidth > innerWidth) faults.push(`${root.scrollWidth} pixels wide on a screen of ${innerWidth}`);
   if (count(".katex-error")) faults.push(`${count(".katex-error")} formulas that KaTeX refuses`);
+  if (count(".highlight") != count(".highlight > .copy")) faults.push("listings without a button that copies them");
   if (count(".formula") != count(".formula .katex")) faults.push("formulas that are not set");
   for (const image of document.images)
     if (image.complete && !image.naturalWidth) faults.push(`${image.getAttribute("src")} does not load`);
