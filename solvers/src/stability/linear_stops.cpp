@@ -172,34 +172,34 @@ Eigen::VectorXcd Forced::modes_at(const Waves& waves, double time) const {
   return sum;
 }
 
-bool StopFlight::is_closed(int stop) const {
+bool Flight::is_closed(int stop) const {
   return std::find(closed.begin(), closed.end(), stop) != closed.end();
 }
 
-void StopFlight::start(const Eigen::VectorXd& from) {
+void Flight::start(const Eigen::VectorXd& from) {
   state = from;
   own = held->modal(from) - forced->modes_at(*waves, begin);
 }
 
-Eigen::VectorXd StopFlight::pushed() const {
+Eigen::VectorXd Flight::pushed() const {
   const Eigen::ArrayXcd grown = (seconds() * held->exponents.array()).exp();
   const Eigen::VectorXcd from = forced->modes_at(*waves, begin);
   return held->real(forced->modes_at(*waves, end) - (grown * from.array()).matrix());
 }
 
-Eigen::VectorXd StopFlight::state_at(double time) const {
+Eigen::VectorXd Flight::state_at(double time) const {
   const Eigen::ArrayXcd grown = ((time - begin) * waves->period * held->exponents.array()).exp();
   return held->real((grown * own.array()).matrix() + forced->modes_at(*waves, time));
 }
 
-double StopFlight::apart(int stop, double time, const Eigen::VectorXcd& own_then) const {
+double Flight::apart(int stop, double time, const Eigen::VectorXcd& own_then) const {
   double sum = (held->modal_outputs.row(stop) * own_then).value().real();
   for (Index k = 0; k < forced->apart.cols(); ++k)
     sum += (forced->apart(stop, k) * wave_at(*waves, k, time)).real();
   return sum;
 }
 
-double StopFlight::apart(int stop, double time) const {
+double Flight::apart(int stop, double time) const {
   const double after = (time - begin) * waves->period;
   return apart(stop, time, (own.array() * (after * held->exponents.array()).exp()).matrix());
 }

@@ -59,7 +59,7 @@ struct Forced {
 };
 
 /// A part of a motion in which the same stops are closed. Times are in periods.
-struct StopFlight {
+struct Flight {
   double begin, end;
   std::vector<int> closed;
   const HeldByStops* held;

@@ -82,14 +82,14 @@ class Search {
     const Index states = flights_.front().held->modes.size();
     Eigen::MatrixXd passed = Eigen::MatrixXd::Zero(states, states + 1);
     passed.leftCols(states).setIdentity();
-    for (const StopFlight& flight : flights_) {
+    for (const Flight& flight : flights_) {
       flight.held->advance(flight.seconds(), passed);
       passed.col(states) += flight.pushed();
     }
     map_ = passed.leftCols(states);
     left_.compute(Eigen::MatrixXd::Identity(states, states) - map_);
     Eigen::VectorXd state = left_.solve(Eigen::VectorXd(passed.col(states)));
-    for (StopFlight& flight : flights_) {
+    for (Flight& flight : flights_) {
       flight.start(state);
       state = flight.state_at(flight.end);
     }
@@ -119,7 +119,7 @@ class Search {
       closed.insert(at, stop);
   }
 
-  Eigen::VectorXd rate(const StopFlight& flight, const Eigen::VectorXd& state, double time) {
+  Eigen::VectorXd rate(const Flight& flight, const Eigen::VectorXd& state, double time) {
     const HeldByStops& open = *owner_.held({});
     const Eigen::VectorXcd modal = open.modal(state);
     const Eigen::VectorXd force = flight.held->force * state + flight.held->force_direct * waves_.at(time);
@@ -158,8 +158,8 @@ class Search {
     Eigen::VectorXd apart(count);
     Eigen::MatrixXd slopes(count, count);
     for (Index i = 0; i < count; ++i) {
-      const StopFlight &here = flights_[std::size_t(i)],
-                       &before = flights_[std::size_t((i + count - 1) % count)], &open = open_beside(i);
+      const Flight &here = flights_[std::size_t(i)], &before = flights_[std::size_t((i + count - 1) % count)],
+                   &open = open_beside(i);
       const int stop = instants_[std::size_t(i)].stop;
       const Eigen::RowVectorXd outputs = open.held->outputs.row(stop), direct = open.held->direct.row(stop);
       const Eigen::VectorXd jump = rate(before, here.state, here.begin) - rate(here, here.state, here.begin);
@@ -172,8 +172,8 @@ class Search {
   }
 
   // The flight beside an instant in which its stop is open.
-  const StopFlight& open_beside(Index i) const {
-    const StopFlight& after = flights_[std::size_t(i)];
+  const Flight& open_beside(Index i) const {
+    const Flight& after = flights_[std::size_t(i)];
     const auto count = Index(flights_.size());
     return after.is_closed(instants_[std::size_t(i)].stop) ? flights_[std::size_t((i + count - 1) % count)]
                                                            : after;
@@ -187,7 +187,7 @@ class Search {
     state = left_.solve(state);
     Eigen::VectorXd result(count);
     for (Index i = 0; i < count; ++i) {
-      const StopFlight& open = open_beside(i);
+      const Flight& open = open_beside(i);
       const Eigen::VectorXd before = state.col(0);
       if (i == at) state += jump;
       const bool is_after = &open == &flights_[std::size_t(i)];
@@ -199,7 +199,7 @@ class Search {
   }
 
   void pass(Index i, Eigen::MatrixXd& state) const {
-    const StopFlight& flight = flights_[std::size_t(i)];
+    const Flight& flight = flights_[std::size_t(i)];
     flight.held->advance(flight.seconds(), state);
   }
 
@@ -226,7 +226,7 @@ class Search {
   // Adds the instants at which stops open or close within flights.
   Order insert_missed() {
     std::vector<Instant> missed;
-    for (const StopFlight& flight : flights_)
+    for (const Flight& flight : flights_)
       if (!look_within(flight, missed)) return Order::lost;
     if (missed.empty()) return Order::agrees;
     instants_.insert(instants_.end(), missed.begin(), missed.end());
@@ -235,13 +235,12 @@ class Search {
   }
 
   // Times of a flight, s after its beginning, the closer to each other the less of it is past.
-  std::vector<double> looks(const StopFlight& flight) const {
+  std::vector<double> looks(const Flight& flight) const {
     constexpr double per_cycle = 16.0, growth = 0.04;
     constexpr int uniform = 512;
     const double length = flight.seconds(), coarse = length / uniform;
     double fastest = 0.0;
-    for (const StopFlight& one : flights_)
-      fastest = std::max(fastest, one.held->exponents.cwiseAbs().maxCoeff());
+    for (const Flight& one : flights_) fastest = std::max(fastest, one.held->exponents.cwiseAbs().maxCoeff());
     double step = 2.0 * std::numbers::pi / (per_cycle * fastest);
     std::vector<double> times;
     for (double time = std::min(step, coarse); time < length - 0.5 * std::min(step, coarse);
@@ -253,7 +252,7 @@ class Search {
   }
 
   // False where the stops at the ends of the flight are not what they should be.
-  bool look_within(const StopFlight& flight, std::vector<Instant>& missed) const {
+  bool look_within(const Flight& flight, std::vector<Instant>& missed) const {
     const std::vector<double> times = looks(flight);
     const Index stops = flight.held->direct.rows();
     std::vector<double> last(static_cast<std::size_t>(stops), 0.0);
@@ -295,7 +294,7 @@ class Search {
       const double first = flights_.front().begin, at = start_.first + double(l) / double(count),
                    time = first + (at - first - std::floor(at - first));
       const auto flight = std::find_if(flights_.begin(), flights_.end() - 1,
-                                       [&](const StopFlight& one) { return time < one.end; });
+                                       [&](const Flight& one) { return time < one.end; });
       for (int stop = 0; stop < int(stops_.gap.size()); ++stop) {
         const double exact = flight->apart(stop, time) + stops_.gap[stop];
         apart += std::pow(exact - start_.displacement(l, stop), 2);
@@ -313,7 +312,7 @@ class Search {
   std::map<const HeldByStops*, Forced> forced_;
   std::vector<Instant> instants_;
   std::vector<int> before_;  // stops that are closed before the first instant
-  std::vector<StopFlight> flights_;
+  std::vector<Flight> flights_;
   Eigen::MatrixXd map_;
   Lu<double> left_;
 };
