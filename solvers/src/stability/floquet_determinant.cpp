@@ -317,12 +317,6 @@ std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& d
   return determinant.resolved() ? std::optional(std::move(determinant)) : std::nullopt;
 }
 
-bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                       int harmonics, double max_omitted) {
-  return resolving_truncation(dynamics, stiffness, two_pi * frequency, harmonics, harmonics, max_omitted)
-             .harmonics > 0;
-}
-
 StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {
   if (stiffness.status != StabilityStatus::converged) return stiffness.status;
   if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;

@@ -94,10 +94,6 @@ std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& d
                                                         const PeriodicStiffness& stiffness, double frequency,
                                                         int harmonics, int most, double max_omitted);
 
-/// Whether such a determinant takes these harmonics.
-bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
-                       int harmonics, double max_omitted);
-
 /// Whether an exponent of the structure lies on the imaginary axis to rounding.
 bool has_undamped_pole(const ContactDynamics& dynamics, double angular_frequency);
 /// The first reason why `dynamics` and `stiffness` do not let the argument of the determinant be followed.
