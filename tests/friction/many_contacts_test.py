@@ -58,35 +58,3 @@ def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path
     words = "Stability was not computed. analysis.stability = true computes it."
     assert words in (tmp_path / "report.html").read_text()
 
-
-
-def rubbing_beam(count, elements=30):
-    """A clamped steel beam of which `count` nodes rub, each with a spring of 1e6 N/m and up to 3 N; 20 N at its tip."""
-    modulus, density, width, height, h = 2.1e11, 7850.0, 0.03, 0.01, 0.6 / elements
-    inertia, area, n = width * height**3 / 12, width * height, 2 * elements + 2
-    k = modulus * inertia / h**3 * np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
-                                             [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
-    m = density * area * h / 420 * np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
-                                             [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]])
-    mass, stiffness = np.zeros((n, n)), np.zeros((n, n))
-    for element in range(elements):
-        own = slice(2 * element, 2 * element + 4)
-        mass[own, own] += m
-        stiffness[own, own] += k
-    nodes = np.round(np.linspace(2, elements - 1, count)).astype(int)
-    return {
-        "structure": {"type": "matrices", "mass": mass[2:, 2:], "stiffness": stiffness[2:, 2:], "stiffness_damping": 2e-5,
-                      "contact_dofs": [int(2 * node - 1) for node in nodes]},
-        "contact": {"law": "coulomb", "friction": 0.3, "normal_load": 10.0, "tangential_stiffness": 1e6},
-        "forcing": {"load_dofs": [2 * elements - 1], "amplitude": 20.0, "frequency": 23.2},
-        "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 256},
-        "analysis": {"stability": False},
-    }
-
-
-def test_a_beam_on_which_seventeen_of_24_contacts_slip_is_solved():
-    # About to slip or to stick at some sample each, they leave no descent along Newton's step.
-    record = wb.run(rubbing_beam(24))
-    assert record.converged
-    slips = [row["slip_fraction"] > 0.0 for row in record.summary["friction"]]
-    assert sum(slips) == 17

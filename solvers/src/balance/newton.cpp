@@ -93,8 +93,7 @@ class ContactEquation {
   NewtonResult solve(Eigen::VectorXd& u) {
     u_ = &u;
     first_operations_ = system_.operations();
-    detail::NewtonRun run = detail::damped_newton(*this, u, options_.max_iterations, options_.min_step);
-    if (run.end == detail::NewtonEnd::stalled && system_.laws().act_over_period()) pass_kinks(u, run);
+    const detail::NewtonRun run = detail::damped_newton(*this, u, options_.max_iterations, options_.min_step);
     NewtonResult result;
     result.status = is_acceptable() ? SolveStatus::converged
                     : exhausted_    ? SolveStatus::effort_limit
@@ -114,29 +113,6 @@ class ContactEquation {
            : end == singular      ? SolveStatus::singular
            : end == cancelled     ? SolveStatus::cancelled
                                   : SolveStatus::stalled;
-  }
-
-  // Where many sliders are about to slip or to stick, the residual rises along the step for any of their
-  // states before it falls: near a solution whole steps lead past such kinks. Without one `u` is as before.
-  void pass_kinks(Eigen::VectorXd& u, detail::NewtonRun& run) {
-    constexpr double near = 1e-2;
-    constexpr int most = 8;
-    const Eigen::VectorXd before = u;
-    const double residual = residual_;
-    for (int n = 0; n < most && run.end == detail::NewtonEnd::stalled && residual_ < near; ++n) {
-      Eigen::VectorXd step;
-      if (!direction(step)) break;
-      u -= step;
-      evaluate(u);
-      const detail::NewtonRun next =
-          detail::damped_newton(*this, u, options_.max_iterations - run.iterations, options_.min_step);
-      run = {next.end, run.iterations + 1 + next.iterations};
-    }
-    if (residual_ <= residual) return;
-    u = before;
-    evaluate(u);
-    residual_ = residual;
-    run.end = detail::NewtonEnd::stalled;
   }
 
   ContactSystem& system_;
