@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "balance/free_contacts.hpp"
+#include "phases/phase_loads.hpp"
 
 namespace wavebalance::solvers {
 

@@ -1,4 +1,4 @@
-#include "balance/free_contacts.hpp"
+#include "phases/phase_loads.hpp"
 
 #include <algorithm>
 #include <complex>
