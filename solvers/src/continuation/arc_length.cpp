@@ -253,8 +253,7 @@ double ArcLength::growth(int corrections, double turn) const {
 }
 
 void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
-  last_step_ = holds_parameter(point_) ? (candidate.parameter - point_.parameter) / point_.parameter_tangent
-                                       : inner(point_, chord(point_, candidate));
+  last_step_ = inner(point_, chord(point_, candidate));
   last_sides_ = sides;
   orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
   previous_ = std::move(point_);

@@ -227,7 +227,9 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, int& att
   const Task task = with_room_for_iterations(at_first, best);
   if (guessed && task.options.stay_near_guess)
     return better(std::move(best), try_residual(task, form, first));
-  if (form.size() == 0 && !task.problem.is_free()) {
+  // Fewer contacts are lowered onto the motion, which leads to the solution that is connected with it.
+  constexpr int many_contacts = 50;
+  if (form.size() == 0 && !task.problem.is_free() && task.problem.contacts() > many_contacts) {
     best = better(std::move(best), try_stiffness(task, form));
     if (best.ended()) return best;
   }

@@ -109,15 +109,6 @@ struct ResponseEquations {
   double squared_parameter_scale() const { return options.parameter_scale * options.parameter_scale; }
   double tolerance() const { return options.tolerance; }
   int max_corrections(bool in_piece) const;
-  /// Whether all corrections of a step from a point hold the parameter: of many contacts, whose condensation
-  /// at another frequency takes as long as several corrections, where the curve goes along the parameter and
-  /// not around a fold.
-  bool holds_parameter(const CurvePoint& from) const {
-    constexpr int many_contacts = 50;
-    constexpr double along = 0.25;
-    const double share = from.parameter_tangent * from.parameter_tangent / squared_parameter_scale();
-    return system.problem().contacts() > many_contacts && share > along;
-  }
   /// Whether corrections must lower the residual, for laws over a period.
   bool lowers_residual() const { return system.laws().act_over_period(); }
 };

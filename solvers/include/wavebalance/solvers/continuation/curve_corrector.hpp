@@ -105,9 +105,9 @@ class CurveCorrector {
   /// Newton's method on R = 0 in the plane from `point` on, on the smooth continuation of one piece when it
   /// is given. Where the residual does not fall and the parameter hardly changes, the parameter is held: the
   /// matrices of R round differently from one parameter to the next, and at one of them not at all.
-  bool solve_in(const CurvePlane& plane, const Pieces* pieces, CurvePoint& point, int& corrections,
-                bool held = false) {
+  bool solve_in(const CurvePlane& plane, const Pieces* pieces, CurvePoint& point, int& corrections) {
     constexpr double near = 1e-8, falls = 0.1;  // near: scaled arc length
+    bool held = false;
     const double least_change = near * std::sqrt(curve_.squared_parameter_scale());
     double parameter_change = 0.0;
     const int most = curve_.max_corrections(pieces != nullptr);
@@ -160,18 +160,10 @@ class CurveCorrector {
     return true;
   }
 
-  /// Whether corrections of a step from a point hold the parameter, of equations that ask for it.
-  bool holds_parameter(const CurvePoint& from) const {
-    if constexpr (requires { curve_.holds_parameter(from); }) return curve_.holds_parameter(from);
-    return false;
-  }
-
-  /// Solves for the point in the plane at distance `step` along the tangent of `from`, or at the parameter
-  /// there, and for its tangent.
+  /// Solves for the point in the plane at distance `step` along the tangent of `from`, and for its tangent.
   bool correct(const CurvePoint& from, double step, const Pieces* pieces, CurvePoint& to, int& corrections) {
     to = ahead(from, step);
-    return solve_in(plane_across(from, to), pieces, to, corrections, holds_parameter(from)) &&
-           tangent_at(to, from);
+    return solve_in(plane_across(from, to), pieces, to, corrections) && tangent_at(to, from);
   }
 
   /// Solves for a point, without a tangent, in the plane through the chord of two points at `fraction` of it
