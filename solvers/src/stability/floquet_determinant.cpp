@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -75,9 +76,38 @@ FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const Pe
   }
 }
 
+namespace {
+
+// The middle of the longest time over which the fewest contacts are closed.
+double quiet_instant(const std::vector<ContactInterval>& intervals) {
+  std::vector<std::pair<double, int>> changes{{0.0, 0}, {1.0, 0}};
+  int closed = 0;
+  for (const ContactInterval& interval : intervals) {
+    if (interval.always()) continue;
+    if (interval.end > 1.0) ++closed;
+    changes.push_back({interval.begin, 1});
+    changes.push_back({interval.end - std::floor(interval.end), -1});
+  }
+  std::sort(changes.begin(), changes.end());
+  int fewest = std::numeric_limits<int>::max();
+  double longest = 0.0, instant = 0.0;
+  for (std::size_t i = 0; i + 1 < changes.size(); ++i) {
+    closed += changes[i].second;
+    const double length = changes[i + 1].first - changes[i].first;
+    if (length <= 0.0 || closed > fewest || (closed == fewest && length <= longest)) continue;
+    fewest = closed;
+    longest = length;
+    instant = 0.5 * (changes[i].first + changes[i + 1].first);
+  }
+  return instant;
+}
+
+}  // namespace
+
 void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness,
                                      const std::vector<ContactInterval>& pieces) {
   std::vector<double> times, weights;
+  origin_ = quiet_instant(stiffness.intervals);
   for (const ContactInterval& interval : pieces) {
     const QuadratureRule rule = rule_for(interval, harmonics_);
     const auto begin = Index(times.size());
@@ -89,7 +119,8 @@ void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness,
     for (Index i = 0; i < rule.points.size(); ++i) {
       const double time = interval.begin + interval.length() * rule.points[i];
       const double tangent = stiffness.tangent(interval.contact, time);
-      times.push_back(time);
+      times.push_back(time - std::floor(time - origin_));
+      contact_.push_back(interval.contact);
       weights.push_back(interval.length() * rule.weights[i] * tangent / (1.0 + yielding * tangent));
     }
   }
@@ -185,25 +216,40 @@ Complex FloquetDeterminant::smooth_log(double nu) {
   const double x = 2.0 * nu / omega_;
   const double weight = x * x * x * x * (35.0 - x * (84.0 - x * (70.0 - 20.0 * x)));
   ++evaluations_;
-  if (nodes() == 0) {
-    at_zero_ = at_half_ = 1;
-    return 0.0;
-  }
+  if (nodes() == 0) return 0.0;
   const Eigen::MatrixXcd compliance = weighted_compliance({0.0, nu}, weight, false).compliance;
   Eigen::MatrixXcd matrix = kernels({&compliance}).front();
   matrix.diagonal().array() += 1.0;
-  const Complex log = detail::Lu<Complex>(matrix).log_determinant();
-  // It is real at both ends.
-  const int sign = std::cos(log.imag()) < 0.0 ? -1 : 1;
-  if (x == 0.0) at_zero_ = sign;
-  if (x == 1.0) at_half_ = sign;
-  return log;
+  return detail::Lu<Complex>(matrix).log_determinant();
 }
 
-// `known` is set by smooth_log().
-int FloquetDeterminant::sign_at(double nu, const int& known) {
-  if (known == 0) smooth_log(nu);
-  return known;
+// The harmonics n and -n, or at omega / 2 n and -n - 1, are conjugates of each other: with the order r = n +
+// nu / omega their sum is p cos 2 pi r t + q sin 2 pi r t, p = 2 Re g and q = -2 Im g.
+Eigen::MatrixXd FloquetDeterminant::real_matrix(double nu) const {
+  const Index size = nodes(), count = harmonics_ + 1;
+  const Eigen::VectorXd orders = Eigen::VectorXd::LinSpaced(count, 0.0, harmonics_).array() + nu / omega_;
+  Eigen::MatrixXcd g = 2.0 * decaying(dynamics_.compliance(0.0, omega_ * orders, false).compliance);
+  if (nu == 0.0) g.row(0) = 0.5 * g.row(0).real().cast<Complex>();
+  Eigen::MatrixXd waves(2 * count, size), left(2 * count, size), result(size, size);
+  for (Index i = 0; i < size; ++i) {
+    const Eigen::ArrayXd angles = two_pi * time_[i] * orders.array();
+    waves.col(i) << angles.cos(), angles.sin();
+  }
+  for (const Range& column : ranges_) {
+    for (const Range& row : ranges_) {
+      const Eigen::ArrayXd p = g.col(pair(row, column)).real(), q = -g.col(pair(row, column)).imag();
+      for (Index i = row.begin; i < row.begin + row.count; ++i) {
+        const auto cosines = waves.col(i).array().head(count), sines = waves.col(i).array().tail(count);
+        left.col(i).array().head(count) = cosines * p + sines * q;
+        left.col(i).array().tail(count) = sines * p - cosines * q;
+      }
+    }
+    result.middleCols(column.begin, column.count) =
+        detail::transposed_product(left, waves.middleCols(column.begin, column.count)) *
+        weighted_.segment(column.begin, column.count).asDiagonal();
+  }
+  result.diagonal().array() += 1.0;
+  return result;
 }
 
 FloquetDeterminant::Mode FloquetDeterminant::mode(Complex sigma) const {

@@ -31,6 +31,8 @@ class FloquetDeterminant {
   int nodes() const { return static_cast<int>(time_.size()); }
   int harmonics() const { return harmonics_; }         ///< H
   double angular_frequency() const { return omega_; }  ///< omega, rad/s
+  /// Exponents up to which (1/s) resonate within these harmonics.
+  double highest_frequency() const { return omega_ * (harmonics_ + 1.5); }
   const ContactDynamics& dynamics() const { return dynamics_; }
   int evaluations() const { return evaluations_; }
 
@@ -43,9 +45,19 @@ class FloquetDeterminant {
   /// both ends, so that Delta is a smooth function on the whole unit circle.
   std::complex<double> smooth_log(double nu);
 
-  /// The signs of Delta at 0 and at i omega / 2, without an evaluation after smooth_log() there.
-  int sign_at_zero() { return sign_at(0.0, at_zero_); }
-  int sign_at_half() { return sign_at(0.5 * omega_, at_half_); }
+  /// The matrix of Delta at i nu, nu = 0 or omega / 2, times exp(i nu t) from the left and its inverse from
+  /// the right, by which it is real there.
+  Eigen::MatrixXd real_matrix(double nu) const;
+
+  /// A node of the rules.
+  struct Node {
+    int contact;
+    double time;    ///< in periods, origin() or later by less than one
+    double weight;  ///< w_j D(t_j)
+  };
+  Node node(Eigen::Index i) const { return {contact_[std::size_t(i)], time_[i], weighted_[i]}; }
+  /// A time (in periods) at which few contacts are closed.
+  double origin() const { return origin_; }
 
   /// The displacements at the contacts (C x (2H + 1), harmonics n = -H..H) of the vector on which the matrix
   /// is smallest, with their contact forces, scaled to the largest displacement 1. Zero displacements where
@@ -70,7 +82,6 @@ class FloquetDeterminant {
   void set_weighted_waves(const Eigen::MatrixXd& waves, const Range& row,
                           const Eigen::Ref<const Eigen::VectorXcd>& g,
                           Eigen::Ref<Eigen::MatrixXd> columns) const;
-  int sign_at(double nu, const int& known);
   Eigen::Index pair(const Range& row, const Range& column) const {
     return row.contact + column.contact * dynamics_.contacts();
   }
@@ -80,9 +91,10 @@ class FloquetDeterminant {
   int harmonics_;
   Eigen::VectorXd at_once_;  // C, m/N, taken out of the compliances
   int evaluations_ = 0;
-  int at_zero_ = 0, at_half_ = 0;  // signs; 0 before they are known
+  double origin_ = 0.0;
   bool resolved_ = true;
   std::vector<Range> ranges_;
+  std::vector<int> contact_;         // of each node
   Eigen::VectorXd time_, weighted_;  // nodes, in periods; w_j D(t_j)
   Eigen::MatrixXd waves_;            // nodes x 2 (H + 2), cos(2 pi n t), then sin, n = 0..H + 1
 };

@@ -6,8 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
+#include "stability/harmonic_map.hpp"
 #include "stability/stability_checks.hpp"
 #include "stability/winding.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
@@ -89,6 +91,23 @@ std::optional<Complex> newton_exponent(const CharacteristicPolynomial& character
   return std::nullopt;
 }
 
+// Multipliers near those of the determinant, of each conjugate pair the upper one: as the map at 0 has them,
+// then those of modes above all harmonics and as the map at omega / 2 has them.
+std::vector<Complex> approximate_multipliers(const FloquetDeterminant& determinant) {
+  constexpr double least = 1e-2;
+  const HarmonicMaps maps = harmonic_maps(determinant);
+  std::vector<Complex> multipliers;
+  const auto add = [&](const auto& some) {
+    for (const Complex one : some)
+      if (one.imag() >= 0.0 && std::abs(one) >= least) multipliers.push_back(one);
+  };
+  add(detail::map_multipliers(maps.at_zero.map));
+  add(free_multipliers(determinant));
+  std::ranges::stable_sort(multipliers, [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
+  add(detail::map_multipliers(maps.at_half.map));
+  return multipliers;
+}
+
 // Into found(). Without starts of the caller's the approximate multipliers are not in the order of the exact
 // ones, so that twice as many are sought as are asked for.
 void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptions& options) {
@@ -97,7 +116,7 @@ void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptio
   std::size_t wanted = starts.size();
   if (starts.empty()) {
     wanted = 2 * std::size_t(options.max_exponents) + 2;
-    for (const Complex multiplier : approximate_multipliers(characteristic.determinant(), 1e-2))
+    for (const Complex multiplier : approximate_multipliers(characteristic.determinant()))
       starts.push_back(std::log(multiplier) / period);
   }
   std::vector<Complex>& found = characteristic.found();

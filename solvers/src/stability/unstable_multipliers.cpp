@@ -11,6 +11,7 @@
 #include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/floquet_determinant.hpp"
+#include "stability/harmonic_map.hpp"
 #include "stability/monodromy_map.hpp"
 #include "stability/stability_checks.hpp"
 #include "stability/switching_monodromy.hpp"
@@ -155,7 +156,13 @@ struct Way {
   PeriodicStiffness stiffness = {};  // of the structure as it is held
   std::optional<FloquetDeterminant> determinant = std::nullopt;
   std::optional<Eigen::VectorXcd> multipliers = std::nullopt;  // with friction and of rigid contact
+  std::optional<HarmonicMaps> maps = std::nullopt;             // of the determinant, once they are needed
 };
+
+const HarmonicMaps& maps_of(Way& way) {
+  if (!way.maps) way.maps = harmonic_maps(*way.determinant);
+  return *way.maps;
+}
 
 // Of the leading multiplier more digits are asked than slow modes have.
 Way way_of_friction(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
@@ -234,6 +241,38 @@ std::optional<UnstableMultipliers> counted_by_map(const Way& way, const ContactD
   return result;
 }
 
+// Whether each multiplier of one map lies farther from the circle than three times its distance to those of
+// the other, as many of which lie outside.
+bool are_decided(const HarmonicMaps& maps, const Eigen::VectorXcd& multipliers) {
+  constexpr double least_margin = 1e-5;
+  const Eigen::VectorXcd others = detail::map_multipliers(maps.at_half.map);
+  if (!multipliers.allFinite() || !others.allFinite()) return false;
+  for (const std::complex<double> one : multipliers) {
+    const double error = (others.array() - one).abs().minCoeff();
+    if (std::abs(std::abs(one) - 1.0) < std::max(least_margin, 3.0 * error)) return false;
+  }
+  return detail::count_outside(multipliers) == detail::count_outside(others);
+}
+
+// By both maps of the harmonics, where they leave no doubt.
+std::optional<UnstableMultipliers> counted_by_harmonics(Way& way, const StabilityOptions& options) {
+  const FloquetDeterminant& determinant = *way.determinant;
+  if (determinant.nodes() == 0 || options.max_evaluations < 2 ||
+      harmonic_operations(determinant) > options.max_operations)
+    return std::nullopt;
+  const HarmonicMaps& maps = maps_of(way);
+  const Eigen::VectorXcd multipliers = detail::map_multipliers(maps.at_zero.map);
+  if (multipliers.size() == 0 || !are_decided(maps, multipliers)) return std::nullopt;
+  UnstableMultipliers result;
+  result.harmonics = options.harmonics;
+  result.evaluations = 2;
+  result.count = detail::count_outside(multipliers);
+  for (const std::complex<double> free : free_multipliers(determinant))
+    if (std::abs(free) > 1.0) result.count += 2;
+  result.winding = result.count;
+  return result;
+}
+
 UnstableMultipliers counted_by_determinant(FloquetDeterminant& determinant, const StabilityOptions& options) {
   UnstableMultipliers result;
   result.harmonics = options.harmonics;
@@ -263,10 +302,15 @@ UnstableMultipliers counted_by_determinant(FloquetDeterminant& determinant, cons
 UnstableMultipliers count_of(Way& way, const ContactDynamics& dynamics, double frequency,
                              const StabilityOptions& options) {
   if (way.status != StabilityStatus::converged) return without_count(way.status);
+  // A map of the motion's own has the leading multiplier, too.
+  if (way.determinant && !options.leading)
+    if (const auto counted = counted_by_harmonics(way, options)) return *counted;
   if (!way.determinant || is_costly(*way.determinant, way.stiffness, frequency, options.leading))
     if (const auto counted = counted_by_map(way, dynamics, frequency, options)) return *counted;
-  return way.determinant ? counted_by_determinant(*way.determinant, options)
-                         : without_count(StabilityStatus::too_few_harmonics);
+  if (!way.determinant) return without_count(StabilityStatus::too_few_harmonics);
+  if (options.leading)
+    if (const auto counted = counted_by_harmonics(way, options)) return *counted;
+  return counted_by_determinant(*way.determinant, options);
 }
 
 StabilitySigns signs_of(Way& way, const ContactDynamics& dynamics, double frequency,
@@ -274,8 +318,8 @@ StabilitySigns signs_of(Way& way, const ContactDynamics& dynamics, double freque
   StabilitySigns signs{way.status};
   if (way.status != StabilityStatus::converged) return signs;
   if (way.determinant) {
-    signs.fold = way.determinant->sign_at_zero();
-    signs.flip = way.determinant->sign_at_half();
+    signs.fold = maps_of(way).at_zero.sign;
+    signs.flip = maps_of(way).at_half.sign;
     return signs;
   }
   const auto multipliers = multipliers_of(way, dynamics, frequency, options);
@@ -330,7 +374,6 @@ StabilitySigns stability_signs(const ContactDynamics& dynamics, const PeriodicSt
 SignsAndCount signs_and_count(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const StabilityOptions& options) {
   Way way = way_of("stability_signs", dynamics, stiffness, frequency, options);
-  // In this order the values of the determinant from which multipliers are counted have the signs.
   const UnstableMultipliers count = count_of(way, dynamics, frequency, options);
   return {signs_of(way, dynamics, frequency, options), count};
 }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 
 namespace wavebalance::solvers {
@@ -64,17 +63,13 @@ class Follower {
   int left_;  // evaluations
 };
 
-double highest_frequency(const FloquetDeterminant& determinant) {
-  return determinant.angular_frequency() * (determinant.harmonics() + 1.5);
-}
-
 // Where the argument may turn quickly: beside each natural frequency, folded into [0, omega / 2], at
 // distances of its damping rate.
 std::vector<double> first_points(const FloquetDeterminant& determinant) {
   const double omega = determinant.angular_frequency(), half = 0.5 * omega;
   std::vector<double> points{0.0, 0.25 * half, 0.5 * half, 0.75 * half, half};
   for (const ContactPole& pole : determinant.dynamics().poles()) {
-    if (pole.exponent.imag() == 0.0 || pole.exponent.imag() > highest_frequency(determinant) ||
+    if (pole.exponent.imag() == 0.0 || pole.exponent.imag() > determinant.highest_frequency() ||
         pole.shape.isZero(0.0) || pole.left.isZero(0.0))
       continue;
     const double rest = std::fmod(pole.exponent.imag(), omega), folded = std::min(rest, omega - rest);
@@ -88,34 +83,29 @@ std::vector<double> first_points(const FloquetDeterminant& determinant) {
   return points;
 }
 
-// Half the number of points on the circle with which to begin, `least` or more and `share` of the poles up to
-// the frequency `highest` that have not decayed, which are the least degree of the polynomial.
-int first_count(const FloquetDeterminant& determinant, double highest, int least, double share) {
+// Half the number of points on the circle with which to begin, a quarter or more of the poles that have not
+// decayed, which are the least degree of the polynomial. High coefficients of the polynomial are small.
+int first_count(const FloquetDeterminant& determinant) {
   constexpr double decayed = -3.5;
   const double period = 2.0 * pi / determinant.angular_frequency();
-  int lasting = 0, count = least;
+  int lasting = 0, count = 8;
   for (const ContactPole& pole : determinant.dynamics().poles())
-    if (pole.exponent.imag() <= highest && pole.exponent.real() * period > decayed)
+    if (pole.exponent.imag() <= determinant.highest_frequency() && pole.exponent.real() * period > decayed)
       lasting += pole.exponent.imag() == 0.0 ? 1 : 2;
-  while (count < share * lasting) count *= 2;
+  while (count < 0.25 * lasting) count *= 2;
   return count;
-}
-
-// High coefficients of the polynomial are small.
-int first_count(const FloquetDeterminant& determinant) {
-  return first_count(determinant, highest_frequency(determinant), 8, 0.25);
 }
 
 // N at uniform points of the upper half of the unit circle, and the polynomial in 1 / z through them, with a
 // few powers of z.
 class MultiplierPolynomial {
  public:
-  // With the factors of the poles of up to `highest` frequency.
-  MultiplierPolynomial(FloquetDeterminant& determinant, double highest)
+  // With the factors of the poles that resonate within the harmonics.
+  explicit MultiplierPolynomial(FloquetDeterminant& determinant)
       : determinant_(determinant), period_(2.0 * pi / determinant.angular_frequency()) {
     for (const ContactPole& pole : determinant.dynamics().poles()) {
       const int states = pole.exponent.imag() == 0.0 ? 1 : 2;
-      if (pole.exponent.imag() > highest) {
+      if (pole.exponent.imag() > determinant.highest_frequency()) {
         if (pole.exponent.real() > 0.0) own_ += states;
         continue;
       }
@@ -124,16 +114,6 @@ class MultiplierPolynomial {
   }
 
   int own() const { return own_; }
-  // Of the powers 0, 1, ... of 1 / z, the last of those that exceed the noise of the truncated harmonics.
-  Eigen::VectorXd significant() const {
-    const Index half = coefficients_.size() / 2;
-    const Eigen::VectorXd sizes = coefficients_.head(half).cwiseAbs();
-    const double noise = std::max(4.0 * sizes.tail(half / 2).maxCoeff(), 1e-13 * sizes.maxCoeff());
-    Index count = half;
-    while (count > 1 && sizes[count - 1] <= noise) --count;
-    return coefficients_.head(count);
-  }
-
   // Takes `count` + 1 points on the upper half, those of count / 2 included.
   void refine(int count) {
     std::vector<Complex> logs(static_cast<std::size_t>(count) + 1);
@@ -219,7 +199,7 @@ int first_evaluations(const FloquetDeterminant& determinant) { return first_coun
 std::optional<PolynomialChange> polynomial_change(FloquetDeterminant& determinant, int max_evaluations) {
   constexpr int most_points = 256, polynomial_evaluations = 200000;
   constexpr double safe = 4.0, negligible = 1e-9;
-  MultiplierPolynomial polynomial(determinant, highest_frequency(determinant));
+  MultiplierPolynomial polynomial(determinant);
   const int first = first_count(determinant);
   for (int count = first; count <= most_points; count *= 2) {
     const int more = count == first ? count + 1 : count / 2;
@@ -236,29 +216,6 @@ std::optional<PolynomialChange> polynomial_change(FloquetDeterminant& determinan
       return PolynomialChange{*change, polynomial.own()};
   }
   return std::nullopt;
-}
-
-std::vector<Complex> approximate_multipliers(FloquetDeterminant& determinant, double least) {
-  constexpr int most_points = 512;
-  constexpr double all = std::numeric_limits<double>::infinity();
-  MultiplierPolynomial polynomial(determinant, all);
-  Eigen::VectorXd coefficients;
-  const int first = std::min(most_points, first_count(determinant, all, 16, 2.0));
-  for (int count = first; count <= most_points; count *= 2) {
-    polynomial.refine(count);
-    coefficients = polynomial.significant();
-    if (coefficients.size() < count / 2) break;
-  }
-  const Index degree = coefficients.size() - 1;
-  if (degree < 1) return {};
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
-  companion.row(0) = -coefficients.tail(degree).transpose() / coefficients[0];
-  companion.diagonal(-1).setOnes();
-  std::vector<Complex> multipliers;
-  for (const Complex root : detail::eigenvalues(companion))
-    if (root.imag() >= 0.0 && std::abs(root) >= least) multipliers.push_back(root);
-  std::ranges::sort(multipliers, [](Complex a, Complex b) { return std::abs(a) > std::abs(b); });
-  return multipliers;
 }
 
 }  // namespace wavebalance::solvers

@@ -32,9 +32,4 @@ struct PolynomialChange {
 int first_evaluations(const FloquetDeterminant& determinant);
 std::optional<PolynomialChange> polynomial_change(FloquetDeterminant& determinant, int max_evaluations);
 
-/// The multipliers above `least` in modulus as roots of that polynomial times prod (1 - exp((lambda_j - i nu)
-/// T)) of all other poles, by falling modulus and of each conjugate pair the upper one. They are known as far
-/// as the truncated harmonics let the polynomial be: starts for Newton's method.
-std::vector<std::complex<double>> approximate_multipliers(FloquetDeterminant& determinant, double least);
-
 }  // namespace wavebalance::solvers

@@ -1,5 +1,8 @@
 #include "wavebalance/solvers/stability/curve_stability.hpp"
 
+#include "stability/curve_motions.hpp"
+#include "stability/stability_checks.hpp"
+#include "stability/winding.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
@@ -93,6 +96,56 @@ TEST(CurveStability, TellsAGrazingFromANeimarkSackerPointBesideItFromAnyStart) {
     EXPECT_NEAR(two_pi * grazings[0].frequency, 0.5818996390, 1e-7) << from;
     EXPECT_NEAR(two_pi * torus[0].frequency, 0.5819006504, 1e-7) << from;
   }
+}
+
+/// Counts along a curve, where contact acts, beside those by the winding of the polynomial.
+struct Counts {
+  std::vector<int> found, wound, evaluations;
+};
+
+Counts counts_along(const LinearStructure& structure, const ContactLaws& laws, double from, double to) {
+  CondensedProblem problem = testing::fourier_problem(structure, 63, 512);
+  const ContactDynamics dynamics(structure);
+  const FrequencySweep curve = frequency_sweep(problem, laws, testing::between(from, to));
+  CurveMotions motions("counts_along", problem, laws, curve, {}, 64);
+  StabilityOptions options = with_harmonics_of(problem.pair(), {});
+  options.leading = false;
+  Counts counts;
+  for (const SweepPoint& point : curve.points) {
+    const PeriodicResponse at = motions.response(motions.at(point));
+    const PeriodicStiffness stiffness = contact_stiffness(problem, laws, at);
+    if (stiffness.status != StabilityStatus::converged) continue;
+    auto determinant = resolving_determinant(dynamics, stiffness, at.frequency, options.harmonics,
+                                             options.harmonics, options.max_omitted);
+    if (!determinant || determinant->nodes() == 0) continue;
+    const auto polynomial = polynomial_change(*determinant, options.max_evaluations);
+    if (!polynomial) continue;
+    const UnstableMultipliers count = unstable_multipliers(dynamics, stiffness, at.frequency, options);
+    counts.found.push_back(count.count);
+    counts.wound.push_back(int(std::lround(polynomial->own - polynomial->change / std::numbers::pi)));
+    counts.evaluations.push_back(count.evaluations);
+  }
+  return counts;
+}
+
+// The quick way against the plain one, along curves with folds, a period doubling and a Neimark-Sacker point.
+TEST(CurveStability, CountsByTwoRealDeterminantsAsByTheWindingOfThePolynomial) {
+  const std::vector<Counts> curves{
+      counts_along(testing::jl14_case_2.structure(), testing::jl14_case_2.law, 1100.0, 1700.0),
+      counts_along(testing::unit_oscillator(0.1, 0.8), testing::LinearContact{10.0, 0.1}, 2.0 / two_pi,
+                   3.2 / two_pi),
+      counts_along(two_masses(), testing::LinearContact{100.0, 1.0}, 0.0945, 0.085)};
+  std::size_t points = 0, quick = 0;
+  std::vector<int> most;
+  for (const Counts& counts : curves) {
+    ASSERT_GT(counts.found.size(), 10u);
+    EXPECT_EQ(counts.found, counts.wound);
+    most.push_back(std::ranges::max(counts.found));
+    points += counts.found.size();
+    quick += std::size_t(std::ranges::count(counts.evaluations, 2));
+  }
+  EXPECT_EQ(most, (std::vector<int>{1, 1, 2}));
+  EXPECT_GT(10 * quick, 9 * points);
 }
 
 TEST(CurveStability, OfAnUndampedStructureIsNotKnown) {
