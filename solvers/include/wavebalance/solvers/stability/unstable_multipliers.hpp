@@ -35,7 +35,7 @@ struct UnstableMultipliers {
   StabilityStatus status = StabilityStatus::converged;
   int count = -1;        ///< -1 unless converged
   int harmonics = 0;     ///< H taken
-  int evaluations = 0;   ///< of the determinant
+  int evaluations = 0;   ///< of the determinant; two real ones count as two
   double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
   /// The largest multiplier in modulus, Im >= 0, where it was asked for and the monodromy was taken, NaN
   /// elsewhere.
@@ -55,19 +55,23 @@ struct UnstableMultipliers {
 /// is the quotient of the characteristic polynomials with and without contact, prod (z - mu_j) / (z -
 /// exp(lambda_j T)), z = exp(sigma T). The count is that of the poles lambda_j with a positive real part less
 /// [arg Delta(i nu)] / pi over nu = 0..omega/2: the generalised Nyquist criterion [N. M. Wereley, S. R. Hall,
-/// Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516]. Times prod (1
-/// - exp((lambda_j - sigma) T)) it is a polynomial in 1 / z, taken from its values on the circle. Where few
-/// powers do not represent these, the argument of the determinant is followed from points around the natural
-/// frequencies, folded into that range, and steps are halved until it changes by less than a third of pi and
-/// as its derivative says.
+/// Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516].
 ///
-/// Where this takes more than 1e9 operations, as it does when many contacts last long, and the monodromy of
-/// at most `options.max_states` states is known, its eigenvalues are counted, or powers of it that vanish
-/// show that there are none.
+/// Two real maps of the period have the multipliers of Delta, exact at z = 1 and at z = -1. Where their
+/// distances leave no doubt on which side of the circle these lie, they are counted: two evaluations. Else
+/// the argument is followed. Times prod (1 - exp((lambda_j - sigma) T)) it is a polynomial in 1 / z, taken
+/// from its values on the circle. Where few powers do not represent these, the argument of the determinant is
+/// followed from points around the natural frequencies, folded into that range, and steps are halved until it
+/// changes by less than a third of pi and as its derivative says.
 ///
-/// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), 9 to 65 evaluations as
-/// there are multipliers that do not decay. Throws std::invalid_argument for a frequency that is not positive
-/// and finite, a stiffness for other contacts, and options out of range.
+/// Where following it takes more than 1e9 operations, as it does when many contacts last long, and the
+/// monodromy of at most `options.max_states` states is known, its eigenvalues are counted, or powers of it
+/// that vanish show that there are none. With `options.leading` it then comes before the two maps.
+///
+/// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), two real evaluations, and
+/// where these leave doubt 9 to 65 complex ones, as there are multipliers that do not decay. Throws
+/// std::invalid_argument for a frequency that is not positive and finite, a stiffness for other contacts, and
+/// options out of range.
 UnstableMultipliers unstable_multipliers(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                          double frequency, const StabilityOptions& options);
 
