@@ -92,7 +92,7 @@ def test_what_cannot_be_compared_is_two_and_names_what_is_allowed(compare, words
 def test_without_a_reference_it_is_three_with_the_record(compare):
     record = compare("--budget", "1e-6")
     assert record.code == 3, record.errors
-    assert "nothing to compare with (no_reference)" in record.errors
+    assert "no reference to compare with (no_reference)" in record.errors
     assert record.summary["converged"] is False
 
 
