@@ -19,6 +19,7 @@ from docutils.parsers.rst import Directive, directives
 from sphinx.errors import ExtensionError
 
 MAX_SECONDS = 120
+PROGRESS = re.compile(r"^[a-z ]+: step \d+(, .*)?\n", re.MULTILINE)  # of a run that took seconds, on a busy machine
 
 
 def work_folder(env, create=True):
@@ -94,7 +95,7 @@ class Run(Directive):
         text = re.sub(r"\\\n\s*", "", "\n".join(self.content))
         shown = []
         for command in filter(str.strip, text.split("\n")):
-            output = run_command(env, command, self.options.get("exit", 0))
+            output = PROGRESS.sub("", run_command(env, command, self.options.get("exit", 0)))
             shown.append(f"$ {command}")
             if "silent" not in self.options and output.strip():
                 shown.append(shortened(output, self.options.get("lines")))
