@@ -87,7 +87,7 @@ def test_a_curve_that_ends_before_its_energy_has_not_converged_and_says_where_it
     record = wb.run(ROD, {"analysis.mode": 2})
     assert not record.converged
     assert "ended at frequency ratio 1.0" in record.status
-    assert "before the energy ratio 10 asked for: beyond it lies the internal resonance" in record.status
+    assert "before the energy ratio 10 asked for: beyond it is the internal resonance" in record.status
     assert "INCOMPLETE" in figure_of(record, tmp_path, "backbone")["title"]
 
 

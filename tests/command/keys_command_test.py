@@ -33,7 +33,7 @@ def test_all_keys_are_described_and_named_one_per_line_with_their_choices(keys):
     assert "\ncontact.gap\n" in names
     assert "\nstructure.free true false\n" in names
     for section in ("[[contact.pairs]]", "[[forcing.terms]]"):
-        assert f"\n{section}, any number of them" in keys()
+        assert f"\n{section}, any number of " in keys()
 
 
 def test_full_standard_output_is_two():

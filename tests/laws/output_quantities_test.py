@@ -107,7 +107,7 @@ def test_moved_rows_give_displacements_relative_to_them():
 
 
 @pytest.mark.parametrize("overrides, part", [
-    ({"analysis.outputs": ["velocity of row 1 in g"]}, "there is no velocity in g; expected m/s, mm/s"),
+    ({"analysis.outputs": ["velocity of row 1 in g"]}, "there is no velocity in g; expected m/s, rad/s"),
     ({"analysis.outputs": ["row one"]}, "is no place"),
     ({"analysis.outputs": ["speed of row 1"]}, "is no place"),
     ({"analysis.outputs": ["velocity of node 4 z"]}, "no structure.dof_map"),

@@ -1,6 +1,7 @@
 """What records and report pages say of motions and curves, beginning with what vibrates."""
 
 import csv
+import html
 import json
 import os
 import re
@@ -65,7 +66,7 @@ def two_contacts(matrix):
 
 def sentences(page):
     """The page's text without markup."""
-    return re.sub(r"<[^>]+>", " ", page)
+    return html.unescape(re.sub(r"<[^>]+>", " ", page))
 
 
 def rows_of(file):
