@@ -130,4 +130,4 @@ def test_a_written_scene_is_read_again():
     assert wavebalance.complete(written) == written
     analysis = tomllib.loads(written)["analysis"]
     assert (analysis["type"], analysis["seed"], analysis["longest_period"]) == ("motions", 7, 3)
-    assert "up to 3 periods" in wavebalance.check(STOP_MOTIONS, overrides)
+    assert "up to 3 forcing periods" in wavebalance.check(STOP_MOTIONS, overrides)

@@ -44,7 +44,7 @@ def test_a_record_of_an_unstable_motion_says_what_the_structure_settles_to_in_it
     # Behind a period doubling: a motion of two periods, which goes farther.
     assert record.summary["settled_periods"] == 2
     assert record.summary["settled_max_displacement_m"] > record.summary["max_displacement_m"]
-    assert warns(record, "settles to another motion, which repeats after 2 periods")
+    assert warns(record, "converges to another motion, of 2 periods")
     assert "settled_periods" not in solved("case2", forcing__frequency=1275).summary
 
 

@@ -125,7 +125,7 @@ def test_random_starts_of_friction_between_rigid_stops_settle_to_one_motion(run,
     assert record.code == 0, record.errors
     (motion,) = record.summary["motions"]
     assert motion["found_by"] == "rest" and motion["stability"] == "stable" and motion["share"] > 0.5
-    assert "by the map of a period from event to event" in (record.folder / "report.html").read_text()
+    assert "by event-driven integration over a period" in (record.folder / "report.html").read_text()
     assert (record.folder / "motion_1_impacts.csv").exists()
 
 

@@ -82,7 +82,7 @@ def test_rows_without_mass_are_named_where_they_are_not_condensed(chain):
     (chain / "x.mtx").write_text(SYMMETRIC + "3 3 2\n1 1 2\n3 3 2\n")
     refused(changed(CHAIN, ("m.mtx", "x.mtx"), ("[2, 3]", "[3]\nunsymmetric = true")), "structure.mass",
             "not positive definite: its diagonal entry 2 is 0",
-            "1 row has no mass: 2. They are condensed statically where", line=3)
+            "1 row has no mass: 2. They are condensed statically if", line=3)
 
 
 def test_keys_of_matrices_and_gaps_of_several_contacts_belong_to_no_bar():

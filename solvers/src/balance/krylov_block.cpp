@@ -48,6 +48,8 @@ double KrylovBlock::iterations_of_renewal(const ContactOperator& contact) const 
 }
 
 bool KrylovBlock::may_be_kept(const ContactOperator& contact) const {
+  constexpr int many_contacts = 50;  // fewer take little for a new one
+  if (contact.problem().contacts() <= many_contacts) return false;
   constexpr double least_worth = 4.0, share = 0.5;  // of a renewal, that more iterations may take
   constexpr double most = 2.0;                      // by which slopes may have grown or fallen
   const double slopes = active_->scale().norm();
