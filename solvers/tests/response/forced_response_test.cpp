@@ -127,7 +127,7 @@ TEST(ForcedResponse, TellsItsObserverWhatTheValuesAre) {
   ForcedResponseOptions options;
   options.observer = [&](const Progress& progress) {
     const bool newton_step = progress.phase == "Newton";
-    EXPECT_EQ(progress.measure, newton_step ? "relative residual" : "share of the residual");
+    EXPECT_EQ(progress.measure, newton_step ? "relative residual" : "fraction of the residual");
     EXPECT_GE(progress.value, 0.0);
     return ++(newton_step ? newton : continuation) > 0;
   };
