@@ -49,7 +49,7 @@ int affordable_evaluations(const FloquetDeterminant& determinant, const Stabilit
 bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
   constexpr double least_margin = 1e-5;
   if (!multipliers.allFinite() || !others.allFinite()) return false;
-  for (Index i = 0; i < multipliers.size(); ++i) {
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
     const double size = std::abs(multipliers[i]), other = i < others.size() ? std::abs(others[i]) : 0.0;
     if (std::abs(size - 1.0) < std::max(least_margin, 3.0 * std::abs(size - other))) return false;
   }
