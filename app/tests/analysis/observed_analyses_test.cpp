@@ -58,7 +58,7 @@ TEST(InterruptedSweep, HasNotConvergedWhereverTheInterruptionCame) {
     EXPECT_TRUE(record.interrupted) << phase;
     EXPECT_FALSE(record.converged) << phase;
     EXPECT_EQ(record.status, "interrupted") << phase;
-    EXPECT_TRUE(warns(record, "before these motions were solved for: peak, 0.18Hz, 0.24Hz.")) << phase;
+    EXPECT_TRUE(warns(record, "before these motions were computed: peak, 0.18Hz, 0.24Hz.")) << phase;
   }
 }
 
