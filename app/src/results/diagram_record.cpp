@@ -19,6 +19,7 @@
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/attractors/bifurcation.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,5 +1,7 @@
 #include "results/analyses.hpp"
 
+#include <fmt/format.h>
+
 #include <complex>
 
 #include "attractors/limit_cycle.hpp"
