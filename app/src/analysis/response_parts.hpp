@@ -14,9 +14,9 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
                                              const solvers::ContactLaws& laws, const ResponseOptions& options,
                                              Response& result);
 
-/// What the exact motion near a response may take: seconds of one processor for a few contacts, which take a
-/// thousandth of that or less where a motion is near, and less than a minute for 100, whose phases take as
-/// long.
+/// Operations allowed for the exact motion near a response: seconds of one processor for a few contacts,
+/// which take a thousandth of that or less where a motion is near, and less than a minute for 100, whose
+/// phases take as long.
 double most_operations_of_phases(int contacts);
 
 /// Copies what a solver says of a response into `result`, which has its motions from elsewhere.

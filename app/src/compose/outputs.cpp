@@ -52,7 +52,7 @@ void set_numbered_place(Output& output, int number, int size) {
   output.rows = {number - 1};
 }
 
-/// The rows of a place, and its name: that of the dof map where it has the row. Sets whether it rotates,
+/// The rows of a place, and its name, from the dof map where this has the row. Sets whether it rotates,
 /// which of matrices without a dof map is not known.
 void set_place(Output& output, OutputWords& words, const Scene& scene, std::optional<bool>& rotation) {
   const bool negative = words.place.starts_with('-');

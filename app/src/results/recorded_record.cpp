@@ -166,11 +166,11 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
              ? " and a largest value of " + quantity(of("max_force").value, force_unit(contact.unit)) + "."
              : "."));
   if (has(quantities::impacts))
-    sentences.push_back(fmt::format(
-        "There are {:.4g} ± {:.2g} impacts per forcing period, at up to {}. They dissipate {}.",
-        sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
-        quantity(of("max_impact_velocity").value, contact.unit + "/s"),
-        with_error(sum("impact_energy_in_a_period"), "J")));
+    sentences.push_back(
+        fmt::format("There are {:.4g} ± {:.2g} impacts per forcing period, at up to {}. They dissipate {}.",
+                    sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
+                    quantity(of("max_impact_velocity").value, contact.unit + "/s"),
+                    with_error(sum("impact_energy_in_a_period"), "J")));
   if (has(quantities::friction_work))
     sentences.push_back(fmt::format("Friction dissipates {} per forcing period.",
                                     with_error(sum("friction_work_in_a_period"), "J")));

@@ -10,7 +10,7 @@ struct CostEstimate {
   double seconds = 0.0;  ///< processor time of a response or a curve; NaN where only the solution shows it
   /// Bounds of the time for stability and the exact curve; zero without them.
   double least_stability_seconds = 0.0, most_stability_seconds = 0.0;
-  /// That of the exact motion near a response, with its stability, at least and at most; zero without, or
+  /// Time of the exact motion near a response, with its stability, at least and at most; zero without, or
   /// below a second.
   double least_exact_seconds = 0.0, most_exact_seconds = 0.0;
   double bytes = 0.0;       ///< resident memory at its peak

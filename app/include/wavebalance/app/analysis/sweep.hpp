@@ -124,7 +124,7 @@ struct Sweep {
 
 /// The quantity over which a sweep runs, with its unit.
 SweepAxis sweep_axis(const Sweep& sweep);
-/// That of a scene's sweep or diagram; the frequency of other analyses.
+/// Axis of a scene's sweep or diagram; the frequency for other analyses.
 SweepAxis sweep_axis(const Scene& scene);
 
 /// The scene's frequency response by arc length. A change of frequency by 1/20 of the interval has the same

@@ -32,7 +32,7 @@ using MeasuredPoint = std::vector<OutputMeasures>;
 /// The load at a motion.
 struct LoadAt {
   double frequency = 0.0;  ///< Hz
-  double factor = 1.0;     ///< on that of the scene, but its static part; 0 of a free motion
+  double factor = 1.0;     ///< of the dynamic load of the scene; 0 for a free motion
   int periods = 1;         ///< of the load, in the motion
 };
 
