@@ -39,6 +39,15 @@ std::string Sums::key() const {
                      keeps_nyquist ? "" : "_dropped", sine ? "_sine" : "");
 }
 
+std::vector<std::string> choice_names() { return {"Points", "Where", "Products", "Last Fourier function"}; }
+
+std::vector<std::string> Sums::choices() const {
+  return {std::to_string(samples), offset == 0.0 ? "left ends" : "mid-points", exact ? "exact" : "same sums",
+          !keeps_nyquist  ? "none"
+          : sine || exact ? "sine"
+                          : "cosine"};
+}
+
 std::vector<std::string> Sums::overrides(const Pair& pair) const {
   const bool cosine_vanishes = has_haar_trial(pair) && offset != 0.0 && !exact && !sine;
   return {fmt::format("time.quadrature_points={}",
@@ -136,7 +145,17 @@ report::Verdict within_twice(const std::vector<double>& errors, const std::vecto
   std::size_t count = 0;
   for (std::size_t i = 0; i < errors.size(); ++i)
     count += errors[i] <= report::similar_factor * others[i] ? 1 : 0;
-  return report::plain(2 * count > errors.size());
+  return report::mostly(count, errors.size());
+}
+
+report::Verdict both_within_twice(const std::array<double, 2>& rms, const std::array<double, 2>& mean,
+                                  double other_rms, double other_mean) {
+  std::vector<report::Verdict> parts;
+  for (std::size_t i = 0; i < rms.size(); ++i) {
+    parts.push_back(within_twice({rms[i]}, {other_rms}));
+    parts.push_back(within_twice({mean[i]}, {other_mean}));
+  }
+  return report::together(parts);
 }
 
 double lowest_of(const std::string& trial, const std::vector<double>& errors) {
@@ -192,7 +211,7 @@ report::Statement concluded(report::Statement statement, std::vector<report::Rea
   statement.verdict = report::over(readings);
   statement.measured = readings.front().measured;
   if (report::of_text(readings).size() > 1)
-    statement.measured += fmt::format(" ({}). {}", readings.front().name, spread(readings));
+    statement.measured += fmt::format(" ({})", readings.front().name);
   statement.readings = std::move(readings);
   return statement;
 }

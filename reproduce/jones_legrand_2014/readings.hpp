@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct Sums {
 
   std::string name() const;  ///< "256 left ends, same sums"
   std::string key() const;   ///< "256_left_sums", for the columns of a table
+  /// The same in words, one for each of choice_names(): {"256", "left ends", "same sums", "cosine"}.
+  std::vector<std::string> choices() const;
   /// The overrides of a scene with this pair. One sample per function is a reading of pairs with Haar trial
   /// functions alone, which have one value per cell; the others keep 256. At mid-points the cosine has no
   /// product with the alternating Haar function, so that this coefficient is zero; a scene takes the sine
@@ -29,6 +32,9 @@ struct Sums {
   /// Whether the paper's text allows it.
   bool of_text() const { return samples == 256 && !exact && keeps_nyquist && !sine; }
 };
+
+/// What can be chosen: points, where they lie, the products, the last Fourier function opposite Haar.
+std::vector<std::string> choice_names();
 
 /// The two that the text allows, 256 points at left ends and at mid-points, come first, and of these that of
 /// the scenes. Then 256 points without the Nyquist coefficient and with the sine; exact products; and 64, 512
@@ -76,9 +82,12 @@ std::vector<report::Reading> judged(const Readings& readings, const std::vector<
                                     const std::function<Finding(std::size_t)>& judge);
 
 /// Whether errors are lower than others or similar to them: "reasonably", "relatively well", "comparable"
-/// beside another pair's. Agrees if most entries are at most report::similar_factor times as high, else
-/// differs; unknown ones count as higher.
+/// beside another pair's. Holds if most entries are at most report::similar_factor times as high, as
+/// report::mostly; unknown ones count as higher.
 report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others);
+/// The same of each of two pairs, by the rms and the mean of the error.
+report::Verdict both_within_twice(const std::array<double, 2>& rms, const std::array<double, 2>& mean,
+                                  double other_rms, double other_mean);
 
 /// The lowest of the errors of the pairs with these trial functions.
 double lowest_of(const std::string& trial, const std::vector<double>& errors);
@@ -87,8 +96,7 @@ Finding daubechies_lowest(const std::vector<double>& rms, const std::vector<doub
 /// The lowest of the errors of all pairs without DB6 trial functions.
 double lowest_without_daubechies(const std::vector<double>& errors);
 
-/// The statement with the verdict of the readings, and what the first found with the number of those that
-/// agree as `measured`.
+/// The statement with the verdict of the readings, and what the first found as `measured`.
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings);
 
 /// Under which readings of the text a statement agrees, and under which it would if the sums were formed

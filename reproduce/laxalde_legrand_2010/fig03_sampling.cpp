@@ -189,8 +189,9 @@ void claim(report::Artefact& artefact, const std::vector<Sampled>& rows, const E
            forces_text(rows), number(1e-3 * exact.largest_force, 4), percent(exact.contact_fraction)),
        .verdict = report::over(readings),
        .readings = readings,
+       .claim = "Few harmonics N and many samples m",
        .headline =
-           fmt::format("With N = {} and m = {} to {} the largest force grows from {} to {} kN; exact {} kN.",
+           fmt::format("with N = {} and m = {} to {} the largest force grows from {} to {} kN; exact {} kN.",
                        main_harmonics, few.samples, many.samples, number(1e-3 * few.largest_force, 3),
                        number(1e-3 * many.largest_force, 4), number(1e-3 * exact.largest_force, 3))},
       "N harmonics can meet the gap at few samples only. Where a single one bears the force, its mean is fixed by "

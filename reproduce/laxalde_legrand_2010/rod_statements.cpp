@@ -105,9 +105,10 @@ void hardening(report::Artefact& artefact, const RodCurves& curves) {
       "ω over the linear frequency rises from one to the next of the energies 1.2, 1.8, 3, 5, 10, eq. (28)",
       measured, report::plain(rising)};
   const std::string because = "The frequency falls between two of these energies.";
-  s.headline = fmt::format(
-      "The rod's frequency rises with the energy, to {} times the linear one at energy {}; exact {} times.",
-      number(before, 4), number(*std::rbegin(compared)), number(1.0 + frequency_range(curves), 4));
+  s.claim = "The rod hardens";
+  s.headline = fmt::format("its frequency rises to {} times the linear one at energy {}; exact {} times.",
+                           number(before, 4), number(*std::rbegin(compared)),
+                           number(1.0 + frequency_range(curves), 4));
   s.panel = "(a)";
   judge(artefact, s, because);
 }
@@ -161,8 +162,9 @@ void quotient(report::Artefact& artefact, const QuotientError& error) {
       "$\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ with the mean force $\\langle f \\rangle$, which these motions meet to {}.",
       number(error.virial, 2));
   s.panel = "(a) and (c)";
+  s.claim = "ω² is the Rayleigh quotient r";
   s.headline = fmt::format(
-      "√r and ω part by up to {} of the linear frequency; $\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ holds to {}.",
+      "ω and √r differ by up to {} of the linear frequency; $\\omega^2 = r + \\langle f \\rangle g_0 / \\hat m$ holds to {}.",
       number(error.largest, 2), number(error.virial, 1));
   judge(artefact, s, because);
 }

@@ -28,15 +28,16 @@ def moving_bar():
 
 
 def sums():
-    """Two ways to form sums, under the second of which one curve is missing."""
+    """Three ways to form sums, under the second of which one curve is missing."""
 
-    def way(name, of_text, second, errors, verdict):
-        return {"name": name, "ofText": of_text, "curves": [[0, 4 if of_text else 6, 10], second], "errors": errors,
+    def way(points, place, of_text, second, errors, verdict):
+        return {"name": f"{points} {place}", "choices": [points, place], "ofText": of_text, "curves": [[0, 4 if of_text else 6, 10], second], "errors": errors,
                 "verdicts": [{"statement": 2, "verdict": verdict}]}
 
-    return {"label": "u (mm)", "from": 0.0, "to": 1.0, "unit": 0.1, "level": None, "reference": [0, 5, 10],
+    return {"label": "u (mm)", "from": 0.0, "to": 1.0, "unit": 0.1, "level": None, "choices": ["Points", "Where"], "reference": [0, 5, 10],
             "pairs": [{"label": "sine", "steps": False}, {"label": "half", "steps": True}],
-            "readings": [way("left", True, [1, 5, 9], [0.125, 0.5], "agrees"), way("middle", False, None, [0.25, None], "differs")]}
+            "readings": [way("256", "left", True, [1, 5, 9], [0.125, 0.5], "agrees"), way("256", "middle", False, None, [0.25, None], "differs"),
+                         way("64", "left", False, [1, 5, 9], [0.5, 0.5], "agrees")]}
 
 
 def figure():
@@ -75,7 +76,7 @@ def statement(verdict, quote, readings=()):
     """One that says all it can."""
     return {"place": "section 5.1", "quote": quote, "criterion": "x < 1", "measured": "0.5", "verdict": verdict, "because": "x is open",
             "readings": [{"name": name, "verdict": one, "measured": "1", "of_text": True} for name, one in readings], "panel": "(a)",
-            "apart": "", "headline": ""}
+            "apart": "", "claim": "", "headline": ""}
 
 
 def write(folder, paper, stem, one):
@@ -137,22 +138,30 @@ def test_dragging_in_a_diagram_sets_the_time_and_ends_play_without_selecting_tex
     assert browser.value("String(getSelection())") == ""
 
 
-def test_the_slider_shows_each_way_to_form_sums(look, browser, results):
+def test_choices_show_each_way_to_form_sums(look, browser, results):
     look.open(results / "index.html")
     look.near("document.querySelector('.sums')")
-    found = [browser.value(f"""(() => {{ const box = document.querySelector(".sums"), slider = box.querySelector("input");
-      slider.value = {value}; slider.dispatchEvent(new Event("input"));
-      return {{ name: box.querySelector("output").textContent, titles: [...box.querySelectorAll(".panel > p")].map((one) => one.textContent),
-        verdicts: [...box.querySelectorAll(".key a")].map((one) => `${{one.getAttribute("href")}} ${{one.textContent}}`),
-        curves: [...box.querySelectorAll(".panel")].map((one) => [...one.querySelectorAll(".curve")].pop().getAttribute("d")) }}; }})()""")
-             for value in (0, 1)]
-    assert found[0]["name"] == "1 of 2: left. The text allows it; the figure shows it."
-    assert found[1]["name"] == "2 of 2: middle. This is not what the paper does."
-    assert found[0]["titles"] == ["(a) sine, error 12.5 %", "(b) half, error 50 %"]
-    assert found[1]["titles"] == ["(a) sine, error 25 %", "(b) half, no solution found"]
-    assert found[0]["verdicts"] == [f"#{STEM}-2 statement 2: ✓ agrees"]
-    assert found[0]["curves"][0] != found[1]["curves"][0]
-    assert found[1]["curves"][1] is None
+
+    def shown(option=None):
+        """What is shown after the option is chosen."""
+        return browser.value(f"""(() => {{ const box = document.querySelector(".sums");
+          [...box.querySelectorAll("input")].find((one) => one.value === {json.dumps(option)})?.click();
+          const texts = (list) => [...box.querySelectorAll(list)].map((one) => one.textContent);
+          return {{ name: box.querySelector("output").textContent, titles: texts(".panel > p"), names: texts("legend"),
+            chosen: [...box.querySelectorAll("input:checked")].map((one) => one.value),
+            verdicts: [...box.querySelectorAll(".key a")].map((one) => `${{one.getAttribute("href")}} ${{one.textContent}}`),
+            curves: [...box.querySelectorAll(".panel")].map((one) => [...one.querySelectorAll(".curve")].pop().getAttribute("d")) }}; }})()""")
+
+    first, second = shown(), shown("middle")
+    assert (first["names"], first["chosen"], second["chosen"]) == (["Points", "Where"], ["256", "left"], ["256", "middle"])
+    assert first["name"] == "Allowed by the text of the paper."
+    assert second["name"] == "A variant, which decides nothing."
+    assert first["titles"] == ["(a) sine, error 12.5 %", "(b) half, error 50 %"]
+    assert second["titles"] == ["(a) sine, error 25 %", "(b) half, no solution found"]
+    assert first["verdicts"] == [f"#{STEM}-2 statement 2: ✓ agrees"]
+    assert first["curves"][0] != second["curves"][0]
+    assert second["curves"][1] is None
+    assert shown("64")["chosen"] == ["64", "left"]  # 64 points at the middles were not computed
 
 
 def told(look, browser, panel, curve, point):

@@ -9,7 +9,7 @@
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "readings.hpp"
-#include "sums_slider.hpp"
+#include "sums_choices.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/report/rule.hpp"
 #include "wavebalance/spectral/fft.hpp"
@@ -171,8 +171,7 @@ void state_haar_velocity(report::Artefact& artefact, const Case& study, const Re
     const auto rms = measured({edges(v[3]), edges(v[5]), edges(v[0])}, reference, &app::relative_rms_error);
     const auto mean = measured({edges(v[3]), edges(v[5]), edges(v[0])}, reference, &relative_mean_error);
     return Finding{
-        report::together({within_twice({rms[0], rms[1]}, {rms[2], rms[2]}),
-                          within_twice({mean[0], mean[1]}, {mean[2], mean[2]})}),
+        both_within_twice({rms[0], rms[1]}, {mean[0], mean[1]}, rms[2], mean[2]),
         "rms error " + listed(pairs_named({"haar_fourier", "haar_bspline", "fourier_fourier"}), rms)};
   });
   report::Statement statement{

@@ -7,7 +7,7 @@
 #include "figures.hpp"
 #include "jl14.hpp"
 #include "readings.hpp"
-#include "sums_slider.hpp"
+#include "sums_choices.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/report/rule.hpp"
 
@@ -81,8 +81,7 @@ void state_haar_force(report::Artefact& artefact, const Case& study, const Readi
       least = std::min({least, rms[3], rms[5]});
       most = std::max({most, rms[3], rms[5]});
     }
-    return Finding{report::together({within_twice({rms[3], rms[5]}, {rms[0], rms[0]}),
-                                     within_twice({mean[3], mean[5]}, {mean[0], mean[0]})}),
+    return Finding{both_within_twice({rms[3], rms[5]}, {mean[3], mean[5]}, rms[0], mean[0]),
                    "rms error " + listed(pairs_named({"haar_fourier", "haar_bspline", "fourier_fourier"}),
                                          {rms[3], rms[5], rms[0]})};
   });
@@ -95,9 +94,9 @@ void state_haar_force(report::Artefact& artefact, const Case& study, const Readi
       "The law is steep, so that a saw tooth of the displacement within its penetration becomes one of the whole "
       "force. With points at left ends and at mid-points, which the text allows, the two pairs have errors of {} to {}.",
       percent(least), percent(most));
-  statement.headline = fmt::format(
-      "The Haar pairs miss the contact force by {} to {}, depending on where the 256 points lie, Fourier:Fourier by {}.",
-      percent(least, 2), percent(most, 2), percent(force_errors(study, readings, 0).rms[0], 2));
+  statement.claim = "Haar gives the contact force relatively well";
+  statement.headline = fmt::format("its error is {} to {}, that of harmonic balance {}.", percent(least, 2),
+                                   percent(most, 2), percent(force_errors(study, readings, 0).rms[0], 2));
   statement.panel = "(c), (e)";
   artefact.statement(concluded(statement, found));
 }
@@ -118,10 +117,11 @@ void state_daubechies_force(report::Artefact& artefact, const Case& study, const
       "and mean of the error of the force"};
   statement.because = "The best of them is not one of the DB6 pairs by both measures.";
   const auto [rms, mean] = force_errors(study, readings, 0);
-  statement.headline = fmt::format(
-      "DB6 gives the contact force best on average: mean error {} against {}; by the rms {} against {}.",
-      percent(lowest_of("daubechies6", mean), 2), percent(lowest_without_daubechies(mean), 2),
-      percent(lowest_of("daubechies6", rms)), percent(lowest_without_daubechies(rms)));
+  statement.claim = "DB6 gives the contact force best";
+  statement.headline =
+      fmt::format("the mean error is {}, the next best {}; rms {} and {}.",
+                  percent(lowest_of("daubechies6", mean), 2), percent(lowest_without_daubechies(mean), 2),
+                  percent(lowest_of("daubechies6", rms)), percent(lowest_without_daubechies(rms)));
   artefact.note(fmt::format(
       "The short spikes at the beginning of contact go into the rms error of the force with their squares. The largest "
       "force of DB6:DB6 is {} of that of the reference, that of B-spline:B-spline {}.",
@@ -182,13 +182,13 @@ void state_conclusions(report::Artefact& artefact, const Case& study, const Read
         std::vector<report::Verdict> parts;
         std::string text;
         for (const std::string trial : {"haar", "daubechies6"}) {
-          int comparable = 0, better = 0;
+          std::size_t comparable = 0, better = 0;
           for (const auto& error : errors) {
             const double own = lowest_of(trial, error), fourier = error[0];
             comparable += within_twice({own}, {fourier}) == report::Verdict::agrees ? 1 : 0;
             better += lower({own}, {fourier}) == report::Verdict::agrees ? 1 : 0;
           }
-          parts.push_back(report::plain(2 * comparable > static_cast<int>(errors.size())));
+          parts.push_back(report::mostly(comparable, errors.size()));
           parts.push_back(report::plain(better > 0));
           text += fmt::format("{}{} comparable in {} and better in {} of {}", text.empty() ? "" : "; ",
                               trial == "haar" ? "Haar" : "DB6", comparable, better, errors.size());

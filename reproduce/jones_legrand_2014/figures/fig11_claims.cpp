@@ -220,7 +220,7 @@ Finding low_resolution(const Convergence& results) {
       text += fmt::format("; {} at {} Hz {}", pair(name).label, number == 1 ? 150 : 1275,
                           results.text(&Measures::midpoint_largest, number, name, few));
     }
-  return {report::plain(2 * unseen > count),
+  return {report::mostly(unseen, count),
           fmt::format("not visible for {} of {} combinations{}", unseen, count, text)};
 }
 

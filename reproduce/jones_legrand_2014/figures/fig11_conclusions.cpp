@@ -62,7 +62,7 @@ Finding similar_orders(const Convergence& results) {
   for (std::size_t i = 0; i < orders.size(); ++i)
     count +=
         std::max(orders[i], references[i]) <= report::similar_factor * std::min(orders[i], references[i]);
-  return {report::plain(2 * count > orders.size()),
+  return {report::mostly(count, orders.size()),
           fmt::format("orders within a factor of {:g} for {} of {}: {}", report::similar_factor, count,
                       orders.size(), text)};
 }

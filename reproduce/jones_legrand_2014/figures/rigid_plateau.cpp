@@ -188,8 +188,9 @@ void state_haar_rigid(report::Artefact& artefact, const std::vector<Study>& stud
       report::together({lower(rigid_rms, soft_rms), lower(rigid_mean, soft_mean)})};
   const auto [least, most] = std::minmax_element(rigid_rms.begin(), rigid_rms.end());
   const auto [soft_least, soft_most] = std::minmax_element(soft_rms.begin(), soft_rms.end());
+  statement.claim = "Haar does better against a rigid obstacle";
   statement.headline = fmt::format(
-      "Force error of the Haar pairs over Fourier:Fourier's: {} to {} against a rigid obstacle, {} to {} with the law (5).",
+      "its force error is {} to {} times that of harmonic balance, with the exponential law {} to {} times.",
       report::number(*least, 2), report::number(*most, 2), report::number(*soft_least, 2),
       report::number(*soft_most, 2));
   statement.because =

@@ -76,7 +76,7 @@ def test_readings_of_the_text_decide_and_the_others_are_counted_apart(results, s
 
 def test_errors_that_are_told_are_those_of_the_readings_of_the_text(results):
     force = results.statement(FIG09, "relatively well")
-    assert "by 36 % to 90 %" in force["headline"]
+    assert "error is 36 % to 90 %" in force["headline"]
     plateau = results.statement(FIG06, "well represented by the constant")
     for reading in of_text(plateau["readings"]):
         assert reading["measured"].split(" of the range")[0] in plateau["because"]

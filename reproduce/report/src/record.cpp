@@ -28,7 +28,7 @@ void from_json(const nlohmann::json& json, Verdict& verdict) {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Reading, name, verdict, measured, of_text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Statement, place, quote, criterion, measured, verdict, because, readings,
-                                   panel, apart, headline)
+                                   panel, apart, claim, headline)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Unjudged, place, quote, reason, found)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Slip, place, printed, meant, shown)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, place, sentence, criterion, measured, passes)

@@ -35,7 +35,7 @@ Verdict lower(const std::vector<double>& first, const std::vector<double>& secon
   require_comparable(first, second, "lower");
   const std::size_t wins = below(first, second), losses = below(second, first);
   if (2 * wins > first.size()) return Verdict::agrees;
-  return 2 * losses >= first.size() ? Verdict::differs : Verdict::ties;
+  return 2 * losses > first.size() ? Verdict::differs : Verdict::ties;
 }
 
 Verdict together(const std::vector<Verdict>& parts) {
@@ -65,7 +65,11 @@ Verdict similar(const std::vector<double>& first, const std::vector<double>& sec
   std::size_t count = 0;
   for (std::size_t i = 0; i < first.size(); ++i)
     count += std::max(first[i], second[i]) <= similar_factor * std::min(first[i], second[i]) ? 1 : 0;
-  return plain(2 * count > first.size());
+  return mostly(count, first.size());
+}
+
+Verdict mostly(std::size_t count, std::size_t all) {
+  return 2 * count == all ? Verdict::ties : plain(2 * count > all);
 }
 
 Verdict misprint(Verdict as_printed, Verdict as_corrected) {
@@ -108,32 +112,26 @@ namespace {
 std::vector<std::string> comparisons_text() {
   return {
       fmt::format(
-          "A comparison (“lower”, “larger”, “best”) holds if it holds for more than half of the sizes or cases "
-          "that the paper draws. It differs if the opposite holds for at least half. Values within {:g} % of each "
-          "other tie. Errors are compared by their rms and by their mean.",
+          "A comparison (“lower”, “best”) holds if it holds for more than half of the sizes or cases drawn, differs if "
+          "its opposite does, and ties otherwise. Values within {:g} % of each other tie.",
           100.0 * tie_share),
-      "A sentence of several parts, or a comparison by several measures, agrees if all agree, or if some agree and "
-      "the others tie. It ties if all tie. It holds in part if some agree and some do not.",
+      "Several parts or measures agree together if each agrees or ties, and one agrees. They tie if all tie. They hold in "
+      "part if only some agree.",
       fmt::format(
-          "“Well”, “close” and “approximately” hold if the difference is at most {:g} % of the range that the "
-          "quantity takes in the figure, or of the value that it is compared with. A ratio is close to unity within "
-          "{:g} % of 1. The figures of the papers are not at hand, so that no axis and no curve of theirs is used.",
-          100.0 * visible_share, 100.0 * visible_share),
-      fmt::format(
-          "“Similar”, “comparable”, “constant” and “reasonably” hold within a factor of {:g}. What is the same, or "
-          "zero, is so to {} of the quantities compared.",
-          similar_factor, number(rounding))};
+          "“Well”, “close” and “approximately” mean within {:g} % of the range or of the value compared with. "
+          "“Similar”, “comparable” and “constant” mean within a factor of {:g}. Equal means to {}.",
+          100.0 * visible_share, similar_factor, number(rounding))};
 }
 
 std::vector<std::string> figures_text() {
   return {
       fmt::format(
-          "“Sharp” and “quick” is what happens within 1/{} of the period. Errors on a plateau leave out {} of these "
-          "parts at either end. The beginning and the end of an interval are its first and its last 1/{}.",
+          "“Sharp” means within 1/{} of the period. A plateau leaves out {} of these parts at either end. The beginning of an "
+          "interval is its first 1/{}.",
           parts_of_period, parts_at_an_end, parts_of_interval),
       fmt::format(
-          "What converges changes less than half as much after {} doublings. What is due to a parameter "
-          "shrinks with the parameter {:g} and {:g} times as large, or as small.",
+          "“Converges” means that {} doublings at least halve the change per doubling. An effect of a parameter shrinks if "
+          "the parameter changes {:g} and {:g} times.",
           doublings, parameter_factor, parameter_factor * parameter_factor)};
 }
 
@@ -143,16 +141,12 @@ std::vector<std::string> rule_text() {
   std::vector<std::string> text = comparisons_text();
   for (auto& sentence : figures_text()) text.push_back(std::move(sentence));
   text.emplace_back(
-      "Where the paper's text leaves something open, the statement is computed under each reading that the text "
-      "allows, and these alone decide. It depends only if it agrees under some of them and not under others. What "
-      "would be found if the paper had done otherwise stands beside, as “if instead”, and decides nothing.");
+      "Where the paper leaves a detail open, only interpretations that its text allows decide; it depends if they "
+      "disagree. Variants are listed as “if instead”.");
+  text.emplace_back("A misprint does not agree as printed, but as another place of the same paper has it.");
   text.emplace_back(
-      "A misprint is a sentence or formula that does not agree as printed, and agrees as another place of the same "
-      "paper has it. Both are computed.");
-  text.emplace_back(
-      "What only a fault of the code could make fail is a check of the code. It is shown and not counted. Statements "
-      "on the blade of Laxalde and Legrand are judged on another blade, since theirs is not published. They stand "
-      "apart and are not counted either.");
+      "Checks of the code are not counted, nor are statements on the blade of Laxalde and Legrand, which is not published; "
+      "another blade stands in.");
   return text;
 }
 

@@ -17,7 +17,7 @@ def record(stem, number="JL14 Fig.", title="", **parts):
 
 def statement(place, quote, criterion, measured, verdict, **parts):
     return {"place": place, "quote": quote, "criterion": criterion, "measured": measured, "verdict": verdict,
-            "because": "", "readings": [], "panel": "", "apart": "", "headline": "", **parts}
+            "because": "", "readings": [], "panel": "", "apart": "", "claim": "", "headline": "", **parts}
 
 
 def check(sentence, passes):

@@ -85,12 +85,13 @@ def test_a_page_opens_with_counts_and_six_findings_that_hold_and_three_that_do_n
     assert "Of 3 statements 1 agrees, 1 differs, 1 depends on what the paper leaves open." in section(page(), "brief")
 
     def many(one):
-        one["statements"][0]["headline"], one["statements"][2]["headline"] = "It is 0.5.", "It is 3."
+        one["statements"][0].update(claim="x is small", headline="It is 0.5.")
+        one["statements"][2]["headline"] = "It is 3."
         one["statements"] += [one["statements"][0], one["statements"][2]] * 10
 
     findings = section(page(many), "brief").split("</ul>")[0]
     assert findings.count("<li>") == 9
-    assert findings.count("It is 0.5.") == 6
+    assert findings.count("<b>x is small:</b> It is 0.5.") == 6
     assert findings.count("It is 3.") == 3
     assert findings.rindex("It is 0.5.") < findings.index("It is 3.")
 
@@ -110,8 +111,8 @@ def test_statements_judged_apart_are_shown_and_not_counted(page):
 
 def test_readings_that_the_text_does_not_allow_stand_beside_the_others(page):
     text = page(another_reading)
-    assert "depends: 1 of 2 readings of the text · if instead: 1 of 1" in text
-    assert "<summary>If instead: 1 of 1 agree</summary>" in text
+    assert "depends: 1 of 2 interpretations<" in text
+    assert "<th>If instead (1 of 1 agree)</th>" in text
     assert 'statement 2: depends">1/2</a>' in section(text, "matrix")
 
 
@@ -159,9 +160,9 @@ def test_every_anchor_exists_once(page):
     assert targets and targets <= set(ids)
 
 
-@pytest.mark.parametrize("part", ["panel (b), section 2", "<dt>Decided by</dt><dd>x &lt; 1</dd>",
+@pytest.mark.parametrize("part", ["panel (b), section 2", "<summary>How it is decided</summary>\n<p>x &lt; 1</p>",
                                   "<dt>Found</dt><dd>1.5</dd>", "<dt>Because</dt><dd>x is open. More.</dd>",
-                                  "depends: 1 of 2 readings", "2 readings that the text allows", "<td>x = 2</td>"])
+                                  "depends: 1 of 2 interpretations", "<th>Allowed by the text</th>", "<td>x = 2</td>"])
 def test_a_card_says_what_decides_what_is_found_and_why(page, part):
     assert part in page()
 
@@ -171,17 +172,12 @@ def test_a_page_states_the_rule(page):
 
 
 def test_a_page_opens_with_what_is_compared(page):
-    assert page().index("sentences of the papers and not their curves") < page().index('id="brief"')
+    assert page().index("Sentences and not curves are compared") < page().index('id="brief"')
 
 
-def test_readings_are_open_where_the_verdict_depends_on_them(page):
-    opened = '<details class="readings" open>'
-    assert page().count(opened) == 1
-
-    def agrees(one):
-        one["statements"][1]["verdict"] = "agrees"
-
-    assert opened not in page(agrees)
+def test_interpretations_and_notes_are_folded(page):
+    assert page().count('<details class="readings">') == 3
+    assert '<details class="more"><summary>Notes</summary>\n<ul class="notes">\n<li>a note</li>' in page()
 
 
 def test_heads_of_tables_may_break_between_words(page):

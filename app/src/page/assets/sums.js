@@ -1,5 +1,5 @@
-// Curves under one way after another to form sums over the period: a slider chooses the way, the curves and the verdicts
-// of the statements follow. Data are left beside the figure, whose colours and letters are taken.
+// Curves under each way to form sums over the period: a way is a few choices, and curves and verdicts of the statements
+// follow them. Data are left beside the figure, whose colours and letters are taken.
 "use strict";
 (() => {
   const element = wavebalance.element;
@@ -83,25 +83,39 @@
         `statement ${statement}: ${signs[verdict] ?? ""} ${verdict}`));
   }
 
+  // One fieldset of radio buttons for each choice.
+  function fields(data, stem, chosen) {
+    return data.choices.map((name, place) => {
+      const options = [...new Set(data.readings.map((reading) => reading.choices[place]))];
+      return element("fieldset", {}, element("legend", {}, name), ...options.map((option) => {
+        const button = element("input", { type: "radio", name: `${stem}-${place}`, value: option });
+        button.addEventListener("change", () => chosen(place, option));
+        return element("label", {}, button, ` ${option}`);
+      }));
+    });
+  }
+
+  // The way with this option that has most choices in common with the present one; not all combinations were computed.
+  function nearest(data, present, place, option) {
+    const common = (reading) => reading.choices.filter((one, i) => one === present.choices[i]).length;
+    return data.readings.filter((reading) => reading.choices[place] === option)
+      .reduce((best, reading) => (common(reading) > common(best) ? reading : best));
+  }
+
   function build(box, data, figure, stem) {
     const panels = ordered(data, figure).map((pair, i) => new Panel(data, pair, String.fromCharCode(97 + i)));
-    const last = data.readings.length - 1;
-    const slider = element("input", { type: "range", min: 0, max: last, step: 1, value: 0, "aria-label": "Way to form the sums" });
-    const name = element("output", {}), verdicts = element("p", { class: "key" });
-    const grid = element("div", { class: "sums-panels" }, ...panels.map((panel) => panel.node));
+    let reading = data.readings[0];
+    const verdicts = element("p", { class: "key" }), name = element("output", {});
+    const choices = fields(data, stem, (place, option) => { reading = nearest(data, reading, place, option); show(); });
     const show = () => {
-      const reading = data.readings[slider.value];
-      name.replaceChildren(element("b", {}, `${Number(slider.value) + 1} of ${last + 1}: ${reading.name}`),
-        reading.ofText ? (Number(slider.value) === 0 ? ". The text allows it; the figure shows it." : ". The text allows it.")
-          : ". This is not what the paper does.");
-      slider.setAttribute("aria-valuetext", reading.name);
+      choices.forEach((field, i) => field.querySelectorAll("input").forEach((one) => { one.checked = one.value === reading.choices[i]; }));
+      name.textContent = reading.ofText ? "Allowed by the text of the paper." : "A variant, which decides nothing.";
       verdicts.replaceChildren(...verdictsOf(reading, stem));
       panels.forEach((panel) => panel.show(reading));
     };
-    slider.addEventListener("input", show);
-    box.replaceChildren(wavebalance.heading(box, "Form the sums otherwise"), element("div", { class: "tools" }, slider, name), verdicts, grid,
-      element("p", { class: "quiet" }, "Black and dashed: the exact motion. Errors are those of the whole period, rms over the rms of the exact one. " +
-        "The first two ways are those that the text allows; the verdicts of the statements rest on them alone."));
+    box.replaceChildren(wavebalance.heading(box, "Other sums"), element("div", { class: "tools" }, ...choices, name), verdicts,
+      element("div", { class: "sums-panels" }, ...panels.map((panel) => panel.node)),
+      element("p", { class: "quiet" }, "Dashed: the exact motion. Errors are relative, rms over the period."));
     const draw = () => { panels.forEach((panel) => panel.size()); show(); };
     new ResizeObserver(draw).observe(box);
     draw();

@@ -44,20 +44,20 @@ std::string picture(const Record& record, const Place& place) {
 
 std::string notes(const Record& record) {
   if (record.notes.empty()) return "";
-  std::string text = "<ul class=\"notes\">\n";
+  std::string text = "<details class=\"more\"><summary>Notes</summary>\n<ul class=\"notes\">\n";
   for (const auto& note : record.notes) text += "<li>" + app::with_formulas(note) + "</li>\n";
-  return text + "</ul>\n";
+  return text + "</ul>\n</details>\n";
 }
 
 /// Links from a figure to what can be moved below it.
 std::string ways_on(const std::string& readings, const std::string& moving, const std::string& stem) {
   std::string text;
-  if (!readings.empty()) text += fmt::format("<a href=\"#sums-{}\">Form the sums otherwise ↓</a> ", stem);
+  if (!readings.empty()) text += fmt::format("<a href=\"#sums-{}\">Other sums ↓</a> ", stem);
   if (!moving.empty()) text += fmt::format("<a href=\"#move-{}\">See it move ↓</a>", stem);
   return text.empty() ? "" : "<p class=\"quiet ways-on\">" + text + "</p>\n";
 }
 
-/// A slider over the ways to form the sums, where an artefact has left their curves.
+/// Choices of how the sums are formed, where an artefact has left their curves.
 std::string sums_html(const Record& record, const Place& place) {
   const std::string script = record.identity.stem + ".readings.js";
   if (place.section.files.count(script) == 0) return "";

@@ -119,10 +119,9 @@ app::PageParts parts(const std::string& title, const std::string& assets, const 
 std::string page_html(const std::vector<Section>& sections, const Origin& origin, bool measured) {
   const std::string brief = brief_html(sections);
   std::string main = fmt::format(
-      "<h1>Two papers, reproduced and checked</h1>\n<p>Every figure and table below was computed from scene files by "
-      "Wavebalance {}. Compared are sentences of the papers and not their curves, which are not at hand. Each sentence "
-      "stands beside the figure that shows it, with the value that this run found and the verdict that <a "
-      "href=\"#rule\">one rule</a> computes from it.</p>\n",
+      "<h1>Two papers, reproduced and checked</h1>\n<p>Sentences and not curves are compared, because the data of the "
+      "papers' curves are not published. Wavebalance {} computed all figures and tables again. Beside each "
+      "are the sentences on it, the value found and the verdict of <a href=\"#rule\">one rule</a>.</p>\n",
       app::version());
   main += brief + matrix_html(sections) + rule_html(sections);
   for (const Section& section : sections)

@@ -40,7 +40,9 @@ std::string shortened(const std::string& text, std::size_t length);
 /// Records whose stems begin as `order` says come first, in that order.
 std::vector<Record> ordered(std::vector<Record> records, const std::vector<std::string>& order);
 
-/// A table with these heads below a summary that unfolds it. `attributes` of the element begin with a blank.
+/// A table with these heads, and one below a summary that unfolds it. `attributes` of the element begin with
+/// a blank.
+std::string table_of(const std::vector<std::string>& heads, const std::string& rows);
 std::string folded(const std::string& summary, const std::vector<std::string>& heads, const std::string& rows,
                    const std::string& attributes = "");
 /// A row of a table, each text escaped and with its formulas.

@@ -15,17 +15,14 @@ std::string item(const char* name, const std::string& text) {
 }
 
 std::string word(const Statement& one) {
-  const auto text = of_text(one.readings), beside = of_text(one.readings, false);
+  const auto text = of_text(one.readings);
   std::string words(to_string(one.verdict));
   if (text.size() > 1)
-    words += fmt::format(": {} of {} {}", agreeing(one.readings), text.size(),
-                         beside.empty() ? "readings" : "readings of the text");
-  if (!beside.empty())
-    words += fmt::format(" · if instead: {} of {}", agreeing(one.readings, false), beside.size());
+    words += fmt::format(": {} of {} interpretations", agreeing(one.readings), text.size());
   return words + (one.apart.empty() ? "" : " · " + one.apart + ", not counted");
 }
 
-std::string reading_table(const std::string& summary, const std::vector<Reading>& readings, bool open) {
+std::string reading_table(const std::string& heading, const std::vector<Reading>& readings) {
   if (readings.empty()) return "";
   std::string rows;
   for (const Reading& reading : readings)
@@ -33,20 +30,17 @@ std::string reading_table(const std::string& summary, const std::vector<Reading>
         fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td class=\"verdict\">{} {}</td></tr>\n",
                     kind(reading.verdict), app::with_formulas(reading.name),
                     app::with_formulas(reading.measured), sign(reading.verdict), to_string(reading.verdict));
-  return folded(summary, {"Reading", "Found", "Verdict"}, rows,
-                std::string(" class=\"readings\"") + (open ? " open" : ""));
+  return table_of({heading, "Found", "Verdict"}, rows);
 }
 
-/// Those of the text are open where the verdict depends on them.
-std::string readings_html(const Statement& one) {
+/// What decides, and the verdict under each interpretation, folded.
+std::string decided_html(const Statement& one) {
   const auto text = of_text(one.readings), beside = of_text(one.readings, false);
-  return reading_table(fmt::format("{} that the text allows", text.size() == 1
-                                                                  ? std::string("The reading")
-                                                                  : fmt::format("{} readings", text.size())),
-                       text, one.verdict == Verdict::depends) +
-         reading_table(
-             fmt::format("If instead: {} of {} agree", agreeing(one.readings, false), beside.size()), beside,
-             false);
+  return fmt::format(
+      "<details class=\"readings\"><summary>How it is decided</summary>\n<p>{}</p>\n{}{}</details>\n",
+      app::with_formulas(one.criterion), reading_table("Allowed by the text", text),
+      reading_table(fmt::format("If instead ({} of {} agree)", agreeing(one.readings, false), beside.size()),
+                    beside));
 }
 
 std::string where(const Statement& one) {
@@ -61,20 +55,24 @@ std::string card(const Record& record, std::size_t index) {
   return fmt::format(
       "<li class=\"card {0}\" id=\"{1}\">\n<p class=\"head\"><a href=\"#{1}\" aria-label=\"Link to statement {2}\">{2}"
       "</a> <span class=\"badge\">{3} {4}</span> <span class=\"quiet\">{5}</span></p>\n<blockquote>{6}</blockquote>\n"
-      "<dl>\n{7}{8}{9}</dl>\n{10}</li>\n",
+      "<dl>\n{7}{8}</dl>\n{9}</li>\n",
       kind(one.verdict), id, index + 1, sign(one.verdict), word(one), where(one),
-      app::with_formulas(one.quote), item("Decided by", one.criterion), item("Found", one.measured),
-      item("Because", one.because), readings_html(one));
+      app::with_formulas(one.quote), item("Found", one.measured), item("Because", one.because),
+      decided_html(one));
 }
 
 }  // namespace
 
+std::string table_of(const std::vector<std::string>& heads, const std::string& rows) {
+  return fmt::format(
+      "<div class=\"wide\"><table>\n<thead><tr><th>{}</th></tr></thead>\n<tbody>{}</tbody></table></div>\n",
+      fmt::join(heads, "</th><th>"), rows);
+}
+
 std::string folded(const std::string& summary, const std::vector<std::string>& heads, const std::string& rows,
                    const std::string& attributes) {
-  return fmt::format(
-      "<details{}><summary>{}</summary>\n<div class=\"wide\"><table>\n<thead><tr><th>{}</th></tr></thead>\n<tbody>{}"
-      "</tbody></table></div></details>\n",
-      attributes, summary, fmt::join(heads, "</th><th>"), rows);
+  return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", attributes, summary,
+                     table_of(heads, rows));
 }
 
 std::string row_of(const std::vector<std::string>& texts) {

@@ -58,7 +58,8 @@ std::string headlines(const std::vector<Section>& sections, bool agrees, std::si
   });
   std::string text;
   for (std::size_t i = 0; i < std::min(most, list.size()); ++i)
-    text += fmt::format("<li>{} {} {}</li>\n", badge(list[i].statement()),
+    text += fmt::format("<li>{} <b>{}:</b> {} {}</li>\n", badge(list[i].statement()),
+                        app::with_formulas(list[i].statement().claim),
                         app::with_formulas(list[i].statement().headline), link(list[i]));
   return text;
 }

@@ -39,7 +39,8 @@ struct Statement {
   std::vector<Reading> readings = {};  ///< empty where the paper leaves nothing open
   std::string panel = {};              ///< which part of the picture shows it, "(e)"; empty: the whole
   std::string apart = {};     ///< why it is judged but not counted, "on another blade"; empty: counted
-  std::string headline = {};  ///< what was found in one sentence, for the opening of the page
+  std::string claim = {};     ///< what the paper claims in some five words, for the opening of the page
+  std::string headline = {};  ///< what was found of it in one sentence
 };
 
 /// A sentence on results that no verdict is given on, and why.

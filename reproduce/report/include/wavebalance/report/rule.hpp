@@ -29,7 +29,7 @@ inline constexpr double parameter_factor = 10.0;
 
 /// Whether `first` is lower than `second`, compared entry by entry (one entry for each size or case, all by
 /// the same measure). Agrees if `first` is lower in more than half of the entries, differs if it is higher in
-/// at least half, ties otherwise. Entries that tie are neither. Throws std::invalid_argument unless both
+/// more than half, ties otherwise. Entries that tie are neither. Throws std::invalid_argument unless both
 /// have the same number of entries, at least one, and all are finite and none is negative.
 Verdict lower(const std::vector<double>& first, const std::vector<double>& second);
 
@@ -44,8 +44,11 @@ Verdict together(const std::vector<Verdict>& parts);
 Verdict invisible(double largest_difference, double range);
 
 /// "Similar", "comparable", "constant": agrees if the larger is at most similar_factor times the smaller in
-/// more than half of the entries, else differs. Throws as lower().
+/// more than half of the entries, ties if in exactly half, else differs. Throws as lower().
 Verdict similar(const std::vector<double>& first, const std::vector<double>& second);
+
+/// Of something that holds in `count` of `all` cases: agrees if in more than half, ties if in exactly half.
+Verdict mostly(std::size_t count, std::size_t all);
 
 /// A statement that is true or false without a threshold.
 constexpr Verdict plain(bool holds) { return holds ? Verdict::agrees : Verdict::differs; }

@@ -1,4 +1,4 @@
-#include "sums_slider.hpp"
+#include "sums_choices.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -56,16 +56,15 @@ void attach_sums(report::Artefact& artefact, const Case& study, const Readings& 
   for (std::size_t i = 0; i < all_sums().size(); ++i)
     for (const auto& one : readings.values(i, view.history)) curves.push_back(shown(one));
   const Units units(curves);
-  Json data{{"label", view.label},
-            {"from", view.from},
-            {"to", view.to},
-            {"unit", units.unit()},
-            {"reference", units(curves[0])}};
+  Json data{{"label", view.label},  {"from", view.from},         {"to", view.to},
+            {"unit", units.unit()}, {"choices", choice_names()}, {"reference", units(curves[0])}};
   data["level"] = std::isfinite(view.level) ? Json(view.level) : Json();
   for (const Pair& pair : readings.chosen())
     data["pairs"].push_back({{"label", pair.label}, {"steps", has_haar_trial(pair)}});
   for (std::size_t i = 0; i < all_sums().size(); ++i) {
-    Json one{{"name", all_sums()[i].name()}, {"ofText", all_sums()[i].of_text()}};
+    Json one{{"name", all_sums()[i].name()},
+             {"choices", all_sums()[i].choices()},
+             {"ofText", all_sums()[i].of_text()}};
     for (const auto& values : readings.values(i, view.history)) {
       one["curves"].push_back(units(shown(values)));
       one["errors"].push_back(values.allFinite() ? Json(app::relative_rms_error(values, reference)) : Json());

@@ -5,7 +5,7 @@
 
 namespace wavebalance::jl14 {
 
-/// One time history under all ways to form the sums, for the slider of the page.
+/// One time history under all ways to form the sums, for the choices of the page.
 struct SumsView {
   std::string label;                                  ///< of the ordinate
   Eigen::VectorXd (app::Response::*history)() const;  ///< such as &app::Response::force
