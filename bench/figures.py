@@ -268,7 +268,7 @@ def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
 
     return {
         "README.md": [
-            f"One frequency of a bar against a stop takes {both('point')} in two load cases (63 functions, 256 points); "
+            f"One frequency of a bar against a stop takes {both('point')} in two load cases with 63 functions; "
             f"a dense LU of all unknowns takes {both('dense')}.",
             f"In the first, harmonic balance has an error of {error_text(v['fourier_127_error'])} in {time_text(v['fourier_127_ms'])}, "
             f"the exact solution 1e-12 in {time_text(v['phases_1_12_ms'])}, and time stepping {error_text(v['stepping_error'])} in "
