@@ -143,11 +143,8 @@ void campbell_diagram(report::Artefact& artefact) {
                 {"energies over that of the linear mode that just touches at the same speed"});
   artefact.picture(drawn(table));
   artefact.caption(
-      "Nonlinear Campbell diagram, which LL10 names as a use of nonlinear modes: the first mode of the open "
-      "blade with rigid contact along its tip, five harmonics. Energies are over that of the linear mode "
-      "that just touches at the same speed. Dashed are engine orders, by their numbers; straight lines join the speeds "
-      "computed. Stability is not drawn: "
-      "where contacts have mass, no motion beside that of a rigid obstacle is determined without a law of impact.");
+      "Nonlinear Campbell diagram of the first mode of the open blade with rigid contact along its tip, five harmonics. "
+      "Energies are relative to the linear mode that just touches at the same speed. Dashed: engine orders.");
   artefact.note(fmt::format(
       "The gap is that of the turning blade. Its static displacement, up to {} mm at the largest speed, "
       "stiffens the blade but is not part of the motion; Coriolis forces are not included. All speeds take "

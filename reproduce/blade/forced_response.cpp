@@ -338,14 +338,10 @@ void forced_response(report::Artefact& artefact) {
   write_data(artefact, study);
   artefact.picture(drawn(study));
   artefact.caption(fmt::format(
-      "Response of the open blade to a harmonic force at the tip: the curve by arc length with 31 Fourier "
-      "functions and 64 points, and each pair in steps of the frequency with {} functions and {} points a "
-      "period: what JL14 names as its next step. Steps go up, each response from the one before, and down "
-      "again; dotted lines mark the gap and the frequency of the histories. (b) is the largest displacement of the other pairs "
-      "less that of Fourier. (c) and (d) show the force over the chord, mean of both faces, and (e) to (h) histories at {} Hz, "
-      "each kind on one scale, in the colours of (g). In (a) curve and steps are those of Fourier: black the curve with "
-      "its folds, dark blue the steps up, light blue those down. "
-      "The curve is dashed where it is unstable, by counts at two points of each of its three parts.",
+      "Response of the open blade to a harmonic force at the tip, the next step that JL14 names. Steps of the frequency "
+      "with {} functions and {} points go up and down again. (a) Fourier: black the curve by arc length, dashed where "
+      "unstable; dark blue steps up, light blue steps down. (b) Largest displacement of the other pairs less Fourier. "
+      "(c), (d) Force over the chord, mean of both faces. (e) to (h) Histories at {} Hz.",
       study.scene.time.functions, study.scene.time.quadrature_points, report::number(study.frequency(), 4)));
   note_peaks(artefact, study);
   notes(artefact, study);

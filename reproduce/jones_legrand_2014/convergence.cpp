@@ -201,14 +201,14 @@ std::string range_over(const std::vector<Convergence>& all,
                        const std::function<double(const Convergence&)>& figure, bool as_percent) {
   const Convergence *least = nullptr, *most = nullptr;
   for (const Convergence& results : all) {
-    if (!std::isfinite(figure(results))) continue;
+    if (!results.sums().of_text() || !std::isfinite(figure(results))) continue;
     if (!least || figure(results) < figure(*least)) least = &results;
     if (!most || figure(results) > figure(*most)) most = &results;
   }
   if (!least) return "not known";
   const auto text = [&](double value) { return as_percent ? report::percent(value) : report::number(value); };
-  return fmt::format("{} ({}) to {} ({})", text(figure(*least)), least->sums().name(), text(figure(*most)),
-                     most->sums().name());
+  const std::string from = text(figure(*least)), to = text(figure(*most));
+  return from == to ? from : from + " to " + to;
 }
 
 std::string range_over(const std::vector<Convergence>& all, Measure measure, int case_number,

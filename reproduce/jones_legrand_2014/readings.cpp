@@ -210,8 +210,6 @@ std::string spread(const std::vector<report::Reading>& readings) {
 report::Statement concluded(report::Statement statement, std::vector<report::Reading> readings) {
   statement.verdict = report::over(readings);
   statement.measured = readings.front().measured;
-  if (report::of_text(readings).size() > 1)
-    statement.measured += fmt::format(" ({})", readings.front().name);
   statement.readings = std::move(readings);
   return statement;
 }

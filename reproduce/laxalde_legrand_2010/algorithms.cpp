@@ -285,9 +285,8 @@ void algorithms(report::Artefact& artefact) {
                      "one solution each, from the motion of 0.95 times the energy");
   artefact.printed(table);
   artefact.caption(fmt::format(
-      "The rod's mode by the augmented Lagrangian with eq. (28) and {} samples, from grazing to energy {} in {} "
-      "steps, each from the steps before. With r free (simultaneous, Algorithm 1) or frozen at its prediction "
-      "(sequential, Algorithm 2); by the equations as printed and by the corrected ones.",
+      "The rod's mode by the augmented Lagrangian with eq. (28) and {} samples, from grazing to energy {} in {} steps: "
+      "simultaneous (Algorithm 1) and sequential (Algorithm 2), as printed and corrected.",
       study.scene().analysis.samples, number(branch_energy), energy_steps));
   int most = 0;
   for (const Branch& one : branches)

@@ -100,10 +100,8 @@ void fig01(report::Artefact& artefact) {
   annotate_body(figure.panels.front());
   artefact.picture(figure);
   artefact.caption(
-      "The notations of section 2.1, drawn from their definitions on a body of our own: a flexible body "
-      "$\\Omega$ whose boundary consists of $\\Gamma_D$, which is held, $\\Gamma_C$, which may touch, and $\\Gamma_F$, which "
-      "is free. The gap "
-      "$g_0$ is taken along the outward normal $n$ of $\\Gamma_C$. It is closed where $u \\cdot n$ reaches $g_0$, eq. (1).");
+      "The notations of section 2.1: a flexible body $\\Omega$ with the held boundary $\\Gamma_D$, the boundary $\\Gamma_C$ "
+      "that may touch, and the free one $\\Gamma_F$. The gap $g_0$ is along the outward normal $n$.");
 }
 
 }  // namespace wavebalance::ll10

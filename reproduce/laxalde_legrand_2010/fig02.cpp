@@ -52,8 +52,7 @@ void fig02(report::Artefact& artefact) {
   const auto& rod = artefact.scene("rod.toml").structure;
   artefact.caption(fmt::format(
       "The rod clamped at x = 0 and the rigid obstacle at the gap before its tip: E = {} Pa, density {} "
-      "kg/m³, area {} m², length {} m. The displacement towards the obstacle is positive; compression there "
-      "is -EA u_x, where the paper has EA u_x as a stress.",
+      "kg/m³, area {} m², length {} m. The displacement towards the obstacle is positive.",
       report::number(rod.youngs_modulus), report::number(rod.density, 4), report::number(rod.area),
       report::number(rod.length)));
 }

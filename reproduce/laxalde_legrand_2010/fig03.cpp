@@ -200,12 +200,10 @@ void fig03(report::Artefact& artefact) {
                  "exact: d'Alembert; below contact the linear mode"});
   artefact.picture(drawn(curves, table));
   artefact.caption(fmt::format(
-      "First nonlinear mode of the rod: exact, with the mass matrix of eq. (28) and corrected equations, with a "
-      "half-lumped mass matrix, and by the printed equations (augmented Lagrangian, eq. (28), N = {}). The paper "
-      "states neither its N nor its m. (b) shows the beginning of contact with a symbol at each point, (a) and (c) at each fourth; (c) is what the paper takes for ω. The dotted line is the linear mode that grazes. "
-      "Stability is not drawn: where contacts have mass, no motion beside that of a rigid obstacle is "
-      "determined without a law of impact. The table lists the internal resonances that cut the curves: n:k means that "
-      "harmonic n of the motion resonates with linear mode k.",
+      "First nonlinear mode of the rod: exact, with the mass matrix of eq. (28), with a half-lumped one, and by the "
+      "printed equations (N = {}). (b) shows the beginning of contact; (c) is what the paper takes for ω. The dotted "
+      "line is the linear mode that grazes. Stability is not defined without an impact law. The table lists internal "
+      "resonances: n:k means harmonic n and linear mode k.",
       published_scene.analysis.harmonics));
   rod_statements(artefact, curves);
   notes(artefact, curves);

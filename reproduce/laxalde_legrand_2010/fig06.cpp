@@ -107,9 +107,8 @@ void fig06(report::Artefact& artefact) {
                 {"node numbers of the mesh from 1; eta = -1 and 1 are the two faces of the blade"});
   const auto& mesh = blade.model.mesh;
   artefact.caption(fmt::format(
-      "An open blade of titanium in place of the paper's proprietary one: {} hexahedra of 20 nodes, {} "
-      "unknowns, clamped at the root. Contact is in the radial direction z (arrows in (b)) at the corner nodes of the "
-      "tip. In (a) nodes behind the blade are hidden and the arrows of the axes are {} mm long.",
+      "An open titanium blade instead of the paper's proprietary one: {} hexahedra of 20 nodes, {} unknowns, clamped at "
+      "the root. Contact is in the radial direction z (arrows in (b)) at the corner nodes of the tip. Arrows of the axes: {} mm.",
       mesh.elements.cols(), study.model().unknowns, report::number(arrow_length)));
   const double error = reduction_error(study);
   const auto coordinates = study.model().size();

@@ -190,11 +190,9 @@ void fig07(report::Artefact& artefact) {
   add_torsion(figure, measures);
   artefact.picture(figure);
   artefact.caption(fmt::format(
-      "First nonlinear mode of the open blade: frequency by corrected equations, the root of the Rayleigh quotient of "
-      "the same motions, and the equations as published with {} harmonics; the paper does not state its number. The "
-      "dotted line is the energy at which the linear mode reaches the casing. Torsion modes are the linear modes whose "
-      "tip rotates more than it translates. Stability is not drawn: where contacts have mass, no motion beside that of "
-      "a rigid obstacle is determined without a law of impact.",
+      "First nonlinear mode of the open blade: frequency by corrected equations, the root of the Rayleigh quotient, and "
+      "the equations as published with {} harmonics. The dotted line is the energy at which the linear mode reaches the "
+      "casing. Tips of torsion modes rotate more than they translate.",
       scene.analysis.harmonics));
   claim_hardening(artefact, second);
   claim_contact(artefact, study, curve);

@@ -179,10 +179,9 @@ void fig08(report::Artefact& artefact) {
                 {"contacts as in fig06_blade.csv"});
   for (const Shape& shape : shapes) attach_series(artefact, blade, shape);
   artefact.caption(fmt::format(
-      "Shapes at t = 0, the middle of the leading edge's contact, and T/2, that of the trailing edge's. Displacements "
-      "to scale for a gap of {} mm, arrows of the axes {} mm, dashed the blade at rest; colours are the displacement "
-      "over the gap, on one scale. Dots are the nodes that bear a force at that instant. The .pvd files hold the "
-      "motions for ParaView.",
+      "Shapes at t = 0 (contact of the leading edge) and T/2 (trailing edge), to scale for a gap of {} mm; arrows of the axes "
+      "{} mm. Colours are the displacement over the gap. Dots are the nodes that bear a force. The .pvd files are for "
+      "ParaView.",
       report::number(1e3 * drawn_gap), report::number(axes_length)));
   claim_torsion(artefact, study, shapes);
   claim_sensitivity(artefact, shapes);

@@ -41,6 +41,22 @@ def test_the_terminal_has_one_line_per_finding_with_four_digits_and_the_path_of_
     assert "max_displacement_m" in values and "written to out: summary.json, report.html" in values
 
 
+@pytest.mark.parametrize("scene", ["impacts/between_stops.toml", "laws/duffing.toml", "friction/slider.toml", "cases_of_others/slider_mode.toml"])
+def test_curves_and_modes_print_at_most_eight_lines_as_responses_do(command, scenes, scene):
+    record = command("run", scenes / scene, "--output", "out")
+    lines = record.text.splitlines()
+    assert 3 <= len(lines) <= 8
+    assert "solved in " in lines[0] and lines[-1].endswith("all values: summary.json, --verbose")
+    page = (record.folder / "report.html").read_text()
+    more = re.search(r"Report with (\d+) more sentences: ", lines[-1])
+    assert bool(more) == (scene == "impacts/between_stops.toml" or scene == "laws/duffing.toml")
+    if more:  # folds before branches, which the page has too
+        assert any(line.startswith("Folds, where the curve turns back: ") for line in lines)
+        assert len(lines) == 8
+    if scene == "impacts/between_stops.toml":
+        assert not any(line.startswith("Along branch") for line in lines) and "Along branch 1 motions are unstable at" in page
+
+
 def test_a_condition_past_1e12_is_warned_of_also_when_quiet(run, scenes):
     near_resonance = "forcing.frequency=1273.14709322245"  # a part in 1e12 above the bar's first natural frequency
     record = run(scenes / "extremes" / "bar_linear.toml", "--quiet",

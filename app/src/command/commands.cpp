@@ -48,19 +48,25 @@ std::string summary_text(const Summary& summary) {
   return text;
 }
 
-/// The opening of the report, a line per sentence, and where to read on.
+/// The first sentences of the report, a line each, and where to read on: eight lines at most.
 std::string outcome_text(const RunArguments& arguments, const Scene& scene, const Record& record) {
+  constexpr std::size_t most = 7, most_beside_stability = 4;
   const Summary& summary = record.summary;
+  const auto outcome = record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
+                                                : record.sentences,
+             stability = stability_sentences(summary, record.axis);
+  const std::size_t first = std::min(outcome.size(), std::max(most_beside_stability,
+                                                              most - std::min(most, stability.size()))),
+                    second = std::min(stability.size(), most - first),
+                    left_out = outcome.size() + stability.size() - first - second;
   std::string text;
-  for (const auto& sentences :
-       {record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
-                                 : record.sentences,
-        stability_sentences(summary, record.axis)})
-    for (const std::string& one : sentences) text += one + "\n";
+  for (const std::string& one : std::span(outcome).first(first)) text += one + "\n";
+  for (const std::string& one : std::span(stability).first(second)) text += one + "\n";
   const auto path = [&](const char* name) { return (arguments.output / name).string(); };
-  return text + (arguments.report
-                     ? "Report: " + path("report.html") + "; all values: summary.json, --verbose\n"
-                     : "All values: " + path("summary.json") + "\n");
+  if (!arguments.report) return text + "All values: " + path("summary.json") + "\n";
+  return text + fmt::format("Report{}: {}; all values: summary.json, --verbose\n",
+                            left_out > 0 ? fmt::format(" with {} more sentences", left_out) : "",
+                            path("report.html"));
 }
 
 void say_not_converged(const Scene& scene, const std::string& status) {

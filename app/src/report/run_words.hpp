@@ -14,7 +14,7 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap, c
 /// Where each output vibrates most along a curve, or by how much in a motion, of a dozen of them.
 std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis);
 
-/// What the record says of stability, and where it changes.
+/// Stability, where it changes, and the unstable parts of branches, the most important first.
 std::vector<std::string> stability_sentences(const Summary& summary, const SweepAxis& axis = {});
 
 }  // namespace wavebalance::app

@@ -51,21 +51,22 @@ std::string status_sentence(const std::string& status) {
   return found == known.end() ? "Stability is not known (" + spaced_words(status) + ")." : found->second;
 }
 
-/// "Folds", or the name itself for a type that has no other.
-std::string type_in_words(const std::string& type) {
-  static const std::map<std::string, std::string> known{
+/// "Folds", or the name itself for a type that has no other, by their importance.
+std::pair<std::ptrdiff_t, std::string> type_in_words(const std::string& type) {
+  static const std::vector<std::pair<std::string, std::string>> known{
       {"fold", "Folds, where the curve turns back"},
+      {"branch", "Branch points, where another branch begins"},
       {"period_doubling", "Period doublings, where motions of two periods begin"},
       {"neimark_sacker", "Neimark-Sacker points, where quasi-periodic motions begin"},
-      {"grazing", "Grazing points, where a contact interval is created, destroyed, split or merged"},
-      {"branch", "Branch points, where another branch begins"},
       {"slip", "Slip onset, where the first contact starts to slip or the last one stops"},
       {"stick", "Stick onset, where a contact that always slips starts to stick, or stops sticking"},
       {"krein_collision",
        "Krein collisions, where two pairs of multipliers meet on the unit circle and leave it: "
-       "flutter begins"}};
-  const auto found = known.find(type);
-  return found == known.end() ? spaced_words(type) : found->second;
+       "flutter begins"},
+      {"grazing", "Grazing points, where a contact interval is created, destroyed, split or merged"}};
+  const auto found =
+      std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.first == type; });
+  return {found - known.begin(), found == known.end() ? spaced_words(type) : found->second};
 }
 
 /// Those of the structure where its whole curve was followed.
@@ -75,16 +76,16 @@ void append_special_points(std::vector<std::string>& sentences, const Summary& s
   const auto* points = value_in<Table>(
       summary, (whole ? quantities::structure_special_points : quantities::special_points).name);
   if (points == nullptr || points->empty()) return;
-  std::map<std::string, std::vector<std::string>> places;
+  std::map<std::pair<std::ptrdiff_t, std::string>, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)
     if (const auto* place = std::get_if<double>(&points->at(i, axis.column())))
       places[type_in_words(cell_text(points->at(i, "type")))].push_back(
           fmt::format("{:.7g} {}", *place, axis.unit));
   constexpr std::size_t most = 8;
   for (const auto& [type, where] : places)
-    sentences.push_back(
-        fmt::format("{}: {}{}.", type, fmt::join(std::span(where).first(std::min(most, where.size())), ", "),
-                    where.size() > most ? fmt::format(" and {} more", where.size() - most) : ""));
+    sentences.push_back(fmt::format(
+        "{}: {}{}.", type.second, fmt::join(std::span(where).first(std::min(most, where.size())), ", "),
+        where.size() > most ? fmt::format(" and {} more", where.size() - most) : ""));
 }
 
 /// Why a law of the velocity, or friction, leaves stability unknown: with the number of states where it is
@@ -126,16 +127,14 @@ std::string curve_of_part(const Table& parts, std::size_t row) {
 }
 
 /// The unstable parts of the curve, of each branch and of each isola.
-void append_unstable_parts(std::vector<std::string>& sentences, const Summary& summary,
-                           const SweepAxis& axis) {
-  if (find_entry(summary, quantities::points_stability_not_known.name) == nullptr) return;
+std::vector<std::string> unstable_parts(const Summary& summary, const SweepAxis& axis) {
+  if (find_entry(summary, quantities::points_stability_not_known.name) == nullptr) return {};
   const auto* parts = value_in<Table>(summary, quantities::unstable_parts.name);
   if (parts == nullptr) {
     const double left = number_in(summary, quantities::points_stability_not_known);
-    if (left == 0.0) sentences.emplace_back("All points of the curve are stable.");
-    if (left > 0.0 && left < number_in(summary, quantities::points))
-      sentences.emplace_back("No point of known stability is unstable.");
-    return;
+    if (left == 0.0) return {"All points of the curve are stable."};
+    if (left < number_in(summary, quantities::points)) return {"No point of known stability is unstable."};
+    return {};
   }
   std::vector<std::pair<std::string, std::vector<std::string>>> places;  // curve by curve, as the rows
   const std::vector<double> begins = parts->numbers("begin_" + axis.suffix),
@@ -148,8 +147,10 @@ void append_unstable_parts(std::vector<std::string>& sentences, const Summary& s
                                        ? fmt::format("{:.7g} {}", ends[i], axis.unit)
                                        : fmt::format("{:.7g} to {:.7g} {}", begins[i], ends[i], axis.unit));
   }
+  std::vector<std::string> sentences;
   for (const auto& [curve, where] : places)
     sentences.push_back(fmt::format("Along {} motions are unstable at {}.", curve, fmt::join(where, ", ")));
+  return sentences;
 }
 
 }  // namespace
@@ -176,8 +177,10 @@ std::vector<std::string> stability_sentences(const Summary& summary, const Sweep
     sentences.front() +=
         modulus < least ? " The leading Floquet multiplier has a modulus < 1e-12."
                         : fmt::format(" The leading Floquet multiplier has the modulus {:.4g}.", modulus);
-  append_unstable_parts(sentences, summary, axis);
+  const std::vector<std::string> parts = unstable_parts(summary, axis);
+  if (!parts.empty()) sentences.push_back(parts.front());
   append_special_points(sentences, summary, axis);
+  if (!parts.empty()) sentences.insert(sentences.end(), parts.begin() + 1, parts.end());
   return sentences;
 }
 

@@ -227,9 +227,8 @@ void fig06(report::Artefact& artefact) {
                 {fmt::format("64 functions; reference: {}", reference_label)});
   artefact.picture(case1_figure(study, u));
   artefact.caption(
-      "64 functions at 150 Hz. Right: the time in which the reference is in contact, on one scale for (c) and "
-      "(e), whose cells jump, and on another for the other four; the grey line is the gap. The force "
-      "$F \\cos 2\\pi f t$ puts the contact about $t = 0$. The letters are those that the text gives.");
+      "64 functions at 150 Hz. Right: the contact, on one scale for (c) and (e), whose cells jump, and on another for the "
+      "other four; the grey line is the gap.");
   const Readings readings(artefact, study);
   state_hbm(artefact, study, readings);
   state_gibbs(artefact, study, readings);

@@ -261,10 +261,9 @@ void fig10(report::Artefact& artefact) {
   artefact.picture(drawn_figure(drawn));
   const Farthest farthest = farthest_of(drawn, all_names());
   artefact.caption(fmt::format(
-      "Top: as the paper draws it; bottom: distance from 1; each row has one ordinate. Curves stand side by "
-      "side about each number of functions, so that none hides another. In (a) all points but that of {} "
-      "with {} functions are within {} of 1. Kinetic, elastic and contact energy of all 25 degrees of freedom; "
-      "the contact energy is the potential of the exponential spring.",
+      "Top: as the paper draws it; bottom: distance from 1. Curves are shifted so that none hides another. In (a) all "
+      "points but {} with {} functions are within {} of 1. Energies of all 25 degrees of freedom and of the exponential "
+      "spring.",
       farthest.label, farthest.functions, percent(farthest.of_others)));
   state_energy_convergence(artefact, all);
   state_smooth_pairs(artefact, all);

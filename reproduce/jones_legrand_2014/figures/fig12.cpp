@@ -244,10 +244,9 @@ std::string caption(const Curves& curves) {
     return one.max_abs_displacement > (1.0 + 1e-3) * one.max_displacement;
   });
   return fmt::format(
-      "Symbols: 64 functions, as computed, in (a) every sixth point. Line in (a) and (b): Fourier:Fourier with 63 "
-      "functions (31 full harmonics) and steps of 1 Hz; in (c) and (d): with 64; dashed where its motions are "
-      "unstable. The paper does not say what it draws; here it is max u, whose excess over the gap is the penetration. The tip goes further to the other "
-      "side at {} of {} points: max |u| is at most {} mm, at {} Hz, max u {} mm.",
+      "Symbols: 64 functions, in (a) every sixth point. Line in (a) and (b): Fourier:Fourier with 63 functions; in (c) and "
+      "(d) with 64; dashed where unstable. Drawn is max u. The tip moves further to the other side at {} of {} points: "
+      "max |u| is at most {} mm, at {} Hz, max u {} mm.",
       count, points.size(), number(1e3 * largest->max_abs_displacement, 4), number(largest->frequency, 5),
       number(1e3 * peak(curves.full).max_displacement, 4));
 }

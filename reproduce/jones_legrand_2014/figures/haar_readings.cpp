@@ -211,10 +211,8 @@ void haar_readings(report::Artefact& artefact) {
   artefact.more_data("cells", cells, "displacements of the 64 cells in case 1 in m; time in periods");
   artefact.printed(printed_table(rows));
   artefact.caption(
-      "Relative errors in per cent of Haar:Fourier / Haar:B-spline with 64 functions. Case 1: displacement (rms); its "
-      "values in the middle of the cells (rms); the largest difference on the plateau, on the cells wholly in "
-      "contact, over the range of the motion; velocity and contact force (rms). Case 2: displacement (rms). A dash: "
-      "no solution found.");
+      "Relative errors in per cent of Haar:Fourier / Haar:B-spline with 64 functions: displacement (rms), the same in the "
+      "middle of the cells, the largest difference on the plateau over the range, velocity and contact force (rms).");
   explain(artefact, rows);
   several.note(artefact);
   refer_to_readings(artefact);

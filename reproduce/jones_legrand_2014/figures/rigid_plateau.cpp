@@ -269,9 +269,8 @@ void rigid_plateau(report::Artefact& artefact) {
   artefact.data(table, "without unit");
   artefact.picture(figure);
   artefact.caption(
-      "The paper's next step, rigid (Signorini) contact, with the six pairs (64 functions, 512 points, the tip's "
-      "mass moved to its neighbour) beside its exact motion and that with the exponential law of the paper, both "
-      "by contact phases, over the time that the latter is in contact. Each panel has a scale of its own.");
+      "The paper's next step, rigid (Signorini) contact, with the six pairs (64 functions, 512 points, the tip's mass "
+      "moved to its neighbour), and the exact motions with it and with the exponential law.");
   state_haar_rigid(artefact, studies);
   leave_flat(artefact, studies);
 }

@@ -289,11 +289,9 @@ void speed(report::Artefact& artefact) {
   artefact.picture(drawn(all));
   artefact.printed(choices_table(all));
   artefact.caption(fmt::format(
-      "The least time in which a pair of bases reaches an error, by the error of the displacement (left) and of the contact "
-      "force (right). Below the stair of Fourier:Fourier a pair is cheaper. A "
-      "stair ends where the pair does not reach the error within {} s for each scene, {} s against a rigid obstacle. Times are those of "
-      "this run, without the making of plans, as within a sweep; with it they are in the data. The table names the "
-      "cheapest way and its time over that of Fourier:Fourier where that reaches the error.",
+      "The least time in which a pair of bases reaches an error of the displacement (left) and of the contact force (right). "
+      "Below Fourier:Fourier a pair is cheaper. A curve ends where the pair does not reach the error within {} s per "
+      "scene, {} s against a rigid obstacle. Making plans is not included.",
       elastic_budget, rigid_budget));
   take_away(artefact, all);
 }

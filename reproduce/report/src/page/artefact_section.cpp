@@ -73,13 +73,22 @@ std::vector<std::vector<std::string>> with_blanks(std::vector<std::vector<std::s
   return table;
 }
 
+/// The table of a record, folded if it is long, except on a page of its own.
+std::string table(const Record& record, const Place& place) {
+  constexpr std::size_t long_table = 9;
+  const std::string text = app::table_html(with_blanks(record.table));
+  if (record.table.size() < long_table || place.section.paper.own_page) return text;
+  return fmt::format("<details><summary>Table of {} rows</summary>\n{}</details>\n", record.table.size() - 1,
+                     text);
+}
+
 }  // namespace
 
 std::string artefact_html(const Record& record, const Place& place) {
   const std::string image = picture(record, place), said = statements_html(record),
                     sums = sums_html(record, place), moving = moving_html(record, place);
   std::string shown = image.empty() ? "<p>" + app::with_formulas(record.caption) + "</p>\n" : image;
-  shown += app::table_html(with_blanks(record.table)) + ways_on(sums, moving, record.identity.stem);
+  shown += table(record, place) + ways_on(sums, moving, record.identity.stem);
   const std::string more =
       checks_html(record) + notes(record) + theirs(record, place.section.paper) + origin_html(record, place);
   return fmt::format(

@@ -33,12 +33,14 @@ std::string reading_table(const std::string& heading, const std::vector<Reading>
   return table_of({heading, "Found", "Verdict"}, rows);
 }
 
-/// What decides, and the verdict under each interpretation, folded.
+/// What decides, what was found unless the card shows it, and the verdict under each interpretation, folded.
 std::string decided_html(const Statement& one) {
   const auto text = of_text(one.readings), beside = of_text(one.readings, false);
   return fmt::format(
-      "<details class=\"readings\"><summary>How it is decided</summary>\n<p>{}</p>\n{}{}</details>\n",
-      app::with_formulas(one.criterion), reading_table("Allowed by the text", text),
+      "<details class=\"readings\"><summary>How it is decided</summary>\n<p>{}</p>\n{}{}{}</details>\n",
+      app::with_formulas(one.criterion),
+      one.because.empty() ? "" : "<p>Found: " + app::with_formulas(one.measured) + "</p>\n",
+      reading_table("Allowed by the text", text),
       reading_table(fmt::format("If instead ({} of {} agree)", agreeing(one.readings, false), beside.size()),
                     beside));
 }
@@ -55,10 +57,10 @@ std::string card(const Record& record, std::size_t index) {
   return fmt::format(
       "<li class=\"card {0}\" id=\"{1}\">\n<p class=\"head\"><a href=\"#{1}\" aria-label=\"Link to statement {2}\">{2}"
       "</a> <span class=\"badge\">{3} {4}</span> <span class=\"quiet\">{5}</span></p>\n<blockquote>{6}</blockquote>\n"
-      "<dl>\n{7}{8}</dl>\n{9}</li>\n",
+      "<dl>\n{7}</dl>\n{8}</li>\n",
       kind(one.verdict), id, index + 1, sign(one.verdict), word(one), where(one),
-      app::with_formulas(one.quote), item("Found", one.measured), item("Because", one.because),
-      decided_html(one));
+      app::with_formulas(one.quote),
+      one.because.empty() ? item("Found", one.measured) : item("Because", one.because), decided_html(one));
 }
 
 }  // namespace
