@@ -217,7 +217,7 @@ void draw_phases(const Files& files) {
       force.rectangles.push_back({phase.begin, 0.0, phase.end, 1.6});
     const Eigen::VectorXd computed = 1e-6 * motion.force.row(0);
     const Eigen::VectorXd phases = 1e-6 * balance.phases.motion.force(times).row(0);
-    force.add({name, time, computed}).add({"contact phases", time, phases});
+    force.add({name, time, computed}).add({"exact", time, phases});
     force.series.back().colour = app::Colour::black;
   }
   figure.panels = {force, distance};
@@ -256,7 +256,7 @@ void draw_phase_errors(const Files& files) {
         .label = "Relative error of the displacement", .lower = 1e-15, .upper = 1.0, .logarithmic = true};
     panel.y.tick_format = "10^{%L}";
     panel.add({"harmonic balance", functions, errors, app::SeriesStyle::line_points})
-        .add({"contact phases", unknowns, phase_errors, app::SeriesStyle::line_points});
+        .add({"exact", unknowns, phase_errors, app::SeriesStyle::line_points});
     panel.series.back().colour = app::Colour::black;
   }
   app::write_pictures("phase_errors", figure);

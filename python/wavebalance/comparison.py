@@ -68,7 +68,7 @@ def compare(
     Parameters
     ----------
     scene, overrides, unset:
-        As for :func:`wavebalance.run`. A structure of one's own is a scene by :meth:`wavebalance.Structure.scene`.
+        As for :func:`wavebalance.run`. A custom structure is a scene by :meth:`wavebalance.Structure.scene`.
     pairs:
         Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
     error:

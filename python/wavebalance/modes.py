@@ -1,4 +1,4 @@
-"""Nonlinear modes of one's own structures."""
+"""Nonlinear modes of custom structures."""
 
 from __future__ import annotations
 

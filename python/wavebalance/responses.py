@@ -1,4 +1,4 @@
-"""Periodic responses of one's own structures, and their stability."""
+"""Periodic responses of custom structures, and their stability."""
 
 from __future__ import annotations
 
@@ -306,7 +306,7 @@ def forced_response(
     form:
         "automatic", "displacement" or "force": the unknown that is solved for.
     tolerance, max_iterations:
-        Of Newton's method, relative to the contact-free response.
+        Of Newton's method, relative to the linear response.
 
     Returns
     -------

@@ -114,7 +114,7 @@ class Sweep:
         return Response(self._core._response(index), self._problem, self._laws)
 
     def special(self, kind: str) -> list[dict[str, Any]]:
-        """The special points of one type."""
+        """The bifurcation or grazing points of one type."""
         return [point for point in self.special_points if point["type"] == kind]
 
     def harmonics(self, dofs: Sequence[int] | None = None, count: int = 3, points: int = 256) -> npt.NDArray[np.complex128]:

@@ -107,7 +107,7 @@ app::Response by_phases(const app::Scene& scene, int structure_points) {
   app::ResponseOptions options;
   options.structure_points = structure_points;
   app::Response motion = app::phases_response(scene, options);
-  if (!motion.converged) throw report::NotConverged("contact phases: " + motion.status);
+  if (!motion.converged) throw report::NotConverged("exact periodic solution: " + motion.status);
   return motion;
 }
 

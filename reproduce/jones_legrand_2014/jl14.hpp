@@ -40,7 +40,7 @@ const Pair& pair(const std::string& name);
 bool has_haar_trial(const Pair& pair);
 
 /// One of the two cases of [JL14, Table 1]: its scene, its reference and its solutions. The reference is
-/// the motion of the bar to rounding, by contact phases.
+/// the exact periodic solution of the bar, to rounding.
 class Case {
  public:
   /// number: 1 or 2. Reads caseN.toml and, with its columns of one period, reference_caseN.csv.
@@ -91,7 +91,7 @@ std::vector<double> measured(const Values& values, const Eigen::VectorXd& refere
 /// A periodic curve of uniform samples from t/T = `from` to `from` + 1, both ends included.
 Series periodic_series(const std::string& label, const Eigen::VectorXd& values, double from = 0.0);
 /// How the reference is named in pictures.
-inline constexpr const char* reference_label = "contact phases";
+inline constexpr const char* reference_label = "exact";
 /// Its look: black and dashed.
 Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 

@@ -8,10 +8,10 @@ int main(int argc, char** argv) {
   return report::run_program(
       argc, argv,
       {{"reference_case1",
-        identity("Reference 1", "Contact phases and time stepping, case 1", "reference_case1"),
+        identity("Reference 1", "Exact solution and time stepping, case 1", "reference_case1"),
         [](report::Artefact& artefact) { reference(artefact, 1); }},
        {"reference_case2",
-        identity("Reference 2", "Contact phases and time stepping, case 2", "reference_case2"),
+        identity("Reference 2", "Exact solution and time stepping, case 2", "reference_case2"),
         [](report::Artefact& artefact) { reference(artefact, 2); }},
        {"fig01", identity("Fig. 1", "Bar with unilateral contact at its tip", "fig01_system_sketch"), fig01},
        {"fig02", identity("Fig. 2", "First six functions of the Fourier basis", "fig02_fourier_functions"),

@@ -121,7 +121,7 @@ void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
 }
 
 /// Beside a response: Newton steps of the exact motion, of unknowns that only the search shows. What is not
-/// found by phases is sought by the flow with as many operations.
+/// found by collocation is sought by the flow with as many operations.
 void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
   if (is_sweep(scene.analysis) || !scene.analysis.phases) return;
   constexpr double rate = 5e9;  // operations per second

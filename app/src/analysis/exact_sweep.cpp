@@ -96,7 +96,8 @@ PointImpacts impacts_of(const PhaseMotion& motion, int periods) {
   return result;
 }
 
-/// A special point that was solved for with the parameter as unknown, with the measures of the motion there.
+/// A bifurcation or grazing point that was solved for with the parameter as unknown, with the measures of the
+/// motion there.
 solvers::SpecialPoint special_point_of(const ExactEvent& event, const solvers::SweepPoint& at) {
   solvers::SpecialPoint point;
   point.type = event.type;

@@ -66,7 +66,7 @@ solvers::Motion between(const solvers::PhaseMotion& a, const solvers::PhaseMotio
 }
 
 /// Whether a motion at a frequency is one of an exact curve: of the motions of the curve there, which follow
-/// from its neighbours by phases, one agrees with it.
+/// from its neighbours by collocation, one agrees with it.
 bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequency,
            const solvers::PhaseMotion& motion) {
   constexpr double same = 1e-3;  // of what vibrates
@@ -93,7 +93,7 @@ bool is_on_any(solvers::ContactProblem& problem, const Sweep& sweep, double freq
                      [&](const Sweep& isola) { return is_on(problem, isola, frequency, motion); });
 }
 
-/// A curve of balances, followed by phases. Nothing where no motion of the structure was found near those at
+/// A curve of balances, followed exactly. Nothing where no motion of the structure was found near those at
 /// the frequency where it was found, or one of a curve that is known.
 void add_exact_isola(const Scene& scene, solvers::ContactProblem& problem,
                      const solvers::IsolatedCurve& found, const Observer& observer, Sweep& sweep) {

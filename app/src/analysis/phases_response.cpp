@@ -35,7 +35,7 @@ struct PhasesFound {
   int start_functions = 0;
   int load_periods = 1;
   std::optional<solvers::PhaseMotion> motion;
-  std::optional<SettledBeside> settled;  ///< what the structure settles to, where that was the start
+  std::optional<SettledBeside> settled;  ///< the attractor, where that was the start
 
   bool may_go_on() const { return !motion || motion->status == solvers::PhasesStatus::not_found; }
   /// Whether a slider is where the start has it.
@@ -80,7 +80,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
   return found;
 }
 
-/// From the motion that the structure settles to from event to event, which may repeat after several periods
+/// From the attractor, from event to event, which may repeat after several periods
 /// of the load.
 PhasesFound by_events(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer) {
   PhasesFound found;
@@ -101,7 +101,7 @@ PhasesFound by_events(const Scene& scene, solvers::ContactProblem& problem, cons
   return found;
 }
 
-/// From the motion that the structure settles to, where there is one: its sliders are where the first periods
+/// From the attractor, where there is one: its sliders are where the first periods
 /// from rest have put them.
 void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Scene& scene,
                   const Observer& observer) {

@@ -40,8 +40,8 @@ void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   result.phases_seconds = seconds_since(start);
 }
 
-/// Sets the contacts' motion, the leading contact, and the motion of the whole structure if the options
-/// require it.
+/// Sets the contacts' motion, the contact with the largest force, and the motion of the whole structure if
+/// the options require it.
 void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result) {
   result.contacts = problem.motion(found, scene.analysis.output_points);

@@ -12,7 +12,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// The special points of which phases are sought, in the order of the curve.
+/// The bifurcation points near which exact solutions are sought, in the order of the curve.
 std::vector<std::size_t> special_points_taken(const std::vector<solvers::SpecialPoint>& points, bool all) {
   std::vector<std::size_t> taken(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) taken[i] = i;
@@ -49,7 +49,7 @@ void add_points_beside(Tries& tries, const solvers::FrequencySweep& curve, std::
   }
 }
 
-/// Where phases are sought: at the special points taken, at the peak if the curve has one, and with
+/// Where exact solutions are sought: at the points taken, at the peak if the curve has one, and with
 /// analysis.phases at all points.
 std::vector<Tries> tries_along(const PhasedCurve& of, const std::vector<std::size_t>& special_points) {
   std::vector<Tries> all;
@@ -106,8 +106,8 @@ SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& can
   return result;
 }
 
-/// Of motions, with which the frequencies of special points have eight digits. Three more digits of a pipe
-/// with 23 degrees of freedom take three times as long.
+/// Of motions, with which the frequencies of bifurcation points have eight digits. Three more digits of a
+/// pipe with 23 degrees of freedom take three times as long.
 constexpr double enough_for_special_points = 1e-6;
 
 /// Those of the structure along the main curve.

@@ -16,8 +16,8 @@ namespace wavebalance::app {
 namespace {
 
 constexpr int error_points = 1024;        // at which motions are compared
-constexpr double reference_share = 0.3;   // of the budget; a third of it for contact phases
-constexpr double phases_share = 0.1;      // of the budget: contact phases beside the pairs
+constexpr double reference_share = 0.3;   // of the budget; a third of it for the exact solution
+constexpr double phases_share = 0.1;      // of the budget: the exact solution beside the pairs
 constexpr double longest_share = 0.1;     // of the budget: a single solve
 constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
 constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended

@@ -31,7 +31,7 @@ std::optional<Guide> refined_guide(const Scene& scene, const StructureModel& mod
 std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model, int functions,
                                  const solvers::Observer& observer, const StartMotion& start = {});
 
-/// The motion of the structure near a balance by its contact phases, as accurate as they become.
+/// The exact periodic solution near a balance, as accurate as it becomes.
 struct PhaseReference {
   std::string missing_because;  ///< empty where the motion is known
   bool refused = false;         ///< whether it is missing wherever the search starts
@@ -46,10 +46,10 @@ struct PhaseReference {
 /// Phases to tolerances that fall to 1e-12, or as far as the observer lets them.
 PhaseReference phase_reference(Guide& guide, const solvers::Observer& observer);
 
-/// Why contact phases are not sought in a structure; empty where they are.
+/// Why the exact solution is not sought in a structure; empty where it is.
 std::string phases_refusal(const StructureModel& model);
 
-/// Contact phases at `points` uniform times.
+/// The exact solution at `points` uniform times.
 solvers::Motion sampled(const solvers::PhaseMotion& motion, int points);
 
 /// Why the phases are not known, a phrase.

@@ -155,7 +155,7 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
          displacement_sentence(found, points);
 }
 
-/// What contact phases take and what a run can say of them.
+/// The time of the exact solution, and what a run can report of it.
 std::string phases_sentence(const Recommendation& found) {
   const SolvePoint& phases = *found.phases;
   return fmt::format(

@@ -94,7 +94,7 @@ void check_elastic_planes(const Document& document, const Scene& scene, const st
 constexpr std::array<const char*, 4> keys_of_states{"surface_speed", "static_friction", "tangential_damping",
                                                     "normal_damping"};
 
-/// Friction is solved by balances in the displacement form, and by phases.
+/// Friction is solved by balances in the displacement form, and exactly.
 void check_friction_analysis(const Document& document, const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (type == AnalysisType::nonlinear_mode && names_friction_of_states(scene.contact))

@@ -116,7 +116,7 @@ void check_coexisting(const Document& document, const Scene& scene) {
             " for analysis.type = \"motions\", which computes all modes; structure.kept_modes reduces them");
 }
 
-/// Motions beside a curve are those that the structure settles to.
+/// Motions beside a curve are attractors of the structure.
 void check_isolas(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.isolas) return;

@@ -107,8 +107,8 @@ std::vector<double> selected(const std::vector<double>& y, const std::vector<boo
   return result;
 }
 
-/// The special points on the frequencies of a panel, each on the line of the mode that is nearest in energy
-/// and frequency.
+/// The bifurcation points on the frequencies of a panel, each on the line of the mode that is nearest in
+/// energy and frequency.
 std::vector<PlacedPoint> placed_on(const Series& drawn, const Table& backbone,
                                    const solvers::BackboneStability& stability) {
   const std::vector<double> energy = backbone.numbers("energy_ratio"),

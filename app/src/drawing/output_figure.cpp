@@ -60,7 +60,7 @@ std::string ordinate(const Output& output, const Scale& scale, const std::string
   return output.unit.empty() ? words : words + " (" + scale.prefix + output.unit + ")";
 }
 
-/// Special points of a curve that is drawn: those of outputs between its points beside them.
+/// Bifurcation and grazing points of a curve that is drawn: those of outputs between its points beside them.
 std::vector<PlacedPoint> placed_on(const Series& drawn, const SweepLine& line, bool of_output,
                                    double factor) {
   return line.placed([&](const solvers::SpecialPoint& one) {

@@ -46,8 +46,8 @@ class Metric {
 
 Vertex vertex(const Series& curve, std::size_t i) { return {curve.x[i], curve.y[i]}; }
 
-/// The lines of a curve in which its special points lie: from the line of the one before on, that through
-/// which the way by the special point is least longer.
+/// The lines of a curve in which its bifurcation points lie: from the line of the one before on, that through
+/// which the way by the point is least longer.
 std::vector<std::size_t> lines_of(const Series& curve, const std::vector<PlacedPoint>& special) {
   const Metric distance(curve);
   std::vector<std::size_t> lines;

@@ -27,7 +27,7 @@ struct SweepLine {
   std::vector<double> harmonic(std::size_t output, int n) const;
   /// `values` at its points, times `factor`, over its frequencies or amplitudes.
   Series series(const std::string& label, const std::vector<double>& values, double factor) const;
-  /// Its special points at the ordinates that `height` has for them.
+  /// Its bifurcation and grazing points at the ordinates that `height` has for them.
   std::vector<PlacedPoint> placed(const std::function<double(const solvers::SpecialPoint&)>& height) const;
 };
 

@@ -118,7 +118,7 @@ Table lasting_table(const Scene& scene, const Response& response) {
   return table;
 }
 
-/// The largest displacement of the leading contact, at the samples and at its impacts.
+/// The largest displacement of the contact with the largest force, at the samples and at its impacts.
 double highest(const Response& response) {
   const double sampled = response.displacement().maxCoeff();
   const bool known = response.phases && response.phases->motion.parts;

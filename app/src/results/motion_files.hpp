@@ -22,8 +22,8 @@ struct WrittenMotion {
   Table impacts = {};                ///< impacts_table(); without columns: none
 };
 
-/// Its files NAME.csv of the leading contact, NAME_contacts.csv of all where there are several,
-/// NAME_impacts.csv, and those of the structure; `about` says which motion it is.
+/// Its files NAME.csv of the contact with the largest force, NAME_contacts.csv of all where there are
+/// several, NAME_impacts.csv, and those of the structure; `about` says which motion it is.
 void append_motion_files(Record& record, const Scene& scene, const StructureModel& model,
                          const WrittenMotion& motion, const std::string& name, const std::string& about);
 

@@ -148,7 +148,7 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
   summary.emplace_back(quantities::contact_dissipation, power / scene.forcing.frequency);
 }
 
-/// The relative error of the vibration of the leading contact; missing without a motion.
+/// The relative error of the vibration of the contact with the largest force; missing without a motion.
 double vibration_error(const solvers::PhaseMotion& motion, const Response& response) {
   if (motion.parts == nullptr) return missing;
   const Eigen::MatrixXd exact = motion.displacement(time_fractions(response.contacts.points()));

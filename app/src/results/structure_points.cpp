@@ -22,7 +22,7 @@ std::int64_t count_of(const solvers::StructurePoints& points, StructurePointStat
                        [status](const auto& near) { return near.status == status; });
 }
 
-/// How many special points of the balance lie nearest to that of the structure.
+/// How many points of the balance are nearest to an exact one.
 std::int64_t copies_of(const solvers::StructurePoints& points, std::size_t event) {
   return std::count_if(points.of_balance.begin(), points.of_balance.end(),
                        [event](const auto& near) { return is_known(near) && near.event == event; });
@@ -88,7 +88,7 @@ std::optional<double> left_out_beside(const solvers::StructurePoints& structure,
   return std::nullopt;
 }
 
-/// Where the special point of a curve lies: that of the structure where its whole curve was followed.
+/// Where the bifurcation point of a curve is: the exact one where its whole curve was followed.
 double place_of(const Sweep& sweep, std::size_t number, std::size_t index) {
   const bool main = number == 0;
   const solvers::SpecialPoint& point = sweep.balances_of(number).special_points[index];

@@ -1,4 +1,5 @@
-// The reference of one case, which Figs. 6-11 read: contact phases. Time stepping, the paper's, is beside it.
+// The reference of one case, which Figs. 6-11 read: the exact periodic solution. Time stepping, the paper's,
+// is beside it.
 #include <fmt/format.h>
 
 #include <complex>
@@ -92,7 +93,7 @@ void note_agreement(report::Artefact& artefact, const app::Scene& scene, const a
     return report::number(app::relative_rms_error(a, b));
   };
   artefact.note(fmt::format(
-      "Time stepping is apart from the contact phases by {} in the tip displacements (relative rms), {} in the tip "
+      "Time stepping differs from the exact solution by {} in the tip displacements (relative rms), {} in the tip "
       "velocities, {} in the contact forces and {} in the energies.",
       distance(stepping.displacement(), phases.displacement()),
       distance(stepping.velocity(), phases.velocity()), distance(stepping.force(), phases.force()),
@@ -101,10 +102,10 @@ void note_agreement(report::Artefact& artefact, const app::Scene& scene, const a
 
 void note_phases(report::Artefact& artefact, const app::Response& phases) {
   artefact.note(fmt::format(
-      "Contact phases take the contact force as polynomials between the instants at which contact begins and "
-      "ends, which are unknowns too: {} unknowns and {} Newton steps from a balance with {} functions. The error "
-      "of the tip displacement is estimated at {} (relative rms). The other nodes and the energy are summed from "
-      "{} harmonics of these forces; those left out move the tip by {}.",
+      "Event-driven collocation represents the contact force by polynomials between the instants at which contact "
+      "begins and ends: {} unknowns and {} Newton steps from a harmonic balance with {} functions. The error of the tip "
+      "displacement is estimated at {} (relative rms). Other nodes and the energy are summed from {} harmonics; the "
+      "rest moves the tip by {}.",
       phases.unknowns, phases.iterations, phases.start_functions,
       report::number(phases.phases->motion.estimated_error), phases.structure_harmonics,
       report::number(phases.structure_left_out)));
@@ -128,8 +129,8 @@ void reference(report::Artefact& artefact, int case_number) {
                      "displacements of the nodes in m; time_fraction in periods");
   artefact.more_data("time_stepping", app::response_table(stepping.contacts), units);
   artefact.caption(fmt::format(
-      "The periodic motion of the bar by contact phases, computed once and read by Figs. 6-11. Beside it the last "
-      "of {} periods of time stepping, which the paper takes as its reference.",
+      "The exact periodic solution of the bar, the reference of Figs. 6-11, and the last of {} periods of time stepping, "
+      "the reference of the paper.",
       stepping.iterations));
   state_repetition(artefact, stepped_scene, stepping);
   note_agreement(artefact, stepped_scene, stepping, phases);

@@ -26,7 +26,7 @@ struct Study {
   Case penalty;                      ///< with the exponential law
   std::vector<app::Response> soft;   ///< of pairs(), exponential law
   std::vector<app::Response> rigid;  ///< of pairs()
-  app::Response exact;               ///< against the rigid obstacle, by contact phases
+  app::Response exact;               ///< exact, against the rigid obstacle
 };
 
 std::vector<std::string> rigid_overrides(const Pair& pair, int points, bool keeps_nyquist = false) {
@@ -183,7 +183,7 @@ void state_haar_rigid(report::Artefact& artefact, const std::vector<Study>& stud
       "better relative to the other functions; this will be investigated in future work.",
       "the error of the contact force of both Haar pairs over that of Fourier:Fourier is lower against a rigid "
       "obstacle than with the exponential law, rms and mean, in most of both pairs and both cases; errors against "
-      "the contact phases of each law",
+      "the exact motion of each law",
       "rms error over that of Fourier:Fourier: " + text,
       report::together({lower(rigid_rms, soft_rms), lower(rigid_mean, soft_mean)})};
   const auto [least, most] = std::minmax_element(rigid_rms.begin(), rigid_rms.end());
@@ -255,7 +255,7 @@ void rigid_plateau(report::Artefact& artefact) {
   figure.columns = 2;
   figure.panel_width = 400;
   figure.panel_height = 230;
-  figure.title = "Rigid obstacle, 64 functions; black: contact phases, dashed with the exponential law";
+  figure.title = "Rigid obstacle, 64 functions; black: exact, dashed with the exponential law";
   Table table({"case", "contact", "trial", "weight", "converged", "largest_penetration_over_gap",
                "penetration_at_quadrature_points_over_gap", "mean_force_over_amplitude",
                "largest_force_over_amplitude", "contact_fraction"});

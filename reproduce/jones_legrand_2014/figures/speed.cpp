@@ -28,7 +28,7 @@ struct Stair {
   app::Dash dash = app::Dash::solid;
 };
 
-/// Fourier:Fourier first, then the others of Table 2, DB10 with either weights, and contact phases.
+/// Fourier:Fourier first, then the others of Table 2, DB10 with either weights, and the exact solution.
 std::vector<Stair> stairs() {
   std::vector<Stair> all;
   for (const Pair& pair : pairs()) all.push_back({pair.label, {{pair.trial, pair.weight}}, pair.colour});
@@ -36,7 +36,7 @@ std::vector<Stair> stairs() {
                  {{"daubechies10", "daubechies10"}, {"daubechies10", "fourier"}},
                  app::Colour::black,
                  app::Dash::dashed});
-  all.push_back({"contact phases", {app::BasisPair::phases()}, app::Colour::black});
+  all.push_back({"exact", {app::BasisPair::phases()}, app::Colour::black});
   return all;
 }
 
@@ -245,7 +245,7 @@ std::function<double(const Costs&, int)> least_of(const std::function<bool(const
   };
 }
 
-/// The largest error asked from which on contact phases are the cheapest.
+/// The largest error from which on the exact solution is the cheapest.
 std::string phases_win(const Costs& costs) {
   const std::size_t phases = stairs().size() - 1;
   int from = asked_steps;
@@ -273,7 +273,7 @@ void take_away(report::Artefact& artefact, const std::vector<Costs>& all) {
       span(all, false, least_of(haar)), span(all, true, least_of(haar))));
   std::string wins;
   for (const Costs& costs : all) wins += (wins.empty() ? "" : "; ") + costs.title + " " + phases_win(costs);
-  artefact.note("Contact phases are the cheapest of all: " + wins + ".");
+  artefact.note("The exact solution is the cheapest of all: " + wins + ".");
 }
 
 }  // namespace

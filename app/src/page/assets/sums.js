@@ -86,7 +86,7 @@
   // One fieldset of radio buttons for each choice.
   function fields(data, stem, chosen) {
     return data.choices.map((name, place) => {
-      const options = [...new Set(data.readings.map((reading) => reading.choices[place]))];
+      const options = [...new Set(data.readings.map((reading) => reading.choices[place]))].sort((a, b) => a - b || 0);
       return element("fieldset", {}, element("legend", {}, name), ...options.map((option) => {
         const button = element("input", { type: "radio", name: `${stem}-${place}`, value: option });
         button.addEventListener("change", () => chosen(place, option));

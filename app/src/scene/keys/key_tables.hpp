@@ -34,7 +34,7 @@ inline Condition of_sweeps() { return analysis_is({"frequency_sweep", "amplitude
 inline Condition of_responses() {
   return analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep"});
 }
-/// Not of motions by phases of contact or with impacts, which have no functions.
+/// Not of exact periodic solutions or with impacts, which have no functions.
 inline Condition by_balance() { return Condition("time.method", {"balance"}).unless("contact.restitution"); }
 
 /// Each appends the keys of its section.

@@ -106,7 +106,7 @@ std::string key_of_signs(const std::vector<Section>& sections) {
   for (const Verdict verdict : all_verdicts)
     text += fmt::format("<span class=\"badge {}\">{} {}</span> ", kind(verdict),
                         verdict == Verdict::depends ? "k/n" : sign(verdict), to_string(verdict));
-  text += "<span class=\"quiet\">k/n: agrees under k of the n readings that the paper's text allows";
+  text += "<span class=\"quiet\">k/n: agrees under k of the n interpretations that the paper's text allows";
   const auto apart = all_statements(sections, [](const Statement& one) { return !counted(one); });
   if (!apart.empty())
     text += fmt::format("; dashed: {}, not counted", app::escaped(apart.front().statement().apart));

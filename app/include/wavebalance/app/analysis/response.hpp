@@ -110,8 +110,8 @@ struct Response {
   int structure_harmonics = 0;
   double structure_left_out = std::numeric_limits<double>::quiet_NaN();
 
-  /// The motion of the leading contact, 1 x output_points each, and its time histories: output_points values
-  /// each, m, m/s and N.
+  /// The motion of the contact with the largest force, 1 x output_points each, and its time histories:
+  /// output_points values each, m, m/s and N.
   solvers::Motion leading() const { return contacts.contact(contact); }
   Eigen::VectorXd displacement() const { return leading().displacement.reshaped(); }
   Eigen::VectorXd velocity() const { return leading().velocity.reshaped(); }
@@ -120,10 +120,10 @@ struct Response {
 
 /// What a response holds besides the motion of its contacts, and where its solution starts.
 struct ResponseOptions {
-  int structure_points = 0;  ///< uniform instants of Response::structure; 0: none. Of time stepping
-                             ///< 0 or analysis.output_points
-  Eigen::VectorXd guess{};   ///< displacement at the quadrature points, m; empty: the contact-free response.
-                             ///< Not used with time.tolerance
+  int structure_points = 0;       ///< uniform instants of Response::structure; 0: none. Of time stepping
+                                  ///< 0 or analysis.output_points
+  Eigen::VectorXd guess{};        ///< displacement at the quadrature points, m; empty: the linear response.
+                                  ///< Not used with time.tolerance
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
   bool stability = false;         ///< of weighted_residual_response() and phases_response()
@@ -139,7 +139,7 @@ struct ResponseOptions {
 /// u <= gap of a rigid obstacle up to the discretisation error. Response::rigid reports that error.
 ///
 /// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
-/// converged when the estimated error meets the tolerance. Below largest_phases_tolerance() contact phases
+/// converged when the estimated error meets the tolerance. Below largest_phases_tolerance() exact solutions
 /// are sought first, from coarse balances, unless the scene names a pair of other bases: Response::solved_by
 /// says which it was.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
@@ -155,16 +155,16 @@ double largest_phases_tolerance(int contacts);
 /// Whether the response is the motion of the structure itself, and not a balance beside it.
 bool is_by_phases(const Response& response);
 
-/// The motion of the structure itself by phases of contact, to time.tolerance: of scenes with time.method =
+/// The exact periodic solution, to time.tolerance: of scenes with time.method =
 /// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a
-/// motion, and where there is none from the motion that the structure settles to. The status is that of the
+/// motion, and where there is none from the attractor. The status is that of the
 /// phases, or "no_start" where neither leads to a motion and "no_modes" where the structure has none to
 /// compute.
 Response phases_response(const Scene& scene, const ResponseOptions& options = {});
 Response phases_response(const Scene& scene, const StructureModel& model,
                          const ResponseOptions& options = {});
 
-/// The motion with impacts that the structure settles to, of scenes with contact.restitution: exact flights
+/// The attractor with impacts, of scenes with contact.restitution: exact flights
 /// from impact to impact until it nearly repeats, and of forced responses Newton's method on instants and
 /// impulses from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it
 /// repeats to analysis.tolerance. The whole structure's motion is summed up from harmonics to 1e-4, since

@@ -145,13 +145,13 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
 /// The scene's curve over frequency or amplitude with analysis.exact or of impacts alone: motions of the
 /// structure themselves, with their stability and special points. Turning points are its folds, and the
 /// errors of its phases are those that are estimated. Starts as frequency_sweep() does; impacts begin with
-/// the motion that the structure settles to, and with analysis.branches have the motions of twice as many
+/// the attractor, and with analysis.branches have the motions of twice as many
 /// periods that begin at period doublings. What an impact passes on is an impulse and not a force, so that
 /// points of impacts alone have no contact force.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
 
-/// Sets the phases of contact at the peak and the special points of a sweep of the scene and at the special
+/// Sets the exact solutions at the peak and the bifurcation points of a sweep of the scene and at the special
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
 /// special points at most most_special_points_with_phases of each curve are then taken, those where
 /// multipliers pass the unit circle before grazings. With analysis.stability the special points of the

@@ -8,10 +8,10 @@
 
 namespace wavebalance::app {
 
-/// How many special points of a curve have phases unless analysis.phases asks for all points.
+/// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
 inline constexpr std::size_t most_special_points_with_phases = 24;
 
-/// The motions of the structure near a curve, by phases of contact. Empty where they were not sought.
+/// The exact periodic solutions near a curve. Empty where they were not sought.
 struct SweepPhases {
   using Point = std::optional<solvers::PointPhases>;
 

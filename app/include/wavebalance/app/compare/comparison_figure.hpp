@@ -17,8 +17,8 @@ std::vector<BasisPair> leading_pairs(std::vector<BasisPair> pairs, const std::ve
                                      std::size_t most);
 
 /// Errors over solve times, with the front, and over functions: for each number the smallest error of all
-/// numbers of points; over times of the six leading pairs and contact phases. The dotted line is the error of
-/// the reference. Points that have not converged are not drawn.
+/// numbers of points; over times of the six leading pairs and the exact solution. The dotted line is the
+/// error of the reference. Points that have not converged are not drawn.
 Figure error_over_time(const Comparison& comparison);
 Figure error_over_functions(const Comparison& comparison);
 

@@ -30,7 +30,7 @@ ComparisonRecord comparison_record(const Scene& scene, const Comparison& compari
 ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& comparison);
 
 /// trial, weight, functions, points, tolerance, inner_products, construction_seconds, seconds, error,
-/// displacement_error, force_error, below_reference, converged, status, on_front. Contact phases have the
+/// displacement_error, force_error, below_reference, converged, status, on_front. Exact solutions have the
 /// trial "phases", the functions and points of the balance that they start from, and a tolerance.
 Table points_table(const Comparison& comparison);
 /// trial, weight, admissible, solves, converged, largest_functions, smallest_error, order, force_order,

@@ -6,7 +6,7 @@
 
 namespace wavebalance::app {
 
-/// To what tolerances contact phases are solved and how that is timed.
+/// To what tolerances exact solutions are computed and how that is timed.
 struct PhaseStudyOptions {
   std::vector<double> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
   int first_functions = 31;  ///< of the coarsest balance from which the phases are sought
@@ -19,8 +19,8 @@ struct PhaseStudyOptions {
   solvers::Observer observer = {};
 };
 
-/// The motion of the scene's structure by contact phases, from nothing: a balance with M Fourier functions
-/// and 4 (M + 1) points from the contact-free response, the poles of the structure, and the phases near the
+/// The exact periodic solution of the scene, from nothing: a balance with M Fourier functions
+/// and 4 (M + 1) points from the linear response, the poles of the structure, and the phases near the
 /// balance. The balance is the one from which phases to a tolerance of 1e-6 are found soonest, of 31, 63, ...
 /// functions until the time rises; those from which the phases are not found are among the rows. Then come
 /// the other tolerances. Errors are those against the reference, which has more nodes, and no smaller than

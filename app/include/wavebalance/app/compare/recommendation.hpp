@@ -43,10 +43,10 @@ struct Recommendation {
   std::optional<SolvePoint> near_miss;
   /// One of Fourier:Fourier that takes at most twice the time of the choice with at most 1.5 times the error.
   std::optional<SolvePoint> fourier_near_miss;
-  /// The fastest of contact phases, where they take less time than the choice, or no pair reaches the error.
+  /// The fastest exact solution, where it takes less time than the choice, or no pair reaches the error.
   std::optional<SolvePoint> phases;
   BasisMatters matters = BasisMatters::no_choice;
-  std::string sentences;   ///< two, and one of contact phases where they are faster
+  std::string sentences;   ///< two, and one on the exact solution where it is faster
   std::string time_table;  ///< "[time]\ntrial = ...": to be pasted into a scene; empty without a choice
   std::string stability;   ///< of the choice's motion; empty where it was not computed
 

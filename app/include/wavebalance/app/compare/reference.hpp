@@ -22,7 +22,7 @@ struct Reference {
   double error = solvers::missing, force_error = solvers::missing;
   solvers::Motion motion;  ///< displacements and forces of all contacts, without velocities
   ResponseStability stability;
-  /// Why contact phases are not the reference, a phrase; empty where they are, and where contact never
+  /// Why the exact solution is not the reference, a phrase; empty where it is, and where contact never
   /// closes.
   std::string without_phases;
   /// Whether Newton's method from the response without contact finds a balance with few functions. If not, a
@@ -36,7 +36,7 @@ struct Reference {
 /// The reference of a scene's forced response at `points` uniform times, a power of two:
 ///
 ///   contact never closes in the response without contact   that response
-///   elastic laws, rigid ones of contacts without mass      contact phases
+///   elastic laws, rigid ones of contacts without mass      exact periodic solution
 ///   everything else, and where no such motion is found     the balance with Fourier functions, refined
 ///
 /// The phases start from a balance with an error of 1e-3, or 1e-4 where they are not found from that; those

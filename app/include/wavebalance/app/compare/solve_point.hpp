@@ -16,9 +16,8 @@ struct SolvePoint {
   int points = 0;                       ///< N
   double tolerance = solvers::missing;  ///< of phases and time stepping
   double construction_seconds = solvers::missing;
-  double seconds =
-      solvers::missing;  ///< least of several solves from the contact-free response, plans made before
-  double error = solvers::missing;  ///< that which decides: one of the following or, of both, the larger
+  double seconds = solvers::missing;  ///< least of several solves from the linear response, plans made before
+  double error = solvers::missing;    ///< that which decides: one of the following or, of both, the larger
   double displacement_error = solvers::missing;  ///< relative rms of all contacts against the reference
   double force_error = solvers::missing;         ///< the same of their forces
   bool converged = false;
@@ -30,7 +29,7 @@ struct SolvePoint {
 void mark_front(std::vector<SolvePoint>& points);
 /// The converged points of a set that no other one of the set beats, by rising time.
 std::vector<SolvePoint> envelope(std::vector<SolvePoint> points);
-/// The weighted residuals of one pair, or those by contact phases for the pair that stands for them.
+/// The weighted residuals of one pair, or the exact solution for the pair that represents it.
 std::vector<SolvePoint> points_of(const BasisPair& pair, const std::vector<SolvePoint>& points);
 
 }  // namespace wavebalance::app

@@ -25,12 +25,12 @@ StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& 
 
 /// Adds `curve`, whose points have the stability of `points`, through its special points, which are given in
 /// their order along it: solid, and dashed where it is unstable. The label of the dashed part ends in
-/// ", unstable". Between two special points of one line that are no grazings it is dashed if an end of the
-/// line is unstable. Without `points` the curve is solid.
+/// ", unstable". Between two bifurcation points of one line that are no grazings it is dashed if an end of
+/// the line is unstable. Without `points` the curve is solid.
 void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,
                        const std::vector<PlacedPoint>& special);
 
-/// Marks special points in black, one symbol and one entry of the legend for each kind.
+/// Marks bifurcation and grazing points in black, one symbol and one entry of the legend for each kind.
 void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points);
 
 }  // namespace wavebalance::app

@@ -21,7 +21,7 @@ enum class AnalysisType {
 };
 
 /// By what an analysis finds motions: equations of functions or modes, integration in time alone, or exactly,
-/// by phases of contact, or from event to event whatever the contacts are.
+/// by event-driven collocation, or from event to event whatever the contacts are.
 enum class MotionsBy { equations, time, phases, events };
 
 /// The words and flags in which analyses differ.
@@ -65,7 +65,7 @@ bool is_sweep(AnalysisType type);
 /// The points of a sweep whose motions are written, analysis.motion_at.
 struct MotionAt {
   bool peak = false;     ///< the point of the largest displacement
-  bool special = false;  ///< the special points of the curve
+  bool special = false;  ///< the bifurcation and grazing points of the curve
   /// > 0, frequencies (Hz) or amplitudes in the unit of reference_load(): each point at which the curve
   /// passes one of them.
   std::vector<double> places = {};
@@ -84,9 +84,9 @@ struct Analysis {
 
   int motion_points = -1;  ///< instants of the period at which the whole structure's motion is written
   /// forced_response, sweeps: whether the motion of the structure near the response, or near every point of
-  /// the curve, is solved for by phases of contact
+  /// the curve, has an exact periodic solution
   bool phases = false;
-  /// sweeps: whether the curve is that of the motions of the structure, followed by phases of contact
+  /// sweeps: whether the curve consists of exact periodic solutions
   bool exact = false;
   bool stability = true;  ///< forced_response, frequency_sweep: whether Floquet multipliers are counted
   /// sweeps, with stability: whether the points of the curve between which counts or contacts change are
@@ -95,7 +95,7 @@ struct Analysis {
   /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and
   /// points and output_points are then those of all of them.
   int subharmonic = 1;
-  bool branches = false;  ///< frequency_sweep: whether curves that begin at special points are followed
+  bool branches = false;  ///< frequency_sweep: whether curves that begin at bifurcation points are followed
   /// frequency_sweep: whether motions on no known curve are sought, at frequencies that are at most
   /// isola_spacing (Hz) apart, from rest and isola_starts random states, and their curves followed
   bool isolas = false;
@@ -120,7 +120,7 @@ struct Analysis {
   double tolerance = 1e-7;  ///< time_stepping: relative rms difference of two successive periods
   int max_periods = 5000;   ///< time_stepping, limit_cycle: given up after so many periods
 
-  int random_starts = 24;  ///< motions, limit_cycle: random states from which the structure settles
+  int random_starts = 24;  ///< motions, limit_cycle: random states from which time integration starts
   int seed = 20140817;     ///< of these states
   int longest_period = 4;  ///< motions: periods of the load after which a motion may repeat
 

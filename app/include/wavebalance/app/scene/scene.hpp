@@ -17,7 +17,7 @@ using solvers::InnerProducts;
 using solvers::NyquistCoefficient;
 
 /// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
-/// itself by phases of contact.
+/// itself, exactly.
 enum class TimeMethod { balance, exact };
 /// Fourier functions of the balances from which phases are sought, in turn until there is a motion.
 inline constexpr std::array phases_starts{63, 127, 255, 511};
