@@ -2,7 +2,7 @@
 function(wavebalance_add_python_test name)
   cmake_parse_arguments(PARSE_ARGV 1 T "" "" "LABEL;COMMAND")
   add_test(NAME python.${name} COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${CMAKE_CURRENT_BINARY_DIR} MPLBACKEND=Agg
-    PYTHONDONTWRITEBYTECODE=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command>
+    PYTHONDONTWRITEBYTECODE=1 OPENBLAS_NUM_THREADS=1 WAVEBALANCE_COMMAND=$<TARGET_FILE:wavebalance_command>
     WAVEBALANCE_REPORT_PAGE=$<$<TARGET_EXISTS:wavebalance_report_page>:$<TARGET_FILE:wavebalance_report_page>> ${sanitizers} ${Python_EXECUTABLE} ${T_COMMAND})
   set(timeout 240)
   if(sanitizers)
@@ -52,9 +52,6 @@ else()
       wavebalance_add_python_test(${topic}_${name} LABEL ${label} ${rooms} COMMAND -m pytest -q -s -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests ${test})
       if(label STREQUAL campaign)
         set_tests_properties(python.${topic}_${name} PROPERTIES TIMEOUT 3600)
-      endif()
-      if(topic MATCHES "extremes|tolerance")  # dense algebra, which takes one thread beside other tests
-        set_tests_properties(python.${topic}_${name} PROPERTIES ENVIRONMENT OPENBLAS_NUM_THREADS=1)
       endif()
     endforeach()
   endforeach()

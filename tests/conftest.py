@@ -10,6 +10,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 SCENES = ROOT / "reproduce" / "scenes"
+# Small matrices gain nothing from threads, and wait for cores that other tests use.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("WAVEBALANCE_COMMAND", str(ROOT / "build" / "default" / "wavebalance"))
 os.environ.pop("LD_PRELOAD", None)  # of sanitizers, which this process has loaded and the command has built in
 if "PYTHONPATH" not in os.environ:  # CTest names the package of its own build

@@ -1,18 +1,18 @@
 """What the tests of the cases share."""
 
+import os
 import sys
 from pathlib import Path
 
 import pytest
 
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # small matrices gain nothing from threads
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 
 @pytest.fixture
 def solve(tmp_path):
     """Runs a scene of the cases with arguments; returns the run."""
-    import os
-
     import cases
     counter = iter(range(100))
 
