@@ -161,5 +161,27 @@ TEST(DenseOracle, ExactInnerProductsAreThoseOfFineSums) {
   }
 }
 
+TEST(Admissibility, IsThatOfTheSobolevExponents) {
+  const auto verdict = [](const wavelets::ScalingFunction& trial, const wavelets::ScalingFunction& weight) {
+    return solvers::admissibility(wavelets::PeriodicBasis(trial, 5), wavelets::PeriodicBasis(weight, 5),
+                                  Formulation::distributional, InnerProducts::exact);
+  };
+  const auto haar = wavelets::ScalingFunction::haar();
+  const auto bspline = wavelets::ScalingFunction::orthonormal_bspline();
+  const auto db4 = wavelets::ScalingFunction::daubechies(4), db6 = wavelets::ScalingFunction::daubechies(6);
+  EXPECT_TRUE(verdict(haar, bspline).admissible);
+  EXPECT_TRUE(verdict(db6, db6).admissible);
+  for (const auto& [trial, weight] : {std::pair{haar, haar}, {haar, db6}, {db4, db4}}) {
+    const auto refused = verdict(trial, weight);
+    EXPECT_FALSE(refused.admissible) << trial.name() << ":" << weight.name();
+    EXPECT_NE(refused.reason.find(std::to_string(trial.sobolev_exponent())), std::string::npos)
+        << refused.reason;
+    EXPECT_NE(refused.reason.find("sum above 2"), std::string::npos) << refused.reason;
+    EXPECT_THROW(solvers::TimePair(wavelets::PeriodicBasis(trial, 5), wavelets::PeriodicBasis(weight, 5),
+                                   {.quadrature_points = 64}),
+                 solvers::InadmissiblePair);
+  }
+}
+
 }  // namespace
 }  // namespace wavebalance::pairs

@@ -4,7 +4,7 @@ cmake_minimum_required(VERSION 3.25)
 set(allowed
   solvers/src/linalg/ solvers/src/structure/condensation_sparse.cpp  # that of sparse complex matrices
   app/src/compose/ app/src/matrices/ fem/src/simplicial_factor.cpp fem/src/hexahedron.cpp wavelets/src/refinable.cpp
-  tests/support/dense_algebra.cpp tests/support/dense_system.cpp tests/support/period_oracle/shooting_propagator.cpp
+  tests/support/dense_algebra.cpp tests/support/dense_system.cpp
   # Oracles of one suite each, and what bench compares with.
   bench/ contact/tests/quadratic_program.hpp reproduce/laxalde_legrand_2010/modes/tests/rayleigh_quotient_test.cpp
   tests/extremes/random_structures.cpp)

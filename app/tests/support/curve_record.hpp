@@ -30,13 +30,6 @@ inline Scene load_with(const std::vector<std::string>& overrides) {
   return parse_scene(over_amplitude(stop_scene), "load.toml", overrides);
 }
 
-/// A response at 0.18 Hz, not a sweep.
-inline Scene response_with(std::vector<std::string> overrides = {}) {
-  Scene scene = stop_with(overrides);
-  scene.analysis.type = AnalysisType::forced_response;
-  return scene;
-}
-
 inline const RecordFile* file_of(const Record& record, const std::string& name) {
   const auto found = std::find_if(record.files.begin(), record.files.end(),
                                   [&](const RecordFile& file) { return file.name == name; });

@@ -1,25 +1,28 @@
 """What the program jl14 writes, held to known values: references to shooting, errors to another implementation."""
 
 import json
-import re
 import tomllib
 
 import numpy as np
 import pytest
 import wavebalance as wb
 from jl14_pairs import PAIRS, trial_and_weight
-from paper_results import ROOT, SCENES, relative_rms_error, rms, run_program
+from paper_results import SCENES, relative_rms_error, rms, run_program
 
 JONES = SCENES / "jones_legrand_2014"
 DISPLACEMENTS = ("fig06_tip_displacement_case1", "fig07_tip_displacement_case2")
-#: The values of a program that is independent of this project; tests in C++ take them too.
-PAPER_VALUES = (ROOT / "tests" / "support" / "paper_values.hpp").read_text()
-
-
-def listed(rows):
-    """The rows of braces of a list in the header: texts and numbers."""
-    body = PAPER_VALUES[PAPER_VALUES.index(f" {rows}[] = ") + len(rows) + 6:].split(";")[0]
-    return [tuple(json.loads(f"[{row}]")) for row in re.findall(r"\{([^{}]+)\}", body)]
+#: Of a program that is independent of this project, with three digits: pair, case, functions and the relative rms error of
+#: the tip [JL14, Fig. 11].
+TIP_ERRORS = [("bspline_bspline", 1, 8, 2.83e-2), ("bspline_bspline", 1, 16, 1.71e-2), ("bspline_bspline", 1, 32, 2.13e-2),
+              ("bspline_bspline", 1, 64, 1.69e-3), ("bspline_bspline", 1, 128, 3.88e-4),
+              ("daubechies6_daubechies6", 1, 8, 4.48e-2), ("daubechies6_daubechies6", 1, 16, 5.13e-1),
+              ("daubechies6_daubechies6", 1, 32, 8.52e-3), ("daubechies6_daubechies6", 1, 64, 1.57e-3),
+              ("daubechies6_daubechies6", 1, 128, 1.06e-3), ("haar_bspline", 2, 32, 5.78e-2),
+              ("haar_bspline", 2, 128, 1.68e-2)]
+#: Likewise case, functions, the energy norm of daubechies6_daubechies6 over that of the reference [JL14, Fig. 10] and half
+#: a unit of its last digit. With 16 functions it is 1 %: the motion itself is off by half, and two discretisations of the
+#: energy differ by nearly as much.
+ENERGY_NORMS = [(1, 8, 0.994, 5e-4), (1, 16, 2.02, 0.02), (1, 32, 1.002, 5e-4), (2, 128, 1.000, 5e-4)]
 
 
 def entry(table, case, pair, functions, column):
@@ -96,7 +99,10 @@ def test_motions_for_the_page_are_those_of_the_figures(results, case):
     ("64", "0", "exact", "fourier", "case1_force_error", 0.145, 1e-3),
     ("64", "0", "exact", "bspline", "case1_force_error", 0.146, 1e-3),
     ("64", "0.5", "exact", "bspline", "case1_force_error", 0.412, 1e-3),
-    ("256", "0.5", "quadrature", "fourier", "case1_force_error", 0.506, 1e-3),
+    ("256", "0.5", "quadrature", "fourier", "case1_rms_error", 0.0323, 1e-4),
+    ("256", "0.5", "quadrature", "fourier", "case1_velocity_error", 0.200, 5e-4),
+    ("256", "0.5", "quadrature", "fourier", "case1_midpoint_error", 0.0127, 5e-5),
+    ("256", "0.5", "quadrature", "fourier", "case1_force_error", 0.506, 5e-4),
     ("256", "0.5", "quadrature", "bspline", "case1_force_error", 0.365, 1e-3),
     ("256", "0.5", "quadrature", "fourier", "case2_rms_error", 0.0288, 1e-4)])
 def test_haar_readings_meet_an_independent_solver(results, samples, offset, products, weight, column, value, tolerance):
@@ -142,20 +148,15 @@ def test_errors_meet_an_independent_implementation(results):
     table = results.table("fig11_tip_error.csv")
     assert table.columns == ["case", "trial", "weight", "functions", "rms_relative_error", "converged"]
     assert len(table) == 60
-    share = float(re.search(r"tip_error_tolerance = ([^;]+);", PAPER_VALUES)[1])
-    rows = listed("tip_errors")
-    assert len(rows) == 12 and share == 0.005
-    for pair, case, functions, error in rows:
+    for pair, case, functions, error in TIP_ERRORS:
         found = entry(table, case, pair, functions, "rms_relative_error")
-        assert found == pytest.approx(error, rel=share, abs=0.0), (pair, case, functions)
+        assert found == pytest.approx(error, rel=0.005, abs=0.0), (pair, case, functions)
 
 
 def test_energy_norms_meet_an_independent_implementation(results):
     table = results.table("fig10_energy_norm.csv")
     assert table.columns == ["case", "trial", "weight", "functions", "energy_norm_ratio", "converged"]
-    rows = listed("energy_norms")
-    assert len(rows) == 4
-    for case, functions, ratio, tolerance in rows:
+    for case, functions, ratio, tolerance in ENERGY_NORMS:
         found = entry(table, case, "daubechies6_daubechies6", functions, "energy_norm_ratio")
         assert found == pytest.approx(ratio, abs=tolerance), (case, functions)
 

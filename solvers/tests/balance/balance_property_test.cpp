@@ -1,5 +1,6 @@
 #include <rapidcheck/gtest.h>
 
+#include "support/condensation_cases.hpp"
 #include "support/small_problems.hpp"
 #include "testing.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
@@ -78,10 +79,11 @@ RC_GTEST_PROP(TranslateIndexProperty, FoldIsTheAdjointOfReplicate, ()) {
   RC_ASSERT(std::abs(left - right) <= 1e-12 * scale);
 }
 
-// Away from the resonances and at a random frequency; sizes 1..6.
+// Away from the resonances and at a random frequency; sizes 1..6, contacts 1..3.
 CondensedProblem random_problem(TimePair pair, std::mt19937& generator) {
-  CondensedProblem problem(std::move(pair), testing::random_chain(1 + int(generator() % 6), generator),
-                           testing::cosine_load());
+  LinearStructure chain = testing::random_chain(1 + int(generator() % 6), generator);
+  chain.contact_directions = testing::random_directions(1 + int(generator() % 3), chain.size(), generator);
+  CondensedProblem problem(std::move(pair), chain, testing::cosine_load());
   problem.set_frequency(std::uniform_real_distribution<double>(0.02, 1.0)(generator));
   return problem;
 }
@@ -89,8 +91,8 @@ CondensedProblem random_problem(TimePair pair, std::mt19937& generator) {
 RC_GTEST_PROP(CondensedProblemProperty, TransposedProductIsTheAdjoint, ()) {
   std::mt19937 generator = random_generator();
   CondensedProblem problem = random_problem(random_pair(), generator);
-  const Eigen::VectorXd f = random_vector(problem.points(), generator),
-                        v = random_vector(problem.points(), generator);
+  const Eigen::VectorXd f = random_vector(problem.samples(), generator),
+                        v = random_vector(problem.samples(), generator);
   Eigen::VectorXd kf, ktv;
   problem.apply(f, kf);
   ContactOperator contact(problem);
@@ -104,12 +106,14 @@ RC_GTEST_PROP(CondensedProblemProperty, ColumnsAreTheProductsWithUnitVectors, ()
   const int points = problem.points(), period = problem.pair().shift_period();
   ContactOperator contact(problem);
   const Eigen::MatrixXd& columns = contact.columns();
-  const int m = *rc::gen::inRange(0, points);
-  Eigen::VectorXd column;
-  problem.apply(Eigen::VectorXd::Unit(points, m), column);
-  for (int l = 0; l < points; ++l)
-    RC_ASSERT(std::abs(columns((l - m + m % period + points) % points, m % period) - column[l]) <=
+  const int column = *rc::gen::inRange(0, problem.samples()), m = column % points, shift = m - m % period;
+  Eigen::VectorXd product;
+  problem.apply(Eigen::VectorXd::Unit(problem.samples(), column), product);
+  for (int row = 0; row < problem.samples(); ++row) {
+    const int moved = row / points * points + (row % points - shift + points) % points;
+    RC_ASSERT(std::abs(columns(moved, column / points * period + m % period) - product[row]) <=
               1e-13 * columns.cwiseAbs().maxCoeff());
+  }
 }
 
 Eigen::VectorXd rolled(const Eigen::VectorXd& v, int shift) {

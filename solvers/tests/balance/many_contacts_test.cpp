@@ -81,44 +81,6 @@ TEST_P(ManyContacts, SolvesInvertTheExplicitMatrix) {
   expect_exact_solves(make_problem(pair(), chain(3)), springs({0, 1, 2}));
 }
 
-TEST_P(ManyContacts, ColumnsAndTransposedProductsAreThoseOfTheMatrix) {
-  std::mt19937 generator(5);
-  auto problem = make_problem(pair(), chain(2));
-  const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
-  const double eps = 1e-14 * compliance.norm();
-  const Eigen::VectorXd v = testing::random_vector(problem.samples(), generator);
-  Eigen::VectorXd product;
-  ContactOperator contact(problem);
-  contact.apply_transposed(v, product);
-  EXPECT_LE((product - compliance.transpose() * v).norm(), 10.0 * eps * v.norm());
-  const Eigen::MatrixXd& columns = contact.columns();
-  const int points = problem.points(), period = problem.pair().shift_period();
-  ASSERT_EQ(columns.rows(), problem.samples());
-  ASSERT_EQ(columns.cols(), 2 * period);
-  for (int row = 0; row < problem.samples(); ++row)
-    for (int column = 0; column < problem.samples(); ++column) {
-      const int m = column % points, shift = m - m % period;
-      const int moved = row / points * points + (row % points - shift + points) % points;
-      EXPECT_NEAR(compliance(row, column), columns(moved, column / points * period + m % period), eps);
-    }
-}
-
-// A load that comes a quarter of a period later moves every contact's samples by as much.
-TEST_P(ManyContacts, LaterLoadShiftsTheResponse) {
-  if (pair().points() % (4 * pair().shift_period()) != 0) GTEST_SKIP() << "a quarter is no whole shift";
-  auto first = make_problem(pair(), chain(3));
-  CondensedProblem later(pair(), chain(3), Eigen::Vector2cd(0.0, std::complex<double>(0.0, -1.0)));
-  later.set_frequency(chain_frequency);
-  const PeriodicResponse a = testing::solved_response(first, springs({0, 1, 2}));
-  const PeriodicResponse b = testing::solved_response(later, springs({0, 1, 2}));
-  EXPECT_GT(a.contact_force.maxCoeff(), 0.0);
-  const int points = first.points();
-  for (int c = 0; c < 3; ++c)
-    for (int l = 0; l < points; ++l)
-      EXPECT_NEAR(a.displacement[c * points + l], b.displacement[c * points + (l + points / 4) % points],
-                  1e-8 * a.displacement.norm());
-}
-
 // GMRES keeps a preconditioner of many contacts from one frequency and state to the next.
 TEST(ManyContactsSolver, SolvesWithThePreconditionerOfAStateBeforeAsLuDoes) {
   constexpr int contacts = 60;
@@ -190,55 +152,6 @@ TEST(ManyContactsResponse, OfUncoupledOscillatorsIsThatOfEach) {
   EXPECT_LE((a.displacement.head(64) - b.displacement).norm(), 1e-9 * b.displacement.norm());
   EXPECT_LE((a.displacement.tail(64) - c.displacement).norm(), 1e-9 * c.displacement.norm());
   EXPECT_LE((a.coefficients.col(1) - c.coefficients).norm(), 1e-9 * c.coefficients.norm());
-}
-
-// A structure that touches by tips without mass, each behind a damped spring of `stiffness` at the degree of
-// freedom that touched before.
-LinearStructure with_massless_tips(const LinearStructure& structure, double stiffness) {
-  const int size = structure.size(), contacts = structure.contacts();
-  LinearStructure tipped;
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(size + contacts, size + contacts), springs = mass,
-                  damping = mass;
-  mass.topLeftCorner(size, size) = Eigen::MatrixXd(structure.mass);
-  damping.topLeftCorner(size, size) = Eigen::MatrixXd(structure.damping);
-  std::vector<int> tips;
-  for (int c = 0; c < contacts; ++c) {
-    tips.push_back(size + c);
-    Eigen::VectorXd stretch = -Eigen::VectorXd::Unit(size + contacts, structure.selected_dof(c));
-    stretch[tips.back()] = 1.0;
-    springs += stiffness * stretch * stretch.transpose();
-  }
-  damping += 1e-4 * springs;
-  springs.topLeftCorner(size, size) += Eigen::MatrixXd(structure.stiffness);
-  tipped.mass = mass.sparseView();
-  tipped.damping = damping.sparseView();
-  tipped.stiffness = springs.sparseView();
-  tipped.load = Eigen::VectorXd::Zero(size + contacts);
-  tipped.load.head(size) = structure.load;
-  tipped.contact_directions = contact_rows(tips, size + contacts);
-  return tipped;
-}
-
-TEST(ManyContactsResponse, AgainstRigidObstaclesUncoupledOscillatorsSolveTheirOwnProblems) {
-  const Uncoupled structures;
-  const TimePair pair = testing::fourier_pair(31, 64);
-  const auto tipped = [&](const LinearStructure& one) {
-    return make_problem(pair, with_massless_tips(one, 2e5), 27.0);
-  };
-  auto together = tipped(structures.both), first = tipped(structures.first.structure()),
-       second = tipped(structures.second.structure());
-  const testing::Rigid low{0.3e-3}, high{0.4e-3};
-  const PeriodicResponse both = testing::solved_response(together, std::vector<AnyContactLaw>{low, high});
-  EXPECT_TRUE(every_contact_presses(together, both.contact_force));
-  // Each may have several responses: those of the two must be responses of one.
-  for (const int c : {0, 1}) {
-    const PeriodicResponse alone = testing::solved_response(c == 0 ? first : second, c == 0 ? low : high, {},
-                                                            both.displacement.segment(64 * c, 64),
-                                                            both.contact_force.segment(64 * c, 64));
-    EXPECT_LE(alone.iterations, 1);
-    EXPECT_LE((alone.displacement - both.displacement.segment(64 * c, 64)).norm(),
-              1e-9 * alone.displacement.norm());
-  }
 }
 
 TEST(ManyContactsResponse, DoesNotDependOnTheOrderOfContacts) {

@@ -1,5 +1,4 @@
 #include "dense_system.hpp"
-#include "period_oracle/shooting.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
 #include "support/small_problems.hpp"
@@ -39,15 +38,12 @@ TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
   const Oscillator oscillator;
   const LinearStructure structure = driven_oscillator(oscillator);
   CondensedProblem problem = testing::fourier_problem(structure, 9, load_points, oscillator.frequency);
-  const oracle::ShootingResult shot =
-      oracle::shot_motion(structure, AnyContactLaw(), oscillator.frequency, load_points);
   const TimeSteppingResult stepped =
       testing::stepped_motion(structure, AnyContactLaw(), oscillator.frequency, load_points);
   const double scale = std::abs(oscillator.amplitude());
   for (int l = 0; l < load_points; ++l) {
     const double expected = driven_displacement(oscillator, double(l) / load_points);
     EXPECT_NEAR(problem.contact_free_response()[l], expected, 1e-13 * scale);
-    EXPECT_NEAR(shot.contacts.displacement(0, l), expected, 1e-10 * scale);
     EXPECT_NEAR(stepped.contacts.displacement(0, l), expected, 1e-5 * scale);
   }
 }
@@ -137,67 +133,6 @@ TEST(SeveralLoads, GiveTheMotionOfTheAssembledSystemWithContactInEveryKindOfPair
     EXPECT_LE((problem.displacement(response.contact_force) - expected).norm(), 1e-10 * expected.norm());
     EXPECT_LE(oracle.relative_residual(oracle.forced_response(response.contact_force)), 1e-9);
   }
-}
-
-// Pressed against its stop by a static force, lifted off it by others.
-LinearStructure pressed_oscillator() {
-  LinearStructure structure = driven_oscillator({.damping = 60.0, .load = 60.0});
-  structure.forces[0].harmonics[0] = 40.0;
-  return structure;
-}
-
-TEST(SeveralLoads, AgainstAStopGiveTheMotionOfShootingTimeSteppingAndSettling) {
-  const LinearStructure structure = pressed_oscillator();
-  const LinearContact stop{2e5, 2e-4};
-  CondensedProblem problem = testing::fourier_problem(structure, 255, 2048, 25.0);
-  const PeriodicResponse response = testing::solved_response(problem, stop);
-  const double touching = (response.contact_force.array() > 0.0).cast<double>().mean();
-  EXPECT_GT(touching, 0.2);
-  EXPECT_LT(touching, 0.8);
-  const oracle::ShootingResult shot = oracle::shot_motion(structure, stop, 25.0, 2048);
-  const Eigen::VectorXd reference = shot.contacts.displacement.row(0).transpose();
-  EXPECT_LE((response.displacement - reference).norm(), 1e-5 * reference.norm());
-  const TimeSteppingResult stepped = testing::stepped_motion(structure, stop, 25.0, 2048);
-  EXPECT_LE((stepped.contacts.displacement.row(0).transpose() - reference).norm(), 1e-4 * reference.norm());
-  const SettledMotion settled = settle(problem, stop, {});
-  ASSERT_EQ(settled.attractor_periods, 1);
-  const Eigen::VectorXd samples = resample(settled.last.displacement, 2048, settled.start);
-  EXPECT_LE((samples - reference).norm(), 2e-2 * reference.norm());
-}
-
-// A load that comes later gives the same motion later, in a basis whose points it moves onto each other.
-TEST(SeveralLoads, ThatComeLaterGiveTheSameMotionLater) {
-  LinearStructure structure = pressed_oscillator(), later = structure;
-  const int shift = 300;
-  constexpr int samples = 1024;
-  Eigen::VectorXcd cosine = testing::cosine_load(), delayed = cosine;
-  const auto delay = [&](Eigen::VectorXcd& series) {
-    for (Eigen::Index m = 0; m < series.size(); ++m)
-      series[m] *= std::polar(1.0, -two_pi * double(m) * shift / samples);
-  };
-  delay(delayed);
-  delay(later.forces[0].harmonics);
-  const auto solve = [&](const LinearStructure& one, const Eigen::VectorXcd& harmonics) {
-    CondensedProblem problem(testing::fourier_pair(63, samples), one, harmonics);
-    problem.set_frequency(25.0);
-    const PeriodicResponse response = testing::solved_response(problem, LinearContact{2e5, 2e-4});
-    return response.displacement;
-  };
-  const Eigen::VectorXd first = solve(structure, cosine), second = solve(later, delayed);
-  for (int l = 0; l < samples; ++l)
-    EXPECT_NEAR(second[(l + shift) % samples], first[l], 1e-9 * first.cwiseAbs().maxCoeff());
-}
-
-TEST(SeveralLoads, OverTwoPeriodsHaveTheMotionOfOneTwice) {
-  const LinearStructure structure = pressed_oscillator();
-  CondensedProblem one = testing::fourier_problem(structure, 31, 128);
-  Eigen::VectorXcd twice = Eigen::VectorXcd::Zero(3);
-  twice[2] = 1.0;
-  CondensedProblem two(testing::fourier_pair(63, 256), structure, twice);
-  one.set_frequency(25.0);
-  two.set_frequency(12.5);
-  EXPECT_LE((two.contact_free_response() - one.contact_free_response().replicate(2, 1)).norm(),
-            1e-13 * two.contact_free_response().norm());
 }
 
 TEST(SeveralLoads, AScaleThatIsNotFiniteIsRefused) {

@@ -201,34 +201,6 @@ TEST(VelocityLaw, IsRefusedWhereTheVelocityHasNoValuesAtPoints) {
   EXPECT_THROW(forced_response(smooth, Damper{}, force), std::invalid_argument);
 }
 
-struct Case {
-  AnyContactLaw law;
-  double frequency;
-  double tolerance;  // on the distance to time stepping, over the amplitude
-};
-
-// m = k = 1, c = 0.1, 0.8 N: against integration in time.
-TEST(VelocityLaw, ResponsesAreThoseOfTimeStepping) {
-  const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.8);
-  for (const auto& [law, frequency, tolerance] :
-       {Case{contact::HuntCrossleyLaw(10.0, 1.5, 2.0, 0.3), 0.2, 2e-4},
-        Case{contact::HuntCrossleyLaw(200.0, 1.0, 0.5, 0.5), 0.16, 2e-3},
-        Case{contact::KelvinVoigtLaw(10.0, 1.0, 0.3, 0.1), 0.2, 5e-4},
-        Case{contact::KelvinVoigtLaw(10.0, 0.5, 0.3), 0.15, 5e-3}}) {
-    CondensedProblem problem = testing::fourier_problem(oscillator, 127, 512, frequency);
-    const PeriodicResponse response = testing::solved_response(problem, law);
-    const TimeSteppingResult reference = testing::stepped_motion(oscillator, law, frequency, 512);
-    const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();
-    EXPECT_LE((response.displacement.transpose() - reference.contacts.displacement).cwiseAbs().maxCoeff(),
-              tolerance * size);
-    const Motion motion = contact_motion(problem, response, law, 512);
-    EXPECT_LE((motion.force - response.contact_force.transpose()).cwiseAbs().maxCoeff(),
-              1e-8 * motion.force.maxCoeff());
-    EXPECT_GE(motion.force.minCoeff(), 0.0);
-    EXPECT_GT(motion.force.maxCoeff(), 0.1);
-  }
-}
-
 // The velocity is one of the weighting functions of harmonic balance: the work of the load is the loss in the
 // damper of the structure and in contact, to rounding.
 TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {

@@ -99,58 +99,6 @@ TEST(ModeStability, BranchPointOfTwinsLiesWhereTheTraceIsTwo) {
   expect_special_point({4.8, 8.0}, 1.0, SpecialPointType::branch);
 }
 
-/// The difference of the masses after each period of their motion, integrated by Runge and Kutta's method
-/// from a motion of the mode and a difference of 1e-8.
-double growth_in_time(const Twins& twins, const ModePoint& point, int periods) {
-  constexpr int steps = 20000;
-  double start = point.amplitudes(0, 0).real();
-  for (Eigen::Index n = 1; n < point.amplitudes.cols(); ++n) start += 2.0 * point.amplitudes(0, n).real();
-  Eigen::Vector4d state(start * std::sqrt(0.5) + 1e-8, start * std::sqrt(0.5) - 1e-8, 0.0, 0.0);
-  const double coupling = 0.5 * (twins.second_squared - 1.0);
-  const auto rate = [&](double, const Eigen::Vector4d& y) {
-    const double difference = y[0] - y[1];
-    const auto push = [&](double u) { return u + twins.stop * std::max(u - 1.0, 0.0); };
-    return Eigen::Vector4d(y[2], y[3], -push(y[0]) - coupling * difference,
-                           -push(y[1]) + coupling * difference);
-  };
-  const auto size = [&] {
-    return std::hypot(state[0] - state[1], (state[2] - state[3]) / std::sqrt(twins.second_squared));
-  };
-  double early = 0.0;
-  for (int period = 1; period <= periods; ++period) {
-    state = testing::runge_kutta(rate, state, two_pi / point.omega, steps);
-    if (period == periods / 2) early = size();
-  }
-  return std::pow(size() / early, 1.0 / (periods - periods / 2));
-}
-
-TEST(ModeStability, DifferenceOfTwinsGrowsInTimeAsTheMultiplierSays) {
-  for (const Twins& twins : {Twins{2.45, 8.0}, Twins{4.8, 8.0}}) {
-    const ElasticMode mode = twins.mode();
-    const ModeMultipliers multipliers(mode);
-    const ModePoint* most = nullptr;
-    double largest = 1.0;
-    const ElasticBackbone curve = mode.backbone(up_to(20.0));
-    for (const ModePoint& point : curve.points) {
-      const double modulus = std::abs(multipliers(point).multipliers[0]);
-      if (modulus <= largest) continue;
-      largest = modulus;
-      most = &point;
-    }
-    ASSERT_NE(most, nullptr);
-    ASSERT_GT(largest, 1.05);
-    const int periods = static_cast<int>(6.0 / std::log(largest));
-    EXPECT_NEAR(growth_in_time(twins, *most, periods), largest, 2e-3 * largest);
-  }
-}
-
-TEST(ModeStability, DifferenceOfStableTwinsDoesNotGrowInTime) {
-  const Twins twins{3.7, 2.0};
-  const ModePoint point = twins.mode().at_energy(4.0, up_to(4.0));
-  EXPECT_EQ(ModeMultipliers(twins.mode())(point).unstable, 0);
-  EXPECT_NEAR(growth_in_time(twins, point, 100), 1.0, 0.01);
-}
-
 TEST(ModeStability, OscillatorWithAStopIsStableAtEveryEnergy) {
   const ModalModel model{Eigen::VectorXd::Ones(1), Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Ones(1)};
   const ElasticMode mode(model, fourier_pair(63, 512), LinearContact{10.0, 1.0});

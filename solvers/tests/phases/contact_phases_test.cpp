@@ -1,4 +1,3 @@
-#include "period_oracle/shooting.hpp"
 #include "support/duffing_spring.hpp"
 #include "support/phase_cases.hpp"
 #include "support/rigid_law.hpp"
@@ -41,16 +40,16 @@ struct BarCase {
   PeriodicResponse response;
 };
 
-TEST(ContactPhases, OfBothCasesOfTheBarAreWhatShootingFinds) {
+TEST(ContactPhases, OfBothCasesOfTheBarAreWhatTimeSteppingFinds) {
   for (const Jl14Case& jl14 : {testing::jl14_case_1, testing::jl14_case_2}) {
     const BarCase bar(jl14);
     const ResponsePhases found = bar.phases(1e-11);
     ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
     ASSERT_EQ(found.motion.phases.size(), 1u);
     EXPECT_NEAR(found.motion.phases[0].length(), jl14.contact_fraction, 1.0 / 1024.0);  // a share of samples
-    const oracle::ShootingResult shot =
-        oracle::shot_motion(bar.structure, bar.law[0], jl14.frequency_hz, 512);
-    EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), shot.contacts.displacement), 1e-8);
+    const TimeSteppingResult stepped =
+        testing::stepped_motion(bar.structure, bar.law, jl14.frequency_hz, 512);
+    EXPECT_LT(distance(found.motion.displacement(uniform_times(512)), stepped.contacts.displacement), 1e-8);
     EXPECT_GT(found.displacement_error, 1e-6);
     EXPECT_LT(found.displacement_error, 1e-2);
   }

@@ -18,27 +18,6 @@ int outside(const Eigen::VectorXcd& multipliers) {
   return static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count());
 }
 
-TEST(ContactPhases, HaveTheStabilityOfTheStructureAtAnyNumberOfFunctions) {
-  std::mt19937 generator(7);
-  for (int trial = 0; trial < 8; ++trial) {
-    const RandomCase random(generator, 1 + trial % 3);
-    const ContactDynamics dynamics(random.structure);
-    std::vector<int> counts;
-    for (const int functions : {63, 127, 255}) {
-      CondensedProblem problem =
-          testing::fourier_problem(random.structure, functions, 4 * (functions + 1), random.frequency);
-      const PeriodicResponse response = forced_response(problem, random.laws, {});
-      const ResponsePhases phases = response_phases(problem, random.laws, response, dynamics);
-      if (!phases.motion.converged()) continue;
-      const Eigen::VectorXcd multipliers =
-          monodromy(dynamics, contact_stiffness(phases.motion), random.frequency);
-      counts.push_back(static_cast<int>((multipliers.cwiseAbs().array() > 1.0).count()));
-      EXPECT_EQ(counts.back(), counts.front());
-    }
-    EXPECT_GE(counts.size(), 2u) << trial;
-  }
-}
-
 PhaseMotion motion_of(const LinearStructure& structure, const ContactLaws& laws, double frequency,
                       const ContactDynamics& dynamics, int functions = 255) {
   CondensedProblem problem = testing::fourier_problem(structure, functions, 4 * (functions + 1), frequency);

@@ -66,37 +66,6 @@ TEST(AmplitudeSweep, FoldsAtAStopAreThoseOfTheClosedForm) {
   EXPECT_NEAR(sweep.turning_points.back().load_scale, lowest, 1e-4);
 }
 
-// Folds of a sweep over the amplitude and over the frequency are the same points of one surface.
-TEST(AmplitudeSweep, LosesStabilityBetweenItsFoldsWhichAreThoseOfFrequencySweeps) {
-  const testing::LinearContact stop{.stiffness = 2.0, .start = 1.0};
-  const LinearStructure oscillator = testing::unit_oscillator(0.05, 1.0);
-  const ContactDynamics dynamics(oscillator);
-  CondensedProblem problem = testing::fourier_problem(oscillator, 31, 1024, 1.15 / two_pi);
-  const FrequencySweep sweep = amplitude_sweep(problem, stop, testing::between(0.05, 0.5));
-  ASSERT_EQ(sweep.status, SweepStatus::reached_end);
-  const CurveStability stability = curve_stability(problem, stop, sweep, dynamics);
-  ASSERT_EQ(stability.points.size(), sweep.points.size());
-  std::vector<int> counts;
-  for (const PointStability& point : stability.points)
-    if (point.status == StabilityStatus::converged && (counts.empty() || counts.back() != point.unstable))
-      counts.push_back(point.unstable);
-  EXPECT_EQ(counts, (std::vector<int>{0, 1, 0}));
-  std::vector<SpecialPoint> folds;
-  for (const SpecialPoint& point : stability.special_points)
-    if (point.type == SpecialPointType::fold) folds.push_back(point);
-  ASSERT_FALSE(folds.empty());
-  const SpecialPoint& last = folds.back();
-  EXPECT_NEAR(last.load_scale, sweep.turning_points.back().load_scale, 1e-4);
-  EXPECT_EQ(last.frequency, 1.15 / two_pi);
-  EXPECT_LE(std::abs(last.multiplier - 1.0), 1e-3);
-  problem.set_load_scale(last.load_scale);
-  const FrequencySweep curve = testing::complete_sweep(problem, stop, testing::between(0.1, 0.3));
-  double nearest = 1.0;
-  for (const TurningPoint& turn : curve.turning_points)
-    nearest = std::min(nearest, std::abs(turn.frequency - last.frequency));
-  EXPECT_LT(nearest, 1e-4);
-}
-
 TEST(AmplitudeSweep, OfAProblemWithoutAFrequencyIsRefused) {
   CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.1, 1.0), 3, 16);
   FrequencySweepOptions options = testing::between(1.0, 2.0);

@@ -3,7 +3,6 @@
 
 #include "dense_algebra.hpp"
 #include "ll10_rod.hpp"
-#include "period_oracle/shooting.hpp"
 #include "support/condensation_cases.hpp"
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
@@ -88,72 +87,6 @@ TEST(TurnedCoordinates, ChangeNoResponse) {
     }
 }
 
-TEST(TurnedCoordinates, ChangeNoSweep) {
-  const LinearStructure chain = touching_chain();
-  std::vector<FrequencySweep> sweeps;
-  for (const bool turn : {false, true}) {
-    const LinearStructure structure = turn ? testing::turned(chain, rotation(6, 4)) : chain;
-    CondensedProblem problem = testing::fourier_problem(structure, 15, 64, driven);
-    const auto laws = stops(problem);
-    FrequencySweepOptions options = testing::between(0.08, 0.16);
-    sweeps.push_back(frequency_sweep(problem, laws, options));
-    ASSERT_EQ(sweeps.back().status, SweepStatus::reached_end) << to_string(sweeps.back().status);
-  }
-  ASSERT_EQ(sweeps[0].points.size(), sweeps[1].points.size());
-  for (std::size_t i = 0; i < sweeps[0].points.size(); ++i) {
-    const SweepPoint &a = sweeps[0].points[i], &b = sweeps[1].points[i];
-    EXPECT_NEAR(b.frequency, a.frequency, 1e-6 * a.frequency);
-    EXPECT_NEAR(b.max_displacement, a.max_displacement, 1e-5 * a.max_displacement);
-  }
-}
-
-TEST(TurnedCoordinates, ChangeNoReference) {
-  const LinearStructure chain = touching_chain();
-  CondensedProblem problem = testing::fourier_problem(chain, 127, 512, driven);
-  const auto laws = stops(problem);
-  const TimeSteppingResult plain = testing::stepped_motion(chain, laws, driven, 512);
-  EXPECT_TRUE(every_contact_presses(plain.contacts.force));
-  for (const Eigen::MatrixXd& turn : turns(6)) {
-    const TimeSteppingResult turned =
-        testing::stepped_motion(testing::turned(chain, turn), laws, driven, 512);
-    EXPECT_LE(distance(turned.contacts.displacement, plain.contacts.displacement), 1e-5);
-  }
-  const PeriodicResponse response = forced_response(problem, laws, {});
-  ASSERT_TRUE(response.converged());
-  EXPECT_LE(distance(by_contact(response.displacement, 3), plain.contacts.displacement), 1e-4);
-}
-
-TEST(TurnedCoordinates, ChangeNeitherShootingNorSettling) {
-  LinearStructure chain = touching_chain();
-  const Eigen::MatrixXd relative = Eigen::MatrixXd(chain.contact_directions).row(0);
-  chain.contact_directions = relative.sparseView();
-  CondensedProblem problem = testing::fourier_problem(chain, 63, 256, driven);
-  const auto laws = stops(problem);
-  const PeriodicResponse response = testing::solved_response(problem, laws);
-  EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
-  oracle::ShootingOptions shooting{.output_points = 256};
-  for (const Eigen::MatrixXd& turn : turns(6)) {
-    const LinearStructure turned = testing::turned(chain, turn);
-    const oracle::ShootingResult shot = oracle::shoot(turned, laws[0], driven, shooting);
-    ASSERT_EQ(shot.status, oracle::ShootingStatus::converged);
-    EXPECT_LE(distance(shot.contacts.displacement.transpose(), response.displacement), 1e-4);
-    CondensedProblem other = testing::fourier_problem(turned, 63, 256, driven);
-    const SettledMotion settled = settle(other, laws);
-    ASSERT_EQ(settled.attractor_periods, 1);
-    EXPECT_LE(distance(resample(settled.last.displacement, 256), response.displacement), 2e-3);
-  }
-}
-
-// The same law on both sides of one direction, as one contact.
-struct BothSides {
-  LinearContact side;
-
-  double force(double u) const { return side.force(u) - side.force(-u); }
-  double tangent(double u) const { return side.tangent(u) + side.tangent(-u); }
-  double potential(double u) const { return side.potential(u) + side.potential(-u); }
-  double gap() const { return side.gap(); }
-};
-
 // Two masses between obstacles for their relative motion.
 LinearStructure between_obstacles(bool both) {
   std::mt19937 generator(22);
@@ -163,44 +96,6 @@ LinearStructure between_obstacles(bool both) {
   if (both) rows.row(1) = -rows.row(0);
   chain.contact_directions = rows.sparseView();
   return chain;
-}
-
-TEST(ObstaclesOnBothSides, TouchWithinOnePeriodInEveryFormAsTimeSteppingSays) {
-  const LinearStructure chain = between_obstacles(true);
-  CondensedProblem problem = testing::fourier_problem(chain, 63, 512, driven);
-  const double gap = 0.6 * problem.contact_free_response().maxCoeff();
-  const LinearContact law{3.0, gap};
-  const TimeSteppingResult reference = testing::stepped_motion(chain, law, driven, 512);
-  EXPECT_TRUE(every_contact_presses(reference.contacts.force));
-  for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
-    ForcedResponseOptions solver;
-    solver.form = form;
-    const PeriodicResponse response = testing::solved_response(problem, law, solver);
-    EXPECT_EQ(response.strategy, Strategy::newton);
-    EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
-    EXPECT_LE(distance(by_contact(response.displacement, 2), reference.contacts.displacement), 1e-4)
-        << to_string(form);
-  }
-  const SettledMotion settled = settle(problem, law);
-  ASSERT_EQ(settled.attractor_periods, 1);
-  EXPECT_TRUE(every_contact_presses(settled.last.force));
-  EXPECT_LE(distance(resample(settled.last.displacement, 512),
-                     reference.contacts.displacement.transpose().reshaped()),
-            2e-3);
-}
-
-TEST(ObstaclesOnBothSides, MoveAsOneLawThatActsOnBothSides) {
-  const TimePair pair = testing::fourier_pair(31, 128);
-  CondensedProblem two(pair, between_obstacles(true), testing::cosine_load()),
-      one(pair, between_obstacles(false), testing::cosine_load());
-  two.set_frequency(driven);
-  one.set_frequency(driven);
-  const LinearContact law{3.0, 0.6 * one.contact_free_response().maxCoeff()};
-  const PeriodicResponse a = testing::solved_response(two, law),
-                         b = testing::solved_response(one, BothSides{law});
-  EXPECT_LE(distance(a.displacement.head(128), b.displacement), 1e-9);
-  EXPECT_LE(distance(-a.displacement.tail(128), b.displacement), 1e-9);
-  EXPECT_LE(distance(a.contact_force.head(128) - a.contact_force.tail(128), b.contact_force), 1e-9);
 }
 
 // At the same time in contact: obstacles that press from both sides add up their stiffness.
@@ -221,25 +116,6 @@ TEST(ObstaclesOnBothSides, MayPressAtTheSameTime) {
     EXPECT_GT(response.contact_force.minCoeff(), 0.0);
     EXPECT_LE(distance(response.displacement, linear.contact_free_response()), 1e-9) << to_string(form);
   }
-}
-
-// A mass of the chain without mass of its own, as rigid contact needs it.
-TEST(ObstaclesOnBothSides, HoldAMasslessContactBetweenThem) {
-  std::mt19937 generator(23);
-  LinearStructure chain = testing::random_chain(4, generator);
-  Eigen::MatrixXd mass(chain.mass);
-  mass.row(3).setZero();
-  mass.col(3).setZero();
-  chain.mass = mass.sparseView();
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, 4);
-  rows.col(3) << 1.0, -1.0;
-  chain.contact_directions = rows.sparseView();
-  CondensedProblem problem = testing::fourier_problem(chain, 63, 256, driven);
-  const double gap = 0.6 * problem.contact_free_response().maxCoeff();
-  const PeriodicResponse response = testing::solved_response(problem, testing::Rigid{gap});
-  EXPECT_TRUE(every_contact_presses(by_contact(response.contact_force, 2)));
-  EXPECT_GE(response.contact_force.minCoeff(), 0.0);
-  EXPECT_LE(response.displacement.maxCoeff(), 1.02 * gap);
 }
 
 // The rod between two rigid obstacles at equal gaps: the motion is symmetric, and stiffer than with one.

@@ -143,39 +143,6 @@ TEST(FreeStructure, ThatLeavesItsStopMovesAsTimeSteppingSays) {
   expect_time_stepping(pressed_mass(0.8, 1.0, 2.0), AnyContactLaw(LinearContact{4.0, 0.2}), 1.1, true);
 }
 
-TEST(FreeStructure, BetweenTwoStopsMovesAsTimeSteppingSays) {
-  const std::vector<AnyContactLaw> laws{LinearContact{5.0, 0.3}, LinearContact{5.0, 0.5}};
-  expect_time_stepping(free_rod(5, 1.0), laws, 0.8, true);
-}
-
-TEST(FreeStructure, OfTwoBodiesThatTouchEachOtherMovesAsTimeSteppingSays) {
-  expect_time_stepping(two_masses(1.0, 2.5), AnyContactLaw(LinearContact{4.0, 0.2}), 1.3, true);
-}
-
-// The whole structure's motion has the contacts where the response has them.
-TEST(FreeStructure, MovesInAResponseOfACurveAsItsContactsDo) {
-  const LinearStructure rod = free_rod(5, 1.0);
-  const ContactLaws stop = AnyContactLaw(LinearContact{5.0, 0.2});
-  CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(31, 128));
-  const FrequencySweep curve =
-      testing::complete_sweep(problem, stop, testing::between(0.75 / two_pi, 0.85 / two_pi));
-  const auto responses = responses_at(problem, stop, curve, 0.8 / two_pi);
-  ASSERT_EQ(responses.size(), 1u);
-  const PeriodicResponse& response = responses.front();
-  problem.set_frequency(response.frequency);
-  EXPECT_GT(response.contact_force.maxCoeff(), 0.1);
-  EXPECT_GT((response.force_on_held_structure - response.contact_force).norm(),
-            1e-3 * response.contact_force.norm());
-  EXPECT_EQ(response.rounding_error, problem.rounding_error(response.force_on_held_structure));
-  const Eigen::MatrixXd at_contacts =
-      rod.contact_directions * structure_motion(problem, response, 128).displacement;
-  const Motion contacts = contact_motion(problem, response, stop, 128);
-  EXPECT_LE((at_contacts - contacts.displacement).norm(), 1e-9 * at_contacts.norm());
-  problem.set_frequency(0.1);
-  EXPECT_NE(testing::refusal([&] { structure_motion(problem, response, 128); }).find("set_frequency"),
-            std::string::npos);
-}
-
 TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
   const LinearStructure rod = free_rod(5, 1.0);
   CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(15, 64));
@@ -250,22 +217,6 @@ TEST(FreeStructure, HasTheNewtonMatrixOfItsResidual) {
       EXPECT_LT((derivative(x) + y * column - right).norm(), 1e-5 * right.norm());
       EXPECT_NEAR(row.dot(x) + 0.7 * y, 0.4, 1e-8 * x.norm());
     }
-}
-
-TEST(FreeStructure, IsFollowedOverTheFrequency) {
-  const LinearStructure mass = pressed_mass(0.6, 1.0, 0.9);
-  const ContactLaws stop = AnyContactLaw(LinearContact{4.0, 0.2});
-  CondensedProblem problem = problem_of(mass, 0.8, testing::fourier_pair(63, 512));
-  const FrequencySweep sweep =
-      testing::complete_sweep(problem, stop, testing::between(2.6 / two_pi, 1.2 / two_pi));
-  ASSERT_GT(sweep.points.size(), 10u);
-  for (std::size_t i = 0; i < sweep.points.size(); i += 7) {
-    CondensedProblem at =
-        problem_of(mass, sweep.points[i].frequency * two_pi, testing::fourier_pair(63, 512));
-    const PeriodicResponse response = testing::solved_response(at, stop, {}, sweep.points[i].unknown);
-    EXPECT_NEAR(response.displacement.maxCoeff(), sweep.points[i].max_displacement, 2e-3);
-    EXPECT_NEAR(mean(response.contact_force), 1.0, 1e-8);
-  }
 }
 
 // One period of the pressed mass by the classical method of Runge and Kutta.

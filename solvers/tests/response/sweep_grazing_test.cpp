@@ -170,61 +170,6 @@ TEST(FrequencySweep, TurningPointsFoundWithLongStepsLieOnTheCurve) {
   }
 }
 
-// Six contacts of a reduced structure: dense matrices of contact coordinates and modes, as a Craig-Bampton
-// reduction leaves them. Its first mode moves all contacts, by different amounts.
-LinearStructure reduced_structure() {
-  constexpr int contacts = 6, modes = 4, size = contacts + modes;
-  std::mt19937 generator(5);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size), mass = stiffness;
-  const auto random = [&](int rows, int columns) {
-    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(generator); }).eval();
-  };
-  const Eigen::MatrixXd shapes = random(contacts, contacts), coupling = random(contacts, modes);
-  stiffness.topLeftCorner(contacts, contacts) =
-      40.0 * (shapes * shapes.transpose() + Eigen::MatrixXd::Identity(contacts, contacts));
-  mass.topLeftCorner(contacts, contacts) = 2.0 * Eigen::MatrixXd::Identity(contacts, contacts);
-  mass.topRightCorner(contacts, modes) = 0.4 * coupling;
-  mass.bottomLeftCorner(modes, contacts) = 0.4 * coupling.transpose();
-  mass.bottomRightCorner(modes, modes).setIdentity();
-  for (int j = 0; j < modes; ++j) stiffness(contacts + j, contacts + j) = (j + 1) * (j + 1);
-  LinearStructure structure;
-  structure.mass = mass.sparseView();
-  structure.stiffness = stiffness.sparseView();
-  structure.damping = (0.005 * stiffness).sparseView();
-  structure.load = Eigen::VectorXd::Unit(size, contacts);
-  structure.contact_directions = contact_rows({0, 1, 2, 3, 4, 5}, structure.size());
-  return structure;
-}
-
-TEST(FrequencySweep, OfAReducedStructureWithManyContactsReachesItsEndWithTheDefaultSteps) {
-  CondensedProblem problem = testing::fourier_problem(reduced_structure(), 15, 64);
-  double free = 0.0;
-  for (double frequency = 0.15; frequency < 0.17; frequency += 0.0002) {
-    problem.set_frequency(frequency);
-    free = std::max(free, problem.contact_free_response().maxCoeff());
-  }
-  const testing::LinearContact stop{1000.0, free / 3.0};
-  std::vector<double> largest;
-  for (const bool rising : {true, false}) {
-    const FrequencySweep sweep =
-        testing::complete_sweep(problem, stop, testing::between(rising ? 0.12 : 0.25, rising ? 0.25 : 0.12));
-    largest.push_back(0.0);
-    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-      const SweepPoint& point = sweep.points[i];
-      EXPECT_LE(point.residual, 1e-10);
-      largest.back() = std::max(largest.back(), point.max_displacement);
-      if (i % 20 != 0) continue;
-      problem.set_frequency(point.frequency);
-      const PeriodicResponse single = testing::solved_response(problem, stop);
-      // 1024 points of the period against its 64 samples
-      EXPECT_NEAR(single.displacement.maxCoeff(), point.max_displacement, 0.02 * point.max_displacement);
-    }
-  }
-  EXPECT_GT(largest[0], 1.05 * stop.start) << "hardly a contact";
-  EXPECT_NEAR(largest[0], largest[1], 0.01 * largest[0]);
-}
-
 // Equal sectors under equal loads: the coupling does not act while all move alike, but curves of unlike
 // motions leave the common one at its turning points.
 TEST(FrequencySweep, OfACyclicStructureUnderEqualLoadsIsThatOfItsSector) {

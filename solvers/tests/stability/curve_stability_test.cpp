@@ -65,17 +65,6 @@ TEST(CurveStability, IsLostBetweenTheFoldsOfTheSamplesAtAMultiplierOf1) {
   EXPECT_TRUE(traced.of(Type::neimark_sacker).empty());
 }
 
-// The contact-free motion reaches the gap there, in closed form.
-TEST(CurveStability, FindsGrazingWhereTheFreeMotionReachesTheGap) {
-  const testing::LinearContact stop{10.0, 0.1};
-  const Traced traced = trace(testing::unit_oscillator(0.1, 0.8), stop, 3.2 / two_pi, 2.1 / two_pi, 31, 1024);
-  const auto grazings = traced.of(Type::grazing);
-  ASSERT_EQ(grazings.size(), 1u);
-  EXPECT_NEAR(two_pi * grazings[0].frequency, 2.999062609918, 1e-5);
-  EXPECT_NEAR(grazings[0].max_displacement, stop.start, 1e-6);
-  EXPECT_TRUE(std::isnan(grazings[0].multiplier.real()));
-}
-
 /// Two masses of 1 with springs of 1 between them and to the ground, the second driven, C = 0.03 K.
 LinearStructure two_masses() {
   Eigen::Matrix2d stiffness;

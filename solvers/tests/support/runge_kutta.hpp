@@ -1,4 +1,5 @@
 #pragma once
+#include "dense_algebra.hpp"
 
 namespace wavebalance::solvers::testing {
 
@@ -15,5 +16,24 @@ State runge_kutta(const Rate& rate, State state, double length, int steps) {
   }
   return state;
 }
+
+/// The state after one period from `start`, and the multipliers of differences of neighbouring motions.
+template <class State>
+struct PeriodMap {
+  template <class Rate>
+  PeriodMap(const Rate& rate, const State& start, double period, int steps)
+      : end(runge_kutta(rate, start, period, steps)) {
+    Eigen::Matrix<double, State::RowsAtCompileTime, State::RowsAtCompileTime> map;
+    constexpr double small = 1e-6;
+    for (Eigen::Index i = 0; i < start.size(); ++i)
+      map.col(i) = (runge_kutta(rate, State(start + small * State::Unit(i)), period, steps) - end) / small;
+    multipliers = oracle::eigenvalues(map);
+  }
+
+  auto unstable() const { return (multipliers.cwiseAbs().array() > 1.0).count(); }
+
+  State end;
+  Eigen::VectorXcd multipliers;
+};
 
 }  // namespace wavebalance::solvers::testing
