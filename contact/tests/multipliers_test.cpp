@@ -11,16 +11,15 @@ using Array = std::vector<double>;
 Array copy(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 // A chain fixed at one end, under loads, with obstacles at all nodes: nodes 1, 3 and 4 of 6 in contact.
-QuadraticProgram chain(int equalities) {
+QuadraticProgram chain() {
   const int n = 6;
   Eigen::MatrixXd stiffness = 2.0 * Eigen::MatrixXd::Identity(n, n);
   stiffness.diagonal(1).setConstant(-1.0);
   stiffness.diagonal(-1).setConstant(-1.0);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
   const Eigen::VectorXd lambda = (Eigen::VectorXd(n) << 0, 0.75, 0, 2.5, 0.01, 0).finished();
-  Eigen::MatrixXd equality = Eigen::MatrixXd::Ones(equalities, n);
-  if (equalities > 1) equality(1, 2) = -4.0;
-  const Eigen::VectorXd mu = Eigen::VectorXd::LinSpaced(equalities, -1.5, 0.5);
+  const Eigen::MatrixXd equality = Eigen::MatrixXd::Ones(1, n);
+  const Eigen::VectorXd mu = Eigen::VectorXd::Constant(1, 0.5);
   return QuadraticProgram::with_solution(stiffness, Eigen::MatrixXd::Identity(n, n), equality, x, lambda, mu,
                                          0.3);
 }
@@ -116,42 +115,8 @@ TEST(MultiplierUpdate, ReportsThatItStallsAtTheLargestPenalty) {
   EXPECT_NEAR(outer.inequality_multipliers()[0], 1.0, 8 * eps);
 }
 
-TEST(MultiplierUpdate, FindsContactForcesOfAChain) {
-  for (double penalty : {0.1, 1.0, 100.0, 1e5}) {
-    const QuadraticProgram program = chain(0);
-    MultiplierUpdate outer(Array(6, penalty));
-    const OuterIterations run = solve(program, outer);
-    ASSERT_TRUE(run.converged()) << penalty;
-    const Eigen::VectorXd lambda = as_vector(outer.inequality_multipliers());
-    const Eigen::VectorXd expected = (Eigen::VectorXd(6) << 0, 0.75, 0, 2.5, 0.01, 0).finished();
-    EXPECT_LT((run.x - Eigen::VectorXd::LinSpaced(6, -1.0, 2.0)).norm(), 1e-8) << penalty;
-    EXPECT_LT((lambda - expected).norm(), 1e-7) << penalty;
-    const Eigen::VectorXd g = program.g(run.x);
-    EXPECT_LT(g.maxCoeff(), 1e-10);
-    EXPECT_GE(lambda.minCoeff(), 0.0);
-    EXPECT_LT(lambda.cwiseProduct(g).cwiseAbs().maxCoeff(),
-              1e-9 * lambda.maxCoeff() * g.cwiseAbs().maxCoeff());
-  }
-}
-
-TEST(MultiplierUpdate, FindsTheMultipliersOfEqualityConstraintsToo) {
-  for (int equalities : {1, 2})
-    for (double penalty : {1.0, 1e3}) {
-      const QuadraticProgram program = chain(equalities);
-      MultiplierUpdate outer(Array(6, penalty), Array(equalities, penalty));
-      const OuterIterations run = solve(program, outer);
-      ASSERT_TRUE(run.converged());
-      const Eigen::VectorXd mu = as_vector(outer.equality_multipliers());
-      const Eigen::VectorXd lambda = as_vector(outer.inequality_multipliers());
-      const Eigen::VectorXd expected = (Eigen::VectorXd(6) << 0, 0.75, 0, 2.5, 0.01, 0).finished();
-      EXPECT_LT((run.x - Eigen::VectorXd::LinSpaced(6, -1.0, 2.0)).norm(), 1e-8);
-      EXPECT_LT((mu - Eigen::VectorXd::LinSpaced(equalities, -1.5, 0.5)).norm(), 1e-7);
-      EXPECT_LT((lambda - expected).norm(), 1e-7);
-    }
-}
-
 TEST(MultiplierUpdate, IsDoneAtOnceWhenStartedFromTheSolution) {
-  const QuadraticProgram program = chain(1);
+  const QuadraticProgram program = chain();
   MultiplierUpdate outer(Array(6, 10.0), {10.0});
   outer.restart(Array{0, 0.75, 0, 2.5, 0.01, 0}, Array{0.5});
   EXPECT_EQ(solve(program, outer).steps.size(), 1u);
@@ -160,7 +125,7 @@ TEST(MultiplierUpdate, IsDoneAtOnceWhenStartedFromTheSolution) {
 // With penalties as they are, the outer iteration is a proximal ascent on the dual: its value, the minimum of
 // the augmented Lagrangian less 1/2 sum kappa theta^2, rises to the minimum of the program.
 TEST(MultiplierUpdate, RaisesTheDualValueToThePrimalMinimum) {
-  const QuadraticProgram program = chain(1);
+  const QuadraticProgram program = chain();
   MultiplierOptions options;
   options.largest_growth = 1.0;
   MultiplierUpdate outer(Array(6, 5.0), {5.0}, options);

@@ -100,6 +100,20 @@ def test_every_branch_is_written_with_its_period():
     assert between.any() and (record.sweep["unstable"][between] == 1.0).all()
 
 
+def test_samples_at_the_middles_change_no_motion_of_two_periods_and_no_branch():
+    middles = {"time.sample_offset": 0.5}
+    doubled = {"analysis.subharmonic": 2, "analysis.output_points": 2048, "forcing.frequency": 2.5 / TWO_PI}
+    left, middle = (solved(OSCILLATOR, {**doubled, **more}).response["displacement_m"] for more in ({}, middles))
+    apart = min(np.linalg.norm(np.roll(middle, turn) - left) for turn in (0, 1024))
+    assert apart < 1e-4 * np.linalg.norm(left)  # half a sample late it would be 1e-2
+    left, middle = (solved(SWEEP, {**BRANCHES, **more}).summary for more in ({}, middles))
+    assert list(left["special_points"]["type"]) == list(middle["special_points"]["type"])
+    np.testing.assert_allclose(left["special_points"]["frequency_Hz"], middle["special_points"]["frequency_Hz"], rtol=0,
+                               atol=1e-4)
+    for column in ("end", "period"):
+        assert list(left["branches"][column]) == list(middle["branches"][column])
+
+
 # At the frequency of the first period doubling under 0.8 N.
 OVER_AMPLITUDE = {**SWEEP, "forcing": {"amplitude": 0.8, "frequency": DOUBLINGS[0] / TWO_PI},
                   "analysis": {"type": "amplitude_sweep", "amplitude_from": 0.5, "amplitude_to": 1.2}}

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <set>
 
 #include "temporary_folder.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
@@ -78,9 +79,11 @@ TEST(NextSteps, OfEveryStatusAnalysisAndLawAreAcceptedByTheScene) {
       continue;  // as an analysis does not take each law
     }
     ++scenes;
+    std::set<std::string> tried;  // statuses share steps
     for (const std::string& status : statuses_with_next_steps(scene->analysis.type))
       for (const NextStep& step : next_steps(*scene, status)) {
         ++advised;
+        if (!tried.insert(step.text).second) continue;
         EXPECT_NO_THROW(load_changed(folder, text, step.change)) << text << status << ": " << step.text;
         for (const std::string& set : step.change.set)
           EXPECT_TRUE(find_scene_key(set.substr(0, set.find('='))) != nullptr) << set;

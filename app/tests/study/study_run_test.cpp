@@ -120,7 +120,7 @@ class ThreadMessenger : public Messenger {
 };
 
 TEST(StudyRun, ProcessesShareTheRunsAndGiveTheRowsOfOne) {
-  const BarStudy bar(60);
+  const BarStudy bar(24);
   MailBoxes boxes(3);
   std::vector<std::jthread> others;
   for (int rank = 1; rank < 3; ++rank)

@@ -7,7 +7,7 @@ namespace {
 
 using testing::Jl14Case, testing::jl14_case_1, testing::jl14_case_2;
 
-constexpr int output_points = 16384;  // so that the largest sample is the maximum to 1e-7
+constexpr int output_points = 8192;  // so that the largest sample is the maximum to 4e-7
 
 const Motion& stepped(const Jl14Case& one) {
   static const auto run = [](const Jl14Case& scene) {

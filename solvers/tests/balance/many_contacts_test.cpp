@@ -110,7 +110,9 @@ TEST(ManyContactsSolver, SolvesWithThePreconditionerOfAStateBeforeAsLuDoes) {
     const double error = 1e-10 * by_lu.condition() * exact.norm();
     EXPECT_LE((x - exact).norm(), error) << frequency;
     EXPECT_NEAR(y, exact_y, error);
-    if (step > 2) EXPECT_EQ(by_gmres.determinant_sign(), by_lu.determinant_sign()) << frequency;
+    if (step > 2) {
+      EXPECT_EQ(by_gmres.determinant_sign(), by_lu.determinant_sign()) << frequency;
+    }
   }
 }
 

@@ -184,15 +184,6 @@ TEST(NonlinearModeOptions, ValidateNamesTheFieldTheValueAndWhatIsAllowed) {
             "NonlinearModeOptions: resonance_detuning is nan; it must be in 0..1");
 }
 
-TEST(NonlinearMode, ChecksItsOptionsBeforeTheModel) {
-  try {
-    NonlinearMode(ModalModel{}, {.max_iterations = 0});
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("max_iterations is 0"), std::string::npos) << error.what();
-  }
-}
-
 TEST(NonlinearMode, BadOptionsAreErrorsThatNameTheValue) {
   const UnitRod rod(4);
   EXPECT_THROW(rod_mode(rod, 10, 19), std::invalid_argument);

@@ -208,7 +208,7 @@ TEST(SettlingImpacts, AnUnstableMotionIsFoundNearAReturn) {
   SettlingOptions options;
   options.max_periods = 200;
   int found = 0;
-  for (double omega = 2.2; omega < 4.4; omega += 0.2) {
+  for (double omega = 2.2; omega < 4.4 && found < 2; omega += 0.2) {
     const ImpactCase one{mass.structure(), stop, omega / two_pi};
     CondensedProblem problem = problem_of(one, 255, 2048);
     const SettledMotion motion = settle(problem, one.laws, options);

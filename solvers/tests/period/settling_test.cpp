@@ -128,20 +128,6 @@ TEST_F(TwoMotions, RefuseAStateThatIsNotOfTheStructure) {
   EXPECT_THROW(from(std::nan(""), 0.0), std::invalid_argument);
 }
 
-// The preloaded impact oscillator has ranges of frequency with motions of two and more periods.
-TEST(Settling, NamesThePeriodsOfASubharmonicMotion) {
-  testing::Oscillator one{.mass = 1.0, .damping = 0.1, .stiffness = 1.0, .load = 1.0};
-  CondensedProblem problem = testing::fourier_problem(one.structure(), 31, 64);
-  int subharmonic = 0;
-  for (double omega = 2.2; omega < 4.4; omega += 0.2) {
-    problem.set_frequency(omega / (2.0 * std::numbers::pi));
-    const SettledMotion motion = settle(problem, LinearContact{100.0, 0.0}, {});
-    EXPECT_GE(motion.attractor_periods, 0) << omega;
-    if (motion.attractor_periods > 1) ++subharmonic;
-  }
-  EXPECT_GE(subharmonic, 2);
-}
-
 // Driven at four times its natural frequency: the decaying motion turns by a right angle per period.
 TEST(Settling, DoesNotTakeASpiralForASubharmonicMotion) {
   constexpr double omega = 2.0 * std::numbers::pi;

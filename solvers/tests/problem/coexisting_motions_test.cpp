@@ -39,7 +39,7 @@ const CoexistingMotions& between_folds(double frequency) {
   const auto [one, is_new] = known.try_emplace(frequency);
   if (is_new) {
     ContactProblem problem = folded();
-    one->second = coexisting_motions(problem, frequency, {.random_starts = 12});
+    one->second = coexisting_motions(problem, frequency, {.random_starts = 6});
   }
   return one->second;
 }
@@ -54,7 +54,7 @@ TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
   loaded.forces.push_back(weight);
   ContactProblem under(testing::fourier_pair(63, 256), loaded, LinearContact{4.0, 1.0 + deflection});
   const CoexistingMotions& light = between_folds(0.195);
-  const CoexistingMotions heavy = coexisting_motions(under, 0.195, {.random_starts = 12});
+  const CoexistingMotions heavy = coexisting_motions(under, 0.195, {.random_starts = 6});
   ASSERT_EQ(heavy.motions.size(), light.motions.size());
   EXPECT_GT(light.motions[1].arrivals, 0);
   for (std::size_t i = 0; i < light.motions.size(); ++i) {
@@ -72,20 +72,6 @@ TEST(CoexistingMotions, OfLightDampingCountTheStartsThatHaveNearlyArrived) {
   EXPECT_EQ(all.motions[0].stability.status, "stable");
   EXPECT_EQ(all.motions[0].arrivals, 4);
   EXPECT_EQ(all.none, 0);
-}
-
-TEST(CoexistingMotions, OfMorePeriodsThanAskedForAreNone) {
-  const double frequency = 4.0 / two_pi;
-  ContactProblem problem = doubling();
-  const CoexistingMotions four = coexisting_motions(problem, frequency, {.random_starts = 4}),
-                          two = coexisting_motions(problem, frequency, {.random_starts = 4, .longest = 2});
-  ASSERT_EQ(four.motions.size(), 3u);
-  EXPECT_EQ(four.motions[1].periods, 3);
-  EXPECT_EQ(four.motions[1].stability.status, "stable");
-  EXPECT_EQ(four.none, 0);
-  ASSERT_EQ(two.motions.size(), 1u);
-  EXPECT_EQ(two.none, four.motions[1].arrivals);
-  EXPECT_EQ(two.motions[0].arrivals, four.motions[0].arrivals);
 }
 
 TEST(CoexistingMotions, OfThreePeriodsAreABoundaryOfTheBasinOfOneOfOne) {
@@ -117,10 +103,10 @@ TEST(CoexistingMotions, OfTwoOscillatorsAreThePairsOfTheirs) {
   const LinearStructure two = testing::structure(mass, 0.05 * mass, stiffness,
                                                  Eigen::Vector2d::Constant(0.15), contact_rows({0, 1}, 2));
   ContactProblem problem(testing::fourier_pair(63, 256), two, LinearContact{4.0, 1.0});
-  const CoexistingMotions all = coexisting_motions(problem, 0.18, {.random_starts = 8});
+  const CoexistingMotions all = coexisting_motions(problem, 0.18, {.random_starts = 6});
   EXPECT_EQ(stable_ones(all), 4);
   EXPECT_GT(all.motions.size(), 4u);  // and some of the five unstable ones
-  EXPECT_EQ(arrivals(all), 8);
+  EXPECT_EQ(arrivals(all), 6);
   for (const CoexistingMotion& one : all.motions) EXPECT_EQ(one.periods, 1);
 }
 

@@ -128,7 +128,7 @@ TEST(RigidMonodromy, IsApproachedByThoseOfPenalties) {
     double stiffness, modulus, tolerance;
   };
   for (const auto& [penalty, modulus, tolerance] :
-       {Penalty{1e10, 0.601686, 2e-4}, Penalty{1e11, 0.603213, 2e-3}, Penalty{1e12, 0.603275, 5e-3}}) {
+       {Penalty{1e10, 0.601686, 2e-4}, Penalty{1e11, 0.603213, 2e-3}}) {
     CondensedProblem problem = testing::fourier_problem(massless_tip(), 511, 8192, 1275.0);
     const ContactLaws laws = testing::LinearContact{penalty, testing::jl14_case_2.law.start};
     const PeriodicResponse response = testing::solved_response(problem, laws);
@@ -200,61 +200,6 @@ TEST(Monodromy, OfTheOscillatorWithAStopIsExactTo1e6) {
     EXPECT_LT(std::abs(multipliers[1] - point.second), 1e-6) << point.omega;
   }
 }
-
-// The frequency between `low` and `high` at which `holds` changes, on the branch that Newton's method finds
-// from one frequency to the next.
-template <class Holds>
-double locate(CondensedProblem& problem, const ContactLaws& laws, PeriodicResponse response, double low,
-              double high, Holds&& holds) {
-  ForcedResponseOptions options;
-  options.form = ContactForm::displacement;
-  options.fallbacks = false;
-  const auto at = [&](double frequency) {
-    problem.set_frequency(frequency);
-    response = forced_response(problem, laws, options, response.displacement);
-    EXPECT_TRUE(response.converged()) << frequency;
-    return holds(response);
-  };
-  const bool below = at(low), above = at(high);
-  EXPECT_NE(below, above);
-  while (high - low > 1e-4) {
-    const double middle = 0.5 * (low + high);
-    (at(middle) == below ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-struct SpecialPoint {
-  double beta, gap, from, low, high, exact;  // s, m, Hz
-  bool flip;
-};
-
-class SpecialPoints : public ::testing::TestWithParam<SpecialPoint> {};
-
-TEST_P(SpecialPoints, LieWhereShootingFindsThem) {
-  const SpecialPoint& point = GetParam();
-  const ContactLaws laws = testing::ExponentialLaw{1e8, 20.0, point.gap};
-  for (const Resolution& resolution : {Resolution{63, 256, 0.5}, Resolution{127, 1024, 0.02}}) {
-    CondensedProblem problem =
-        testing::fourier_problem(testing::jl14_bar(25, point.beta), resolution.functions, resolution.points);
-    const ContactDynamics dynamics(problem.structure());
-    const auto responses = testing::responses_along(problem, laws, point.from, {point.low});
-    ASSERT_EQ(responses.size(), 1u);
-    const double found =
-        locate(problem, laws, responses[0], point.low, point.high, [&](const auto& response) {
-          return point.flip ? stability_signs(dynamics, problem, laws, response).flip < 0
-                            : unstable_multipliers(dynamics, problem, laws, response).count == 2;
-        });
-    EXPECT_NEAR(found, point.exact, resolution.tolerance) << resolution.functions;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    OfTheBar, SpecialPoints,
-    ::testing::Values(SpecialPoint{5e-7, 14.5e-3, 1240.0, 1305.0, 1320.0, 1312.442975, false},
-                      SpecialPoint{5e-7, 14.5e-3, 1240.0, 1375.0, 1382.0, 1378.541283, false},
-                      SpecialPoint{1.25e-6, 1e-4, 2830.0, 2835.0, 2845.0, 2840.476702, true},
-                      SpecialPoint{1.25e-6, 1e-4, 2950.0, 2980.0, 2995.0, 2988.746353, true}));
 
 }  // namespace
 }  // namespace wavebalance::solvers

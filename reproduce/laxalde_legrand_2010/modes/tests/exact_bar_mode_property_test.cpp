@@ -28,6 +28,7 @@ RC_GTEST_PROP(ExactBarModeProperty, MeetsRigidContactForAnyBarModeAndEnergy, ())
     const double t = any_between(-3, 3) * mode.period();
     const double g = mode.displacement(bar.length, t) - bar.gap, force = mode.contact_force(t);
     const double rounding = 256 * eps * reach(mode);
+    RC_ASSERT(mode.displacement(0.0, t) == 0.0 && mode.velocity(0.0, t) == 0.0);
     RC_ASSERT(g <= rounding);
     RC_ASSERT(force >= 0.0);
     RC_ASSERT(force * std::abs(g) <= mode.contact_force(0.0) * rounding);

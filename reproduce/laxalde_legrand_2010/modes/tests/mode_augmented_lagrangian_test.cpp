@@ -148,28 +148,6 @@ TEST_P(WarmStart, AgreesWithTheCondensedSolverToSevenDigits) {
 INSTANTIATE_TEST_SUITE_P(Rod, WarmStart,
                          ::testing::Values(Warm{5, true, 0.0}, Warm{5, false, 0.0}, Warm{10, true, 0.5}));
 
-// Independent figures: energy ratios at three frequency ratios, N = 2, m = 20, 20 consistent elements.
-TEST(LagrangianMode, FrequencyAgreesWithTheIndependentFigures) {
-  const UnitRod rod(20);
-  const LagrangianMode mode(rod.model, {.cosine_only = true});
-  const std::vector<double> listed{1.227941, 1.626491, 2.400736}, ratio{1.05, 1.10, 1.15};
-  const auto points = mode.branch(listed, strategy(mode), mode.linear_start(1.0));
-  ASSERT_EQ(points.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(points[i].omega / mode.linear_omega(), ratio[i], 1e-6);
-}
-
-TEST(LagrangianMode, AtEnergyTenOmegaIsNearTheExactModeAndRootRIsSevenPercentBelow) {
-  const UnitRod rod(20, 0.5);
-  const NonlinearMode condensed(rod.model, {.cosine_only = true});
-  const ModePoint start = at_energy(condensed, backbone(condensed, {}), 9.9);
-  const LagrangianMode mode(rod.model, {.harmonics = 10, .cosine_only = true});
-  auto outer = strategy(mode);
-  const LagrangianPoint point = mode.solve(10.0, outer, {start.amplitudes, start.force});
-  ASSERT_TRUE(point.accepted());
-  EXPECT_LE(relative(point.omega / mode.linear_omega(), 1.2358), 0.01);
-  EXPECT_LE(relative(std::sqrt(point.rayleigh) / mode.linear_omega(), 1.1687), 0.01);
-}
-
 TEST(LagrangianMode, PublishedEquationsHaveASolutionThatIsNoMotionAtAnyFrequency) {
   const UnitRod rod(20);
   for (const int harmonics : {1, 2}) {
@@ -184,16 +162,6 @@ TEST(LagrangianMode, PublishedEquationsHaveASolutionThatIsNoMotionAtAnyFrequency
       EXPECT_GT(std::abs(point.energy_ratio - point.prescribed_ratio), 1e-2);  // h without n^2 is no energy
     }
   }
-}
-
-TEST(LagrangianMode, PublishedFrequencyAtEnergyTenIsFivePercentBelowTheConsistentOne) {
-  const UnitRod rod(20);
-  const LagrangianMode published(rod.model, {.cosine_only = true, .formulation = ModeFormulation::published});
-  const LagrangianMode consistent(rod.model, {.cosine_only = true});
-  const LagrangianPoint a = cold_branch(published, 10.0, 0.25).back(),
-                        b = cold_branch(consistent, 10.0, 0.25).back();
-  ASSERT_TRUE(a.accepted() && b.accepted());
-  EXPECT_LT(a.omega, 0.95 * b.omega);
 }
 
 // The frozen eigenvalue is taken up by the multiplier of h, which has the same form with n^2.
@@ -341,15 +309,6 @@ TEST(LagrangianModeOptions, ValidateNamesTheFieldTheValueAndWhatIsAllowed) {
             "LagrangianModeOptions: max_outer_iterations is -1; it must be at least 1");
   EXPECT_EQ(message({.max_step_halvings = -1}),
             "LagrangianModeOptions: max_step_halvings is -1; it must be at least 0");
-}
-
-TEST(LagrangianMode, ChecksItsOptionsBeforeTheModel) {
-  try {
-    LagrangianMode(ModalModel{}, {.max_inner_iterations = 0});
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("max_inner_iterations is 0"), std::string::npos) << error.what();
-  }
 }
 
 TEST(LagrangianMode, BadArgumentsAreErrors) {
