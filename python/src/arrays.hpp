@@ -2,7 +2,10 @@
 #include <pybind11/numpy.h>
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,6 +46,35 @@ pybind11::array owned(std::vector<Number> numbers) {
   const pybind11::capsule owner(kept.release(),
                                 [](void* pointer) { delete static_cast<std::vector<Number>*>(pointer); });
   return pybind11::array_t<Number>({size}, {static_cast<pybind11::ssize_t>(sizeof(Number))}, data, owner);
+}
+
+/// The property of a class whose values are a member of structs that an instance has; -1 for each of `count`
+/// where there are not as many.
+template <class One, class Structs, class Member>
+auto column_of(Structs structs, Member member) {
+  return [=](const pybind11::object& self) -> pybind11::array {
+    const One& one = self.cast<const One&>();
+    const auto& all = std::invoke(structs, one);
+    if (all.size() != one.size()) return owned(std::vector<int>(one.size(), -1));
+    return member_view(all, member, self);
+  };
+}
+
+/// A point of a curve, from 0; negative numbers count from the end. Raises IndexError.
+template <class Point>
+const Point& point_at(const std::vector<Point>& points, int index) {
+  const auto count = static_cast<int>(points.size());
+  if (index < -count || index >= count)
+    throw pybind11::index_error("point " + std::to_string(index) + " of a curve of " + std::to_string(count));
+  return points[static_cast<std::size_t>(index < 0 ? index + count : index)];
+}
+
+/// The statuses of structs as texts.
+template <class Struct>
+std::vector<std::string_view> statuses_of(const std::vector<Struct>& structs) {
+  std::vector<std::string_view> words;
+  for (const Struct& one : structs) words.push_back(to_string(one.status));
+  return words;
 }
 
 }  // namespace wavebalance::python

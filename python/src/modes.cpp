@@ -33,6 +33,9 @@ struct Backbone {
   std::vector<ModePoint> points;
   std::vector<solvers::ModeStability> stability;
   Eigen::MatrixXd shapes = {};  // n x r, of the linear modes
+
+  std::size_t size() const { return points.size(); }
+  const ModePoint& at(int index) const { return point_at(points, index); }
 };
 
 app::StructureModes modes_of(const solvers::LinearStructure& structure, const solvers::ContactLaws& laws,
@@ -97,7 +100,7 @@ Backbone backbone(const Structure& structure, const py::object& laws, const solv
 
 /// Of the whole structure at a point.
 solvers::Motion structure_motion(const Backbone& one, int index, int points) {
-  const ModePoint& point = one.points.at(static_cast<std::size_t>(index));
+  const ModePoint& point = one.at(index);
   if (point.amplitudes.size() == 0)
     throw std::invalid_argument("index is " + std::to_string(index) + ": no motion was found there (" +
                                 std::string(to_string(point.status)) + "); expected a point with a motion");
@@ -108,14 +111,17 @@ solvers::Motion structure_motion(const Backbone& one, int index, int points) {
 struct DampedCurve {
   double linear_frequency = 0.0, linear_damping_ratio = 0.0, linear_amplitude = 0.0;  // Hz, 1, m
   solvers::DampedMode mode;
-  int size;  // degrees of freedom of the structure
+  int dofs;  // of the structure
   solvers::DampedBackbone curve;
+
+  std::size_t size() const { return curve.points.size(); }
+  const solvers::DampedPoint& at(int index) const { return point_at(curve.points, index); }
 };
 
 /// Of the whole structure at a point.
 solvers::Motion structure_motion(const DampedCurve& one, int index, int points) {
-  const solvers::DampedPoint& point = one.curve.points.at(static_cast<std::size_t>(index));
-  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(one.size, one.size);
+  const solvers::DampedPoint& point = one.at(index);
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(one.dofs, one.dofs);
   return app::synthesised_motion(one.mode.amplitudes(point, all), point.omega, points);
 }
 
@@ -149,53 +155,48 @@ DampedCurve damped_curve(const Structure& structure, const py::object& laws, con
   });
 }
 
-std::vector<double> damping_ratios(const DampedCurve& one) {
-  std::vector<double> ratios;
-  for (const solvers::DampedPoint& point : one.curve.points) ratios.push_back(point.damping_ratio());
-  return ratios;
-}
-
 template <class Member>
 auto damped_view(Member member) {
-  return [member](const py::object& self) {
-    return member_view(self.cast<const DampedCurve&>().curve.points, member, self);
-  };
+  return column_of<DampedCurve>(
+      [](const DampedCurve& one) -> auto& { return one.curve.points; }, member);
 }
 
 template <class Member>
 auto points_view(Member member) {
-  return [member](const py::object& self) {
-    return member_view(self.cast<const Backbone&>().points, member, self);
+  return column_of<Backbone>(
+      [](const Backbone& one) -> auto& { return one.points; }, member);
+}
+
+/// A number of each point of a curve.
+template <class One, class Number>
+auto each(Number number) {
+  return [number](const One& one) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < one.size(); ++i) values.push_back(number(one.at(int(i))));
+    return owned(std::move(values));
   };
 }
 
-std::vector<std::string_view> statuses(const Backbone& one) {
-  std::vector<std::string_view> words;
-  for (const ModePoint& point : one.points) words.push_back(to_string(point.status));
-  return words;
-}
+double hertz(double omega) { return omega / (2.0 * std::numbers::pi); }
 
 }  // namespace
 
 void add_modes(py::module_& module) {
   py::class_<Backbone>(module, "Backbone")
+      .def(py::init([](Backbone& one) { return std::move(one); }))
       .def_readonly("status", &Backbone::status)
       .def_readonly("linear_frequency", &Backbone::linear_frequency)
-      .def_property_readonly("point_status", &statuses)
-      .def_property_readonly("omega", points_view(&ModePoint::omega))
+      .def_property_readonly("point_status", [](const Backbone& one) { return statuses_of(one.points); })
+      .def_property_readonly("frequency",
+                             each<Backbone>([](const ModePoint& point) { return hertz(point.omega); }))
       .def_property_readonly("energy_ratio", points_view(&ModePoint::energy_ratio))
       .def_property_readonly("contact_fraction", points_view(&ModePoint::contact_fraction))
       .def_property_readonly("virial_residual", points_view(&ModePoint::virial_residual))
       .def_property_readonly("unstable",
-                             [](const py::object& self) {
-                               return member_view(self.cast<const Backbone&>().stability,
-                                                  &solvers::ModeStability::unstable, self);
-                             })
-      .def("__len__", [](const Backbone& one) { return one.points.size(); })
-      .def("structure_motion", py::overload_cast<const Backbone&, int, int>(&structure_motion))
-      .def("amplitudes", [](const Backbone& one, int index) {
-        return one.points.at(static_cast<std::size_t>(index)).amplitudes;
-      });
+                             column_of<Backbone>(&Backbone::stability, &solvers::ModeStability::unstable))
+      .def("__len__", &Backbone::size)
+      .def("_structure_motion", py::overload_cast<const Backbone&, int, int>(&structure_motion))
+      .def("amplitudes", [](const Backbone& one, int index) { return one.at(index).amplitudes; });
   py::class_<app::Analysis>(module, "BackboneArguments")
       .def(py::init([](int mode, double energy, double ratio, int points, int harmonics, int samples,
                        bool cosine_only, bool stability) {
@@ -210,24 +211,23 @@ void add_modes(py::module_& module) {
       }));
   module.def("backbone", &backbone);
   py::class_<DampedCurve>(module, "DampedCurve")
+      .def(py::init([](DampedCurve& one) { return std::move(one); }))
       .def_property_readonly("status",
                              [](const DampedCurve& one) { return std::string(to_string(one.curve.status)); })
       .def_readonly("linear_frequency", &DampedCurve::linear_frequency)
       .def_readonly("linear_damping_ratio", &DampedCurve::linear_damping_ratio)
-      .def_readonly("linear_amplitude", &DampedCurve::linear_amplitude)
-      .def_property_readonly("omega", damped_view(&solvers::DampedPoint::omega))
+      .def_readonly("slip_amplitude", &DampedCurve::linear_amplitude)
+      .def_property_readonly("frequency", each<DampedCurve>([](const solvers::DampedPoint& point) {
+                               return hertz(point.omega);
+                             }))
       .def_property_readonly("amplitude", damped_view(&solvers::DampedPoint::amplitude))
-      .def_property_readonly("damping_ratio",
-                             [](const DampedCurve& one) { return owned(damping_ratios(one)); })
-      .def("__len__", [](const DampedCurve& one) { return one.curve.points.size(); })
-      .def("structure_motion", py::overload_cast<const DampedCurve&, int, int>(&structure_motion))
-      .def("displacement",
-           [](const DampedCurve& one, int index) {
-             return one.curve.points.at(static_cast<std::size_t>(index)).displacement;
-           })
-      .def("force", [](const DampedCurve& one, int index) {
-        return one.curve.points.at(static_cast<std::size_t>(index)).force;
-      });
+      .def_property_readonly("damping_ratio", each<DampedCurve>([](const solvers::DampedPoint& point) {
+                               return point.damping_ratio();
+                             }))
+      .def("__len__", &DampedCurve::size)
+      .def("_structure_motion", py::overload_cast<const DampedCurve&, int, int>(&structure_motion))
+      .def("displacement", [](const DampedCurve& one, int index) { return one.at(index).displacement; })
+      .def("force", [](const DampedCurve& one, int index) { return one.at(index).force; });
   module.def("damped_curve", &damped_curve);
 }
 

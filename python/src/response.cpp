@@ -115,6 +115,7 @@ void add_motion(py::module_& module) {
 void add_response(py::module_& module) {
   add_motion(module);
   py::class_<Response>(module, "Response")
+      .def(py::init([](Response& one) { return std::move(one); }))
       .def_property_readonly("converged", [](const Response& one) { return one.found.converged(); })
       .def_property_readonly("status", [](const Response& one) { return to_string(one.found.status); })
       .def_property_readonly("frequency", [](const Response& one) { return one.found.frequency; })

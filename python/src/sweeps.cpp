@@ -64,12 +64,8 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
   });
 }
 
-/// The response at a point, from 0; negative numbers count from the end.
 Response response_of(const Curve& one, int index) {
-  const auto count = static_cast<int>(one.curve.points.size());
-  if (index < -count || index >= count)
-    throw py::index_error("point " + std::to_string(index) + " of a curve of " + std::to_string(count));
-  const SweepPoint& point = one.curve.points[static_cast<std::size_t>(index < 0 ? index + count : index)];
+  const SweepPoint& point = point_at(one.curve.points, index);
   return unlocked([&](const solvers::Observer&) {
     const std::lock_guard alone(one.problem->alone);
     const double value = parameter_of(point, one.curve.parameter);
@@ -92,22 +88,14 @@ py::dict dictionary_of(const solvers::SpecialPoint& point) {
 
 template <class Member>
 auto points_view(Member member) {
-  return [member](const py::object& self) {
-    return member_view(self.cast<const Curve&>().curve.points, member, self);
-  };
+  return column_of<Curve>(
+      [](const Curve& one) -> auto& { return one.curve.points; }, member);
 }
 
 template <class Member>
 auto stability_view(Member member) {
-  return [member](const py::object& self) {
-    return member_view(self.cast<const Curve&>().stability.points, member, self);
-  };
-}
-
-std::vector<std::string_view> stability_status(const Curve& one) {
-  std::vector<std::string_view> words;
-  for (const PointStability& point : one.stability.points) words.push_back(to_string(point.status));
-  return words;
+  return column_of<Curve>(
+      [](const Curve& one) -> auto& { return one.stability.points; }, member);
 }
 
 py::list special_points(const Curve& one) {
@@ -138,6 +126,7 @@ void add_sweeps(py::module_& module) {
             return Steps{first, largest, points, output, stability, std::move(form)};
           }));
   py::class_<Curve, std::shared_ptr<Curve>>(module, "Curve")
+      .def(py::init([](Curve& one) { return std::make_shared<Curve>(std::move(one)); }))
       .def_property_readonly("status", [](const Curve& one) { return to_string(one.curve.status); })
       .def_property_readonly("form", [](const Curve& one) { return to_string(one.curve.form); })
       .def_property_readonly(
@@ -156,10 +145,11 @@ void add_sweeps(py::module_& module) {
       .def_property_readonly("residual", points_view(&SweepPoint::residual))
       .def_property_readonly("unstable", stability_view(&PointStability::unstable))
       .def_property_readonly("contacts", stability_view(&PointStability::contacts))
-      .def_property_readonly("stability_status", &stability_status)
+      .def_property_readonly("stability_status",
+                             [](const Curve& one) { return statuses_of(one.stability.points); })
       .def_property_readonly("special_points", &special_points)
       .def_property_readonly("turning_points", &turning_points)
-      .def("__len__", [](const Curve& one) { return one.curve.points.size(); })
+      .def("__len__", &Curve::size)
       .def("_response", &response_of);
   module.def("sweep", &sweep);
 }

@@ -15,6 +15,8 @@ struct Curve {
   solvers::FrequencySweep curve;
   solvers::CurveStability stability;
   double wall_seconds = 0.0;
+
+  std::size_t size() const { return curve.points.size(); }
 };
 
 }  // namespace wavebalance::python

@@ -1,4 +1,4 @@
-"""The compiled part of wavebalance; its public faces are in the modules beside it."""
+"""The compiled part of wavebalance; its public faces are in the modules beside it, which name the arguments."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -84,21 +84,8 @@ def write_matrix_market(file: str, matrix: Any) -> None: ...
 def exchange_progress(callback: Callable[[str, int, float, str, float], object] | None) -> Callable[[str, int, float, str, float], object] | None: ...
 def compare_scene(source: SceneSource, pairs: str, error: str, budget: float, start_from: str, threads: int) -> ComparisonRun: ...
 
-def velocity_law(
-    force: Callable[[float, float], float],
-    tangent: Callable[[float, float], float],
-    damping: Callable[[float, float], float],
-    potential: Callable[[float], float],
-    gap: float,
-    unilateral: bool,
-    kinks: list[float],
-) -> Law: ...
-def vector_law(
-    force: Callable[..., npt.NDArray[np.float64]],
-    slopes: Callable[..., tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]],
-    rows: int,
-    velocities: bool,
-) -> Law: ...
+def velocity_law(*arguments: Any) -> Law: ...
+def vector_law(*arguments: Any) -> Law: ...
 def response_state(response: Response) -> tuple[Any, ...]: ...
 def restored_response(problem: Problem, laws: Any, state: tuple[Any, ...]) -> Response: ...
 def curve_state(curve: Curve) -> tuple[Any, ...]: ...
@@ -119,62 +106,27 @@ def needs_events(structure: Structure, laws: Any) -> bool: ...
 def law_catalogue() -> list[dict[str, Any]]: ...
 def make_law(name: str, values: dict[str, float | list[float] | str]) -> Law: ...
 def table_law(displacements: list[float], forces: list[float]) -> Law: ...
-def function_law(
-    force: Callable[[float], float],
-    tangent: Callable[[float], float],
-    potential: Callable[[float], float],
-    gap: float,
-    unilateral: bool,
-    monotone: bool,
-    kinks: list[float],
-) -> Law: ...
+def function_law(*arguments: Any) -> Law: ...
 
 class Structure:
-    def __init__(
-        self,
-        mass: Any,
-        damping: Any,
-        stiffness: Any,
-        load: Numbers,
-        contacts: Any,
-        forces: Sequence[tuple[Numbers, ComplexNumbers, int]],
-        loss_factor: float,
-        unsymmetric: bool,
-        free: bool,
-        gyroscopic: Any,
-        spin_stiffness: Any,
-        spin_speed: float,
-        redistribute: bool,
-    ) -> None: ...
-    @property
-    def size(self) -> int: ...
-    @property
-    def contacts(self) -> int: ...
-    @property
-    def is_free(self) -> bool: ...
-    @property
-    def symmetric(self) -> bool: ...
+    def __init__(self, *arguments: Any) -> None: ...
+    size: int
+    contacts: int
+    is_free: bool
+    symmetric: bool
 
 class Pair:
-    def __init__(
-        self, name: str, functions: int, points: int, formulation: str, inner_products: str, nyquist: str, sample_offset: float
-    ) -> None: ...
-    @property
-    def functions(self) -> int: ...
-    @property
-    def points(self) -> int: ...
-    @property
-    def first_sample(self) -> float: ...
+    def __init__(self, *arguments: Any) -> None: ...
+    functions: int
+    points: int
+    first_sample: float
     def symbol(self, derivative: int) -> ComplexNumbers: ...
 
 class Problem:
     def __init__(self, structure: Structure, pair: Pair, harmonics: ComplexNumbers, threads: int) -> None: ...
-    @property
-    def contacts(self) -> int: ...
-    @property
-    def points(self) -> int: ...
-    @property
-    def functions(self) -> int: ...
+    contacts: int
+    points: int
+    functions: int
 
 class Motion:
     displacement: Numbers
@@ -182,6 +134,7 @@ class Motion:
     force: Numbers
 
 class Response:
+    def __init__(self, taken: Response) -> None: ...
     converged: bool
     status: str
     frequency: float
@@ -199,16 +152,7 @@ class Response:
     def _motion(self, points: int) -> Motion: ...
     def _structure_motion(self, points: int) -> Motion: ...
 
-def forced_response(
-    problem: Problem,
-    laws: Any,
-    frequency: float,
-    guess: Any,
-    stay_near_guess: bool,
-    form: str,
-    tolerance: float,
-    max_iterations: int,
-) -> Response: ...
+def forced_response(*arguments: Any) -> Response: ...
 
 class Stability:
     status: str
@@ -219,11 +163,10 @@ class Stability:
 def stability(response: Response, count: int) -> Stability: ...
 
 class Steps:
-    def __init__(
-        self, first_step: float, largest_step: float, max_points: int, output_points: int, stability: bool, form: str
-    ) -> None: ...
+    def __init__(self, *arguments: Any) -> None: ...
 
 class Curve:
+    def __init__(self, taken: Curve) -> None: ...
     status: str
     form: str
     over_amplitude: bool
@@ -249,48 +192,38 @@ class Curve:
 def sweep(problem: Problem, laws: Any, frequency: float, begin: float, end: float, steps: Steps) -> Curve: ...
 
 class BackboneArguments:
-    def __init__(
-        self,
-        mode: int,
-        largest_energy: float,
-        largest_frequency_ratio: float,
-        points: int,
-        harmonics: int,
-        samples: int,
-        cosine_only: bool,
-        stability: bool,
-    ) -> None: ...
+    def __init__(self, *arguments: Any) -> None: ...
 
 class Backbone:
+    def __init__(self, taken: Backbone) -> None: ...
     status: str
     linear_frequency: float
     point_status: list[str]
-    omega: Numbers
+    frequency: Numbers
     energy_ratio: Numbers
     contact_fraction: Numbers
     virial_residual: Numbers
     unstable: Integers
     def __len__(self) -> int: ...
     def amplitudes(self, index: int) -> ComplexNumbers: ...
-    def structure_motion(self, index: int, points: int) -> Motion: ...
+    def _structure_motion(self, index: int, points: int) -> Motion: ...
 
 def backbone(structure: Structure, laws: Any, pair: Pair, gaps: list[float], arguments: BackboneArguments) -> Backbone: ...
 class DampedCurve:
+    def __init__(self, taken: DampedCurve) -> None: ...
     status: str
     linear_frequency: float
     linear_damping_ratio: float
-    linear_amplitude: float
-    omega: Numbers
+    slip_amplitude: float
+    frequency: Numbers
     amplitude: Numbers
     damping_ratio: Numbers
     def __len__(self) -> int: ...
     def displacement(self, index: int) -> Numbers: ...
     def force(self, index: int) -> Numbers: ...
-    def structure_motion(self, index: int, points: int) -> Motion: ...
+    def _structure_motion(self, index: int, points: int) -> Motion: ...
 
-def damped_curve(
-    structure: Structure, laws: Any, pair: Pair, mode: int, first: float, last: float, points: int
-) -> DampedCurve: ...
+def damped_curve(*arguments: Any) -> DampedCurve: ...
 def basis_samples(name: str, functions: int, points: int, derivative: int) -> Numbers: ...
 def basis_harmonic(name: str, functions: int, harmonic: int) -> complex: ...
 def basis_sobolev_exponent(name: str, functions: int) -> float: ...
