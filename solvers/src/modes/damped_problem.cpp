@@ -56,7 +56,8 @@ Eigen::VectorXd displacements_at_rest(const LinearStructure& structure, const Co
   constexpr int most = 100;
   constexpr double solved = 1e-13;
   const Eigen::MatrixXd rows(structure.contact_directions), stiffness(structure.stiffness);
-  const Eigen::VectorXd load = structure.load_amplitudes(1.0).col(0).real();
+  const Eigen::VectorXd load =
+      structure.load_shapes() * structure.load_series(Eigen::VectorXcd::Zero(1), 1, 1.0).col(0).real();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(structure.size());
   const auto residual = [&](const Eigen::VectorXd& state) -> Eigen::VectorXd {
     return stiffness * state + rows.transpose() * contacts_at_rest(laws, rows * state).force - load;

@@ -28,29 +28,6 @@ Eigen::MatrixXcd from_maximum(Eigen::MatrixXcd amplitudes, const Eigen::VectorXc
   return amplitudes;
 }
 
-// Every `step`-th harmonic: those of a load that repeats `step` times within the period.
-Eigen::VectorXcd every(int step, const Eigen::VectorXcd& harmonics) {
-  if (step == 1) return harmonics;
-  const Index count = (harmonics.size() + step - 1) / step;
-  return Eigen::VectorXcd(harmonics(Eigen::seqN(0, count, step)));
-}
-
-// All that acts on the structure of a problem, n x harmonics of one period of the load.
-Eigen::MatrixXcd load_amplitudes(const CondensedProblem& problem, int repeats) {
-  const LinearStructure& structure = problem.structure();
-  const Eigen::VectorXcd harmonics = every(repeats, problem.load_harmonics());
-  LinearStructure forced;  // the forces alone
-  forced.load = Eigen::VectorXd::Zero(structure.size());
-  forced.forces = structure.forces;
-  Eigen::MatrixXcd amplitudes = forced.load_amplitudes(repeats * problem.frequency());
-  const Index before = amplitudes.cols(), count = std::max(before, harmonics.size());
-  amplitudes.conservativeResize(Eigen::NoChange, count);
-  amplitudes.rightCols(count - before).setZero();
-  amplitudes.leftCols(harmonics.size()) += structure.load.cast<Complex>() * harmonics.transpose();
-  if (problem.load_factor() != 1.0) amplitudes.rightCols(count - 1) *= problem.load_factor();
-  return amplitudes;
-}
-
 // The part of a static load that accelerates a structure which is free to move; the rest deforms it.
 Eigen::VectorXd accelerating(const LinearStructure& structure, const Eigen::VectorXd& load) {
   if (!structure.is_free()) return Eigen::VectorXd::Zero(load.size());
@@ -86,9 +63,11 @@ ContactFreeMotion::ContactFreeMotion(const CondensedProblem& problem, int sample
     : repeats_(solvers::load_periods(problem)), frequency_(repeats_ * problem.frequency()) {
   const LinearStructure& structure = problem.structure();
   const bool forces_alone = structure.load.isZero(0.0) && !structure.forces.empty();
-  const Eigen::VectorXcd series = forces_alone ? structure.forces.front().amplitudes(frequency_)
-                                               : every(repeats_, problem.load_harmonics());
-  Eigen::MatrixXcd amplitudes = from_maximum(load_amplitudes(problem, repeats_), series, start_);
+  const Eigen::MatrixXcd loads =
+      structure.load_series(problem.load_harmonics(), repeats_, problem.frequency());
+  Eigen::MatrixXcd amplitudes =
+      from_maximum(structure.load_shapes() * loads, loads.row(forces_alone ? 1 : 0).transpose(), start_);
+  amplitudes.rightCols(loads.cols() - 1) *= problem.load_factor();
   left_out_ = accelerating(structure, amplitudes.col(0).real());
   amplitudes.col(0) -= left_out_;
   const Eigen::VectorXcd at_rest = amplitudes.col(0);

@@ -11,25 +11,6 @@
 
 namespace wavebalance::solvers::detail {
 
-Eigen::MatrixXcd loads_of(const CondensedProblem& problem, int repeats) {
-  return loads_of(problem.structure(), problem.load_harmonics(), repeats, problem.frequency(),
-                  problem.load_factor());
-}
-
-Eigen::MatrixXcd loads_of(const LinearStructure& structure, const Eigen::VectorXcd& harmonics, int repeats,
-                          double frequency, double factor) {
-  std::vector<Eigen::VectorXcd> series{
-      harmonics(Eigen::seqN(0, (harmonics.size() + repeats - 1) / repeats, repeats))};
-  for (const PeriodicForce& force : structure.forces) series.push_back(force.amplitudes(repeats * frequency));
-  Eigen::Index count = 1;
-  for (const auto& load : series) count = std::max(count, load.size());
-  Eigen::MatrixXcd loads = Eigen::MatrixXcd::Zero(Eigen::Index(series.size()), count);
-  for (std::size_t l = 0; l < series.size(); ++l)
-    loads.row(Eigen::Index(l)).head(series[l].size()) = series[l].transpose();
-  loads.rightCols(count - 1) *= factor;
-  return loads;
-}
-
 LinearStructure held_by_springs(const LinearStructure& structure, double holding) {
   LinearStructure held = structure;
   if (!(holding > 0.0)) return held;
@@ -77,7 +58,7 @@ FreeContacts::FreeContacts(const LinearStructure& structure, Eigen::VectorXcd ha
 
 Eigen::MatrixXcd FreeContacts::at(double frequency, double factor) {
   const int contacts = structure_.contacts();
-  const Eigen::MatrixXcd loads = loads_of(structure_, harmonics_, repeats_, frequency, factor);
+  const Eigen::MatrixXcd loads = structure_.load_series(harmonics_, repeats_, frequency, factor);
   Eigen::MatrixXcd amplitudes = Eigen::MatrixXcd::Zero(contacts, repeats_ * (loads.cols() - 1) + 1);
   const double base = structure_.turning.speed, speed = 2.0 * std::numbers::pi * repeats_ * frequency,
                beyond = structure_.turns() ? speed - base : 0.0;

@@ -67,7 +67,8 @@ class Harmonics {
       : motion_(motion),
         rate_(2.0 * std::numbers::pi * problem.frequency() * imaginary_unit),
         repeats_(load_periods(problem)),
-        loads_(detail::loads_of(problem, repeats_)),
+        loads_(problem.structure().load_series(problem.load_harmonics(), repeats_, problem.frequency(),
+                                               problem.load_factor())),
         structure_(detail::held_by_springs(problem.structure(), motion.parts->model.holding)),
         condensation_(structure_) {
     if (const auto held = detail::held_at_rest(problem.structure(), motion.parts->model.holding))

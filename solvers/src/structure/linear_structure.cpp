@@ -114,15 +114,17 @@ void LinearStructure::transform_loads(const Eigen::MatrixXd& transformation) {
   for (PeriodicForce& force : forces) force.shape = (transformation.transpose() * force.shape).eval();
 }
 
-Eigen::MatrixXcd LinearStructure::load_amplitudes(double frequency) const {
-  Index count = 2;
-  for (const PeriodicForce& force : forces) count = std::max(count, force.harmonics.size());
-  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(load.size(), count);
-  result.col(1) = load;
-  for (const PeriodicForce& force : forces) {
-    const Eigen::VectorXcd amplitudes = force.amplitudes(frequency);
-    result.leftCols(amplitudes.size()) += force.shape * amplitudes.transpose();
-  }
+Eigen::MatrixXcd LinearStructure::load_series(const Eigen::VectorXcd& harmonics, int repeats,
+                                              double frequency, double factor) const {
+  std::vector<Eigen::VectorXcd> series{
+      harmonics(Eigen::seqN(0, (harmonics.size() + repeats - 1) / repeats, repeats))};
+  for (const PeriodicForce& force : forces) series.push_back(force.amplitudes(repeats * frequency));
+  Index count = 1;
+  for (const auto& one : series) count = std::max(count, one.size());
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(Index(series.size()), count);
+  for (std::size_t l = 0; l < series.size(); ++l)
+    result.row(Index(l)).head(series[l].size()) = series[l].transpose();
+  result.rightCols(count - 1) *= factor;
   return result;
 }
 

@@ -61,9 +61,11 @@ struct LinearStructure {
   int load_count() const { return 1 + static_cast<int>(forces.size()); }
   /// Takes transformation^T times each shape, as for x = transformation y. The other members are left alone.
   void transform_loads(const Eigen::MatrixXd& transformation);
-  /// Complex amplitudes of load and forces together at a frequency f (Hz), N, n x (H + 1): column m belongs
-  /// to exp(2 pi i m f t). O(n H) each.
-  Eigen::MatrixXcd load_amplitudes(double frequency) const;
+  /// The series of load and forces by harmonics of their own period, of which the period of `harmonics`, the
+  /// series of the load, has `repeats` at a frequency (Hz), with all but the static one times `factor`: a row
+  /// for each column of load_shapes(), a column for each harmonic, N.
+  Eigen::MatrixXcd load_series(const Eigen::VectorXcd& harmonics, int repeats, double frequency,
+                               double factor = 1.0) const;
   /// The degree of freedom that row `contact` selects with the coefficient 1, or -1 for any other direction.
   /// O(entries of the row).
   int selected_dof(int contact) const;
