@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuation/bordered.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "wavebalance/solvers/flow/settled_motion.hpp"
@@ -42,20 +43,12 @@ double ImpactCurveEquations::evaluate(const ImpactPoint& at, const Pieces*) {
 bool ImpactCurveEquations::solve_bordered(const Eigen::VectorXd& row, double number,
                                           const Eigen::VectorXd& right, double right_number,
                                           Eigen::VectorXd& change, double& parameter_change) {
-  const Index size = row.size();
-  Eigen::MatrixXd matrix(size + 1, size + 1);
-  matrix.topLeftCorner(size, size) = equations_->matrix();
-  matrix.topRightCorner(size, 1) = slope_ * scales_.parameter;
-  matrix.bottomLeftCorner(1, size) = row.transpose();
-  matrix(size, size) = number * scales_.parameter;
-  Eigen::VectorXd whole(size + 1);
-  whole << right, right_number;
-  const Lu<double> factors(matrix);
-  if (factors.is_singular()) return false;
-  const Eigen::VectorXd solution = factors.solve(whole);
-  change = solution.head(size);
-  parameter_change = solution[size] * scales_.parameter;
-  return solution.allFinite();
+  Eigen::MatrixXd jacobian(row.size(), row.size() + 1);
+  jacobian << equations_->matrix(), slope_ * scales_.parameter;
+  const bool solved = solve_bordered_dense(jacobian, row, number * scales_.parameter, right, right_number,
+                                           change, parameter_change);
+  parameter_change *= scales_.parameter;
+  return solved && change.allFinite() && std::isfinite(parameter_change);
 }
 
 Eigen::VectorXd ImpactCurveEquations::weighted(const Eigen::VectorXd& u) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "linalg/index.hpp"
+#include "linalg/root.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -107,13 +108,12 @@ Flight::Peak Flight::peak_after(const Touch& touch) const {
     if (height > best.height) best = {height, time};
   }
   const double step = (length_ - touch.time) / samples;
-  double low = std::max(touch.time, best.time - step), high = std::min(length_, best.time + step);
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (motion_at(middle).velocity[touch.contact] > 0.0 ? low : high) = middle;
-  }
-  const double height = motion_at(low).displacement[touch.contact] - gap;
-  return height > best.height ? Peak{height, low} : best;
+  const double low = std::max(touch.time, best.time - step), high = std::min(length_, best.time + step);
+  const auto velocity = [&](double time) { return motion_at(time).velocity[touch.contact]; };
+  const auto top = root(velocity, {low, velocity(low)}, {high, velocity(high)}, 1e-15);
+  if (!top) return best;
+  const double height = motion_at(*top).displacement[touch.contact] - gap;
+  return height > best.height ? Peak{height, *top} : best;
 }
 
 }  // namespace wavebalance::solvers::detail

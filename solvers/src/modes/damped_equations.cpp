@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "continuation/bordered.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
-#include "modes/bordered.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "modes/bordered.hpp"
+#include "continuation/bordered.hpp"
 
 namespace wavebalance::solvers {
 
