@@ -17,7 +17,6 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double min_fundamental_share = 0.5;  // of the kinetic energy, of the mode itself
-constexpr double resonance_share = 0.15, resonance_detuning = 0.1;  // as in NonlinearModeOptions
 
 std::span<const double> view(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
@@ -327,10 +326,11 @@ void LagrangianMode::measure_shares(LagrangianPoint& point) const {
 LagrangianStatus LagrangianMode::classify(const LagrangianPoint& point) const {
   if (point.fundamental_share < min_fundamental_share) return LagrangianStatus::left_mode;
   if (point.force.isZero(0.0)) return LagrangianStatus::linear;
-  if (point.resonance.share < resonance_share) return LagrangianStatus::converged;
+  if (point.resonance.share < solvers::resonance_share) return LagrangianStatus::converged;
   const double omega_j = std::sqrt(model_.omega_squared[point.resonance.mode - 1]);
   const double detuning = std::abs(point.resonance.harmonic * point.omega - omega_j) / omega_j;
-  return detuning <= resonance_detuning ? LagrangianStatus::internal_resonance : LagrangianStatus::converged;
+  return detuning <= solvers::resonance_detuning ? LagrangianStatus::internal_resonance
+                                                 : LagrangianStatus::converged;
 }
 
 std::vector<LagrangianPoint> LagrangianMode::branch(std::span<const double> energy_ratios,

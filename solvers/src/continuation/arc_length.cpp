@@ -44,7 +44,6 @@ void ArcLengthOptions::validate() const {
   detail::require_positive(who, "initial_step", initial_step);
   detail::require_positive(who, "min_step", min_step);
   detail::require_positive(who, "max_step", max_step);
-  detail::require_positive(who, "max_angle", max_angle);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_corrections", max_corrections, 1);
   if (!(max_operations > 0.0)) detail::reject(who, "max_operations", max_operations, "positive");

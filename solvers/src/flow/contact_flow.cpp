@@ -57,7 +57,6 @@ void FlowOptions::validate() const {
   detail::require_at_least(who, "panels", panels, 1);
   detail::require_at_least(who, "max_panels", max_panels, panels);
   detail::require_positive(who, "tolerance", tolerance);
-  detail::require_positive(who, "rest_velocity", rest_velocity);
   if (!(length >= 0.0)) detail::reject(who, "length", length, "0 for none or positive");
 }
 

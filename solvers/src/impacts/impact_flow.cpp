@@ -21,8 +21,8 @@ Eigen::VectorXcd pressed(const ImpactModel& model, const Eigen::VectorXd& shift)
 
 }  // namespace
 
-ImpactFlow::ImpactFlow(const ImpactModel& model, int max_impacts)
-    : model_(model), max_impacts_(max_impacts), state_(Eigen::VectorXcd::Zero(model.poles())) {}
+ImpactFlow::ImpactFlow(const ImpactModel& model)
+    : model_(model), state_(Eigen::VectorXcd::Zero(model.poles())) {}
 
 void ImpactFlow::start(const Eigen::VectorXcd& state, double time) {
   state_ = state;
@@ -90,7 +90,8 @@ bool ImpactFlow::advance_period() {
 }
 
 bool ImpactFlow::advance_to(double time) {
-  for (int impacts = 0; impacts <= max_impacts_; ++impacts) {
+  constexpr int most_impacts = 2000;
+  for (int impacts = 0; impacts <= most_impacts; ++impacts) {
     const double length = std::max(0.0, time - time_) * model_.period();
     Flight flight(model_, state_, time_, length, allowed_penetration(model_));
     const Touch touch = flight.first_touch();

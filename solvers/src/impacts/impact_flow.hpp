@@ -11,7 +11,7 @@ namespace wavebalance::solvers::detail {
 /// periods of the model; those of events are shifted with each period, so that they keep their digits.
 class ImpactFlow {
  public:
-  ImpactFlow(const ImpactModel& model, int max_impacts);
+  explicit ImpactFlow(const ImpactModel& model);
 
   /// Begins where the motion without contact is farthest from the obstacles, pressed away from those it
   /// passes.
@@ -42,7 +42,6 @@ class ImpactFlow {
   bool comes_to_rest(double time);
 
   const ImpactModel& model_;
-  int max_impacts_;
   Eigen::VectorXcd state_;
   double time_ = 0.0, fastest_ = 0.0;
   std::vector<Event> events_;

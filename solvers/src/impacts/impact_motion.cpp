@@ -17,10 +17,6 @@
 
 namespace wavebalance::solvers {
 
-void ImpactMotionOptions::validate() const {
-  detail::require_at_least("ImpactMotionOptions", "max_iterations", max_iterations, 1);
-}
-
 namespace {
 
 double within_period(double time) {
@@ -260,8 +256,9 @@ ContactsAt ImpactSolution::at(double time) const {
 }
 
 ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                               const ImpactMotionOptions& options) {
+                               const Observer& observer) {
   constexpr double smallest_step = 1e-6;
+  constexpr int most_steps = 40;
   check_start(problem, start);
   const auto model = std::make_shared<const ImpactModel>(problem);
   ImpactSolution found;
@@ -270,8 +267,8 @@ ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<I
     return found;
   }
   ImpactUnknowns unknowns = unknowns_of(*model, start);
-  ImpactSystem system(*model, unknowns, options.observer);
-  const NewtonRun run = damped_newton(system, unknowns.values, options.max_iterations, smallest_step);
+  ImpactSystem system(*model, unknowns, observer);
+  const NewtonRun run = damped_newton(system, unknowns.values, most_steps, smallest_step);
   if (run.end == NewtonEnd::solved) {
     polish(system, unknowns.values);
     found = solution_of(model, unknowns);
@@ -309,11 +306,10 @@ PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution) {
 }  // namespace detail
 
 PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                          const ImpactMotionOptions& options) {
-  options.validate();
+                          const Observer& observer) {
   detail::require_impacts(problem);
   return detail::motion_of(
-      std::make_shared<const detail::ImpactSolution>(detail::impact_solution(problem, start, options)));
+      std::make_shared<const detail::ImpactSolution>(detail::impact_solution(problem, start, observer)));
 }
 
 }  // namespace wavebalance::solvers

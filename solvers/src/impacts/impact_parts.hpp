@@ -31,7 +31,7 @@ struct ImpactSolution {
 
 /// impact_motion() as a solution.
 ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                               const ImpactMotionOptions& options = {});
+                               const Observer& observer = {});
 
 /// The motion of a solution, if it is one.
 PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution);

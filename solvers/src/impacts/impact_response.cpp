@@ -8,9 +8,7 @@ namespace wavebalance::solvers {
 void ImpactResponseOptions::validate() const {
   detail::require_at_least("ImpactResponseOptions", "max_periods", max_periods, 1);
   detail::require_at_least("ImpactResponseOptions", "longest", longest, 1);
-  detail::require_at_least("ImpactResponseOptions", "max_impacts", max_impacts, 1);
   detail::require_positive("ImpactResponseOptions", "near", near);
-  newton.validate();
 }
 
 ImpactResponse impact_response(const PhasesProblem& problem, const ImpactResponseOptions& options) {

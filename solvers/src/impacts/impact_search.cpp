@@ -22,7 +22,7 @@ ImpactSearch::ImpactSearch(const PhasesProblem& problem, const ImpactResponseOpt
     : problem_(problem),
       options_(options),
       model_(problem),
-      flow_(model_, options.max_impacts),
+      flow_(model_),
       weights_(velocity_weights(model_)),
       best_(static_cast<std::size_t>(options.longest)),
       tried_(static_cast<std::size_t>(options.longest), std::numeric_limits<double>::infinity()) {}
@@ -93,7 +93,7 @@ ImpactResponse ImpactSearch::solve(const NearReturn& start) const {
   ImpactResponse response;
   response.load_periods = start.periods;
   response.distance = start.distance;
-  response.motion = impact_motion(over_periods(problem_, start.periods), start.impacts, options_.newton);
+  response.motion = impact_motion(over_periods(problem_, start.periods), start.impacts);
   if (!response.motion.converged()) return response;
   if (const int fewer = repeats_after(response.motion.impacts, start.periods); fewer < start.periods) {
     NearReturn shorter{fewer, start.distance, {}};
@@ -117,7 +117,7 @@ ImpactResponse ImpactSearch::resting(PhasesStatus status) const {
   stepping.max_periods = options_.max_periods;
   stepping.longest = options_.longest;
   stepping.observer = options_.observer;
-  ImpactFlow clear(model_, options_.max_impacts);
+  ImpactFlow clear(model_);
   if (options_.start.size() == 0)
     clear.start_clear();
   else

@@ -69,7 +69,7 @@ class DampedMotions {
   Eigen::VectorXd weighted(const Eigen::VectorXd& change) const { return metric_.cwiseProduct(change); }
   double squared_parameter_scale() const { return 1.0; }
   double tolerance() const { return options_.tolerance; }
-  int max_corrections(bool) const { return options_.max_corrections; }
+  int max_corrections(bool) const { return 20; }
   bool lowers_residual() const { return true; }
 
   const DampedProblem& problem() const { return problem_; }

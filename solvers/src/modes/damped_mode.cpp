@@ -136,10 +136,8 @@ void DampedBackboneOptions::validate() const {
   detail::require_positive(who, "initial_step", initial_step);
   detail::require_positive(who, "min_step", min_step);
   detail::require_positive(who, "max_step", max_step);
-  detail::require_positive(who, "frequency_scale", frequency_scale);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_points", max_points, 1);
-  detail::require_at_least(who, "max_corrections", max_corrections, 1);
 }
 
 DampedMode::DampedMode(const LinearStructure& structure, const TimePair& pair, ContactLaws laws, int mode) {

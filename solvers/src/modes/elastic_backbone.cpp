@@ -18,10 +18,6 @@ constexpr double most_energy_jump = 2.0;
 
 }  // namespace
 
-ModeFollower::ModeFollower(ModeCurve& curve, const ElasticModeOptions& mode,
-                           const ElasticBackboneOptions& options, bool starts_linear)
-    : curve_(curve), mode_(mode), options_(options), starts_linear_(starts_linear) {}
-
 bool ModeFollower::start() {
   state_ = curve_.linear_state(starts_linear_ ? 1.0 : first_amplitude);
   if (!starts_linear_) {
@@ -37,7 +33,7 @@ bool ModeFollower::start() {
 }
 
 ModePoint ModeFollower::measure(int iterations) const {
-  return elastic_point(curve_.equations(), mode_, iterations);
+  return elastic_point(curve_.equations(), iterations);
 }
 
 // Beyond an internal resonance the curve goes on, at energies that no motion off the resonance may have. The
@@ -132,8 +128,7 @@ void ModeFollower::keep(ModePoint point) {
 std::optional<BackboneStatus> ModeFollower::end_at(const ModePoint& point) const {
   if (point.energy_ratio > options_.max_energy) return BackboneStatus::reached_energy;
   const double ratio = point.omega / curve_.equations().problem().linear_omega();
-  if (ratio > options_.max_frequency_ratio || ratio < options_.min_frequency_ratio)
-    return BackboneStatus::reached_frequency;
+  if (ratio > options_.max_frequency_ratio) return BackboneStatus::reached_frequency;
   return std::nullopt;
 }
 

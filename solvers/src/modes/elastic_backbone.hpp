@@ -10,8 +10,8 @@ namespace wavebalance::solvers {
 /// Follows a curve of free motions to the end that the options name, past internal resonances.
 class ModeFollower {
  public:
-  ModeFollower(ModeCurve& curve, const ElasticModeOptions& mode, const ElasticBackboneOptions& options,
-               bool starts_linear);
+  ModeFollower(ModeCurve& curve, const ElasticBackboneOptions& options, bool starts_linear)
+      : curve_(curve), options_(options), starts_linear_(starts_linear) {}
 
   ElasticBackbone follow();
   /// The motion of an energy ratio within the last step of follow().
@@ -35,7 +35,6 @@ class ModeFollower {
   std::optional<BackboneStatus> end_at(const ModePoint& point) const;
 
   ModeCurve& curve_;
-  const ElasticModeOptions& mode_;
   const ElasticBackboneOptions& options_;
   bool starts_linear_;
   CurveState state_, before_;  // the last point and the one that its step began at

@@ -93,8 +93,6 @@ void ElasticModeOptions::validate() const {
   constexpr const char* who = "ElasticModeOptions";
   detail::require_at_least(who, "mode", mode, 1);
   detail::require_positive(who, "tolerance", tolerance);
-  detail::require_share(who, "resonance_share", resonance_share);
-  detail::require_share(who, "resonance_detuning", resonance_detuning);
 }
 
 void ElasticBackboneOptions::validate() const {
@@ -102,14 +100,10 @@ void ElasticBackboneOptions::validate() const {
   detail::require_positive(who, "max_energy", max_energy);
   if (!(max_frequency_ratio > 1.0))
     detail::reject(who, "max_frequency_ratio", max_frequency_ratio, "above 1");
-  if (!(min_frequency_ratio >= 0.0 && min_frequency_ratio < 1.0))
-    detail::reject(who, "min_frequency_ratio", min_frequency_ratio, "in 0..1, below 1");
   detail::require_at_least(who, "max_points", max_points, 1);
-  detail::require_at_least(who, "max_corrections", max_corrections, 1);
   detail::require_positive(who, "initial_step", initial_step);
   detail::require_positive(who, "min_step", min_step);
   detail::require_positive(who, "max_step", max_step);
-  detail::require_positive(who, "frequency_scale", frequency_scale);
 }
 
 ElasticMode::ElasticMode(ModalModel model, const TimePair& pair, ContactLaws laws, ElasticModeOptions options)
@@ -162,7 +156,7 @@ ElasticBackbone ElasticMode::backbone(const ElasticBackboneOptions& options) con
   options.validate();
   ModeEquations equations(*problem_);
   ModeCurve curve(equations, options, options_.tolerance);
-  return ModeFollower(curve, options_, options, starts_linear()).follow();
+  return ModeFollower(curve, options, starts_linear()).follow();
 }
 
 ModePoint ElasticMode::at_energy(double energy_ratio, ElasticBackboneOptions options,
@@ -173,7 +167,7 @@ ModePoint ElasticMode::at_energy(double energy_ratio, ElasticBackboneOptions opt
   options.validate();
   ModeEquations equations(*problem_);
   ModeCurve curve(equations, options, options_.tolerance);
-  ModeFollower follower(curve, options_, options, starts_linear());
+  ModeFollower follower(curve, options, starts_linear());
   const ElasticBackbone found = follower.follow();
   if (found.status != BackboneStatus::reached_energy) return {};
   return follower.at_energy(energy_ratio, tolerance);
@@ -186,7 +180,7 @@ std::optional<ModePoint> ElasticMode::between(const ModePoint& a, const ModePoin
   ModeCurve curve(equations, options, options_.tolerance);
   CurveState state;
   if (!curve.between(a.unknown, b.unknown, share, state)) return std::nullopt;
-  return elastic_point(equations, options_, state.iterations);
+  return elastic_point(equations, state.iterations);
 }
 
 PeriodicStiffness ElasticMode::contact_stiffness(const ModePoint& point) const {

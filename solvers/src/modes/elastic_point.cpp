@@ -8,21 +8,16 @@
 namespace wavebalance::solvers {
 namespace {
 
-/// Quadratic forms of a motion, means over the period.
-struct Forms {
-  double mass = 0.0;       ///< of the velocities over omega, kg m^2
-  double stiffness = 0.0;  ///< J
-};
-
-Forms forms_of(const ModeProblem& problem, const Eigen::MatrixXd& modes) {
+// Of the velocities over omega, means over the period, modes x (K + 1), kg m^2.
+Eigen::MatrixXd kinetic_of(const ModeProblem& problem, const Eigen::MatrixXd& modes) {
   const PairTransform& transform = problem.transform;
-  Forms forms;
+  Eigen::MatrixXd kinetic = Eigen::MatrixXd::Zero(modes.cols(), transform.highest() + 1);
   for (int row = 0; row < transform.rows(); ++row) {
-    const Eigen::RowVectorXd squares = transform.mean_square[row] * modes.row(row).cwiseAbs2();
-    forms.mass += transform.inertia[transform.order[static_cast<std::size_t>(row)]] * squares.sum();
-    forms.stiffness += squares.dot(problem.model.omega_squared);
+    const int k = transform.order[static_cast<std::size_t>(row)];
+    kinetic.col(k) +=
+        transform.inertia[k] * transform.mean_square[row] * modes.row(row).cwiseAbs2().transpose();
   }
-  return forms;
+  return kinetic;
 }
 
 /// Mean over the period of the laws' potential; a rigid obstacle stores none.
@@ -45,30 +40,6 @@ void set_amplitudes(const ModeProblem& problem, const Eigen::MatrixXd& modes, Mo
   }
 }
 
-/// The harmonic k >= 2 of a mode that has the largest share of the kinetic energy.
-InternalResonance strongest_resonance(const ModeProblem& problem, const Eigen::MatrixXd& modes, double mass) {
-  const PairTransform& transform = problem.transform;
-  InternalResonance strongest;
-  for (int k = 2; k <= transform.highest(); ++k)
-    for (Index j = 0; j < modes.cols(); ++j) {
-      double square = 0.0;
-      const int row = transform.real_rows[static_cast<std::size_t>(k)];
-      for (int part = 0; part < (transform.has_sines() ? 2 : 1); ++part)
-        square += transform.mean_square[row + part] * modes(row + part, j) * modes(row + part, j);
-      const double share = transform.inertia[k] * square / mass;
-      if (share > strongest.share) strongest = {k, static_cast<int>(j + 1), share};
-    }
-  return strongest;
-}
-
-bool is_resonant(const ModeProblem& problem, const InternalResonance& resonance, double omega,
-                 const ElasticModeOptions& options) {
-  if (resonance.harmonic == 0 || resonance.share < options.resonance_share) return false;
-  const double natural = std::sqrt(problem.model.omega_squared[resonance.mode - 1]);
-  const double driven = std::sqrt(problem.transform.inertia[resonance.harmonic]) * omega;
-  return std::abs(driven - natural) <= options.resonance_detuning * natural;
-}
-
 void measure_contact(const ModeProblem& problem, const Eigen::MatrixXd& displacement, ModePoint& point) {
   const auto samples = static_cast<int>(displacement.rows());
   const Eigen::RowVectorXd highest = displacement.colwise().maxCoeff();
@@ -82,15 +53,33 @@ void measure_contact(const ModeProblem& problem, const Eigen::MatrixXd& displace
 
 }  // namespace
 
+InternalResonance strongest_resonance(const Eigen::MatrixXd& kinetic) {
+  InternalResonance strongest;
+  const double mass = kinetic.sum();
+  for (Index k = 2; k < kinetic.cols(); ++k)
+    for (Index j = 0; j < kinetic.rows(); ++j)
+      if (const double share = kinetic(j, k) / mass; share > strongest.share)
+        strongest = {static_cast<int>(k), static_cast<int>(j + 1), share};
+  return strongest;
+}
+
+bool is_resonant(const InternalResonance& resonance, const ModalModel& model, double driven) {
+  if (resonance.harmonic == 0 || resonance.share < resonance_share) return false;
+  const double natural = std::sqrt(model.omega_squared[resonance.mode - 1]);
+  return std::abs(driven - natural) <= resonance_detuning * natural;
+}
+
 double grazing_energy(const ModeProblem& problem) {
   const double square = problem.transform.mean_square[problem.transform.real_rows[1]];
   return problem.model.omega_squared[problem.mode] * square * problem.amplitude * problem.amplitude;
 }
 
-ModePoint elastic_point(const ModeEquations& equations, const ElasticModeOptions& options, int iterations) {
+ModePoint elastic_point(const ModeEquations& equations, int iterations) {
   const ModeProblem& problem = equations.problem();
   const Eigen::MatrixXd modes = equations.modal_coefficients(), displacement = equations.displacement();
-  const Forms forms = forms_of(problem, modes);
+  const Eigen::MatrixXd kinetic = kinetic_of(problem, modes);
+  const double mass = kinetic.sum(),
+               stiffness = problem.transform.mean_square.dot(modes.cwiseAbs2() * problem.model.omega_squared);
   const double omega = equations.omega(), square = omega * omega;
   const double linear_mass =
       problem.first_inertia() * grazing_energy(problem) / problem.model.omega_squared[problem.mode];
@@ -100,18 +89,19 @@ ModePoint elastic_point(const ModeEquations& equations, const ElasticModeOptions
   point.unknown = equations.unknowns();
   point.force = equations.force().transpose();
   set_amplitudes(problem, modes, point);
-  const double energy = 0.5 * (square * forms.mass + forms.stiffness) +
-                        stored_energy(problem, equations.displacement_of_laws());
+  const double energy =
+      0.5 * (square * mass + stiffness) + stored_energy(problem, equations.displacement_of_laws());
   point.energy_ratio = energy / grazing_energy(problem);
-  point.gamma_ratio = forms.mass / linear_mass;
-  point.rayleigh = forms.stiffness / forms.mass;
+  point.gamma_ratio = mass / linear_mass;
+  point.rayleigh = stiffness / mass;
   const double virial = displacement.cwiseProduct(equations.force()).sum() / double(displacement.rows());
-  point.virial_residual = std::abs(square * forms.mass - forms.stiffness - virial) / (square * forms.mass);
+  point.virial_residual = std::abs(square * mass - stiffness - virial) / (square * mass);
   measure_contact(problem, displacement, point);
   point.residual = std::max(equations.relative_residual(), equations.imbalance());
-  point.resonance = strongest_resonance(problem, modes, forms.mass);
-  point.status = is_resonant(problem, point.resonance, omega, options) ? ModeStatus::internal_resonance
-                                                                       : ModeStatus::converged;
+  point.resonance = strongest_resonance(kinetic);
+  const double driven = std::sqrt(problem.transform.inertia[point.resonance.harmonic]) * omega;
+  point.status = is_resonant(point.resonance, problem.model, driven) ? ModeStatus::internal_resonance
+                                                                     : ModeStatus::converged;
   return point;
 }
 

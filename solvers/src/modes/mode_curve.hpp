@@ -30,7 +30,7 @@ class FreeMotions {
   Eigen::VectorXd weighted(const Eigen::VectorXd& change) const { return metric_.cwiseProduct(change); }
   double squared_parameter_scale() const { return squared_parameter_scale_; }
   double tolerance() const { return tolerance_; }
-  int max_corrections(bool) const { return options_.max_corrections; }
+  int max_corrections(bool) const { return 10; }
 
  private:
   ModeEquations& equations_;

@@ -58,8 +58,7 @@ class ModeEquations {
   Eigen::MatrixXd jacobian() const;
 
   const ModeProblem& problem() const { return problem_; }
-  const Eigen::MatrixXd& force() const { return force_; }             ///< N x C
-  const Eigen::MatrixXd& force_coefficients() const { return psi_; }  ///< R x C
+  const Eigen::MatrixXd& force() const { return force_; }  ///< N x C
   /// Displacements of the contacts, N x C, m.
   Eigen::MatrixXd displacement() const;
   /// Those at which the laws have their forces: in the force form these agree with displacement() within the

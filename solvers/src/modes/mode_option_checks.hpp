@@ -14,8 +14,4 @@ inline void require_mode_discretisation(const char* who, int mode, int harmonics
            ("at least twice the harmonics, which are " + std::to_string(harmonics)).c_str());
 }
 
-inline void require_share(const char* who, const char* name, double value) {
-  if (!(value >= 0.0 && value <= 1.0)) reject(who, name, value, "in 0..1");
-}
-
 }  // namespace wavebalance::solvers::detail

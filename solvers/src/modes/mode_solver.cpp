@@ -7,6 +7,7 @@
 
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
+#include "modes/elastic_point.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -196,20 +197,11 @@ void ModeSolver::measure_complementarity(ModePoint& point) const {
 }
 
 void ModeSolver::classify_resonance(ModePoint& point) const {
-  double mass = 0.0;
-  for (Index n = 1; n < point.amplitudes.cols(); ++n)
-    mass += double(n * n) * point.amplitudes.col(n).cwiseAbs2().sum();
-  for (Index n = 2; n < point.amplitudes.cols(); ++n)
-    for (Index j = 0; j < point.amplitudes.rows(); ++j) {
-      const double share = double(n * n) * std::norm(point.amplitudes(j, n)) / mass;
-      if (share > point.resonance.share)
-        point.resonance = {static_cast<int>(n), static_cast<int>(j + 1), share};
-    }
-  const NonlinearModeOptions& options = mode_.options();
-  if (point.resonance.share < options.resonance_share) return;
-  const double omega_j = std::sqrt(mode_.model().omega_squared[point.resonance.mode - 1]);
-  const double detuning = std::abs(point.resonance.harmonic * omega_ - omega_j) / omega_j;
-  if (detuning <= options.resonance_detuning) point.status = ModeStatus::internal_resonance;
+  Eigen::MatrixXd kinetic = point.amplitudes.cwiseAbs2();
+  for (Index n = 0; n < kinetic.cols(); ++n) kinetic.col(n) *= double(n * n);
+  point.resonance = strongest_resonance(kinetic);
+  if (is_resonant(point.resonance, mode_.model(), point.resonance.harmonic * omega_))
+    point.status = ModeStatus::internal_resonance;
 }
 
 }  // namespace wavebalance::solvers

@@ -136,7 +136,6 @@ void ModeStabilityOptions::validate() const {
   detail::require_positive(who, "max_closure", max_closure);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_states", max_states, 0);
-  monodromy.validate();
 }
 
 ModeMultipliers::ModeMultipliers(const ElasticMode& mode, ModeStabilityOptions options)
@@ -157,8 +156,7 @@ ModeStability by_stiffness(const ModalModel& model, const ModePoint& point, Peri
   result.status = StabilityStatus::effort_limit;
   if (2 * modes > options.max_states) return result;
   const auto dynamics = ContactDynamics::undamped(model.omega_squared, model.contact_shapes, modes);
-  const Eigen::MatrixXd map =
-      monodromy_map(dynamics, stiffness, point.omega / (2.0 * std::numbers::pi), options.monodromy);
+  const Eigen::MatrixXd map = monodromy_map(dynamics, stiffness, point.omega / (2.0 * std::numbers::pi), {});
   if (!map.allFinite()) return result;
   const auto [rest, closure] = reduced(map, model, point);
   result.closure = closure;

@@ -43,8 +43,6 @@ void NonlinearModeOptions::validate() const {
   detail::require_mode_discretisation(who, mode, harmonics, samples);
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_iterations", max_iterations, 1);
-  detail::require_share(who, "resonance_share", resonance_share);
-  detail::require_share(who, "resonance_detuning", resonance_detuning);
 }
 
 NonlinearMode::NonlinearMode(ModalModel model, NonlinearModeOptions options)
@@ -132,7 +130,6 @@ void BackboneOptions::validate() const {
                                 std::to_string(points) +
                                 "; 1 < first < last and at least 2 points are needed");
   detail::require_positive("BackboneOptions", "max_energy", max_energy);
-  detail::require_positive("BackboneOptions", "max_jump", max_jump);
 }
 
 std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options) {

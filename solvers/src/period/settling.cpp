@@ -251,7 +251,6 @@ void SettlingOptions::validate() const {
   detail::require_at_least(who, "max_periods", max_periods, 1);
   detail::require_at_least(who, "longest", longest, 1);
   detail::require_positive(who, "tolerance", tolerance);
-  detail::require_at_least(who, "max_modes", max_modes, 1);
   detail::require_at_least(who, "max_size", max_size, 0);
   detail::require_positive(who, "max_operations", max_operations);
   detail::require_at_least(who, "max_returns", max_returns, 0);

@@ -67,26 +67,6 @@ Eigen::SparseMatrix<double> transformed(const Eigen::SparseMatrix<double>& matri
   return (0.5 * (product + product.transpose())).sparseView();
 }
 
-// All modes of the symmetric part of the stiffness, normalised by the mass: the lower half from M/K and the
-// upper from K/M, each of which is accurate at its own end of the spectrum.
-std::pair<Eigen::VectorXd, Eigen::MatrixXd> all_modes(const LinearStructure& structure) {
-  const Eigen::MatrixXd mass(structure.mass), stiffness(structure.stiffness);
-  const Eigen::MatrixXd symmetric = 0.5 * (stiffness + stiffness.transpose());
-  const auto high = detail::symmetric_eigen(symmetric, mass), low = detail::symmetric_eigen(mass, symmetric);
-  if (!high || !low)
-    throw std::invalid_argument(
-        "with_massless_contacts: the modes were not found; expected a mass and a stiffness that are positive "
-        "definite");
-  Eigen::VectorXd squared = high->values;
-  Eigen::MatrixXd shapes = high->vectors;
-  for (Eigen::Index i = 0; i < squared.size() / 2; ++i) {
-    const Eigen::Index from = squared.size() - 1 - i;  // 1 / omega^2 ascend
-    squared[i] = 1.0 / low->values[from];
-    shapes.col(i) = low->vectors.col(from) * std::sqrt(squared[i]);
-  }
-  return {squared.cwiseSqrt(), std::move(shapes)};
-}
-
 }  // namespace
 
 MasslessContacts with_massless_contacts(LinearStructure structure, int modes, const Eigen::VectorXd& omega,
@@ -110,12 +90,6 @@ MasslessContacts with_massless_contacts(LinearStructure structure, int modes, co
   directions.leftCols(modes).setZero();
   structure.contact_directions = directions.sparseView(1.0, 1e-12);
   return {std::move(structure), std::move(basis)};
-}
-
-MasslessContacts with_massless_contacts(LinearStructure structure) {
-  const int modes = structure.size() - structure.contacts();
-  const auto [omega, shapes] = all_modes(structure);
-  return with_massless_contacts(std::move(structure), modes, omega, shapes);
 }
 
 }  // namespace wavebalance::solvers

@@ -64,13 +64,6 @@ double series_value(const Eigen::VectorXcd& amplitudes, double periods) {
   return sum.real();
 }
 
-double series_slope(const Eigen::VectorXcd& amplitudes, double periods) {
-  const std::complex<double> turn = std::polar(1.0, two_pi * periods);
-  std::complex<double> sum = 0.0;
-  for (Index m = amplitudes.size() - 1; m > 0; --m) sum = sum * turn + double(m) * amplitudes[m];
-  return -two_pi * (sum * turn).imag();
-}
-
 int repeats_within_period(const Eigen::VectorXcd& harmonics) {
   int common = 0;
   for (Index n = 1; n < harmonics.size(); ++n)

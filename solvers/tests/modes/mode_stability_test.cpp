@@ -8,6 +8,7 @@
 #include "support/runge_kutta.hpp"
 #include "support/small_problems.hpp"
 #include "testing.hpp"
+#include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -2,6 +2,7 @@
 // calls, in any order.
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "dense_algebra.hpp"
+#include "linalg/dense.hpp"
 #include "support/impact_scenes.hpp"
 #include "support/oscillator.hpp"
 #include "support/refusal.hpp"
@@ -107,7 +108,9 @@ TEST(ContactProblem, TellsAmplitudesInTheUnitOfItsLoad) {
 TEST(ContactProblem, TakesARigidObstacleAtContactsWithoutMass) {
   std::mt19937 generator(8);
   const LinearStructure chain = testing::random_chain(6, generator);
-  const MasslessContacts massless = with_massless_contacts(chain);
+  const auto modes = detail::symmetric_eigen(Eigen::MatrixXd(chain.stiffness), Eigen::MatrixXd(chain.mass));
+  const MasslessContacts massless = with_massless_contacts(
+      chain, chain.size() - chain.contacts(), modes.value().values.cwiseSqrt(), modes.value().vectors);
   ContactProblem open(testing::fourier_pair(63, 256), chain, {});
   const double free = open.respond(0.06).displacement.maxCoeff(), gap = 0.5 * free;
   double coarse = 0.0;  // how far the obstacle is passed at the points, an error of the discretisation

@@ -26,13 +26,6 @@ TEST(PeriodicForce, AmplitudesOfADerivativeAreThoseOfTheDifferenceQuotient) {
   EXPECT_EQ(rates[0], 0.0);
 }
 
-TEST(PeriodicForce, SlopeOfASeriesIsItsDerivativeByPeriods) {
-  const double h = 1e-6;
-  for (const double s : {0.0, 0.13, 0.7})
-    EXPECT_NEAR(series_slope(some_series(), s),
-                (series_value(some_series(), s + h) - series_value(some_series(), s - h)) / (2.0 * h), 1e-7);
-}
-
 TEST(PeriodicForce, ASeriesOverSeveralPeriodsHasTheSameValues) {
   const Eigen::VectorXcd longer = over_periods(some_series(), 3);
   ASSERT_EQ(longer.size(), 10);

@@ -68,7 +68,7 @@ struct ArcLengthOptions {
   double max_step = 0.25;      ///< scaled arc length
   /// rad, between the tangent of a point and the chord to the next, and between the tangents of successive
   /// points; the latter may differ by twice as much after a long step of more than 512 samples.
-  double max_angle = 0.35;
+  static constexpr double max_angle = 0.35;
   /// Newton steps per point; half as many after a long step, twice as many with more than 512 samples.
   int max_corrections = 8;
   double tolerance = 1e-10;  ///< on the relative residual

@@ -27,7 +27,7 @@ struct FlowOptions {
   int max_panels = 100000;  ///< of a period
   /// Below this share of the fastest impact of a contact one has no rebound, so that contact with restitution
   /// comes to rest after finitely many.
-  double rest_velocity = 1e-6;
+  static constexpr double rest_velocity = 1e-6;
   bool margins = false;  ///< whether off_center() is known
   /// Whether contacts stay in the states in which they begin, whatever ends these.
   bool keeps_states = false;

@@ -14,14 +14,6 @@ struct ImpactGuess {
   double impulse = 0.0;  ///< N s
 };
 
-struct ImpactMotionOptions {
-  int max_iterations = 40;  ///< of Newton's method
-  Observer observer = {};   ///< called before each of its steps
-
-  /// Throws std::invalid_argument for a number out of its range.
-  void validate() const;
-};
-
 /// The periodic motion near the impacts of a start, in any order, of contacts that all have a restitution:
 /// contact c stays at or below its gap, and where it reaches it with the velocity v > 0, an impulse p along
 /// its direction leaves it with the velocity -e_c v. With J = S M^-1 S^T, p J_cc = (1 + e_c) v, and with the
@@ -44,9 +36,10 @@ struct ImpactMotionOptions {
 ///
 /// Throws std::invalid_argument for sizes that do not fit, numbers out of their range, structural damping, a
 /// structure that is free to move, a contact without mass, which has no impacts, and a start with a contact
-/// that does not exist or a number that is not finite. O(K^2 poles + K^3) for each step.
+/// that does not exist or a number that is not finite. The observer is called before each of at most 40
+/// steps, O(K^2 poles + K^3).
 PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                          const ImpactMotionOptions& options = {});
+                          const Observer& observer = {});
 
 /// C x C, 1/kg: S M^-1 S^T, the velocities of the contacts by impulses of 1 N s. O(C^2 poles).
 Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics);

@@ -11,13 +11,11 @@ namespace wavebalance::solvers {
 struct ImpactResponseOptions {
   int max_periods = 2000;  ///< of the load
   int longest = 16;        ///< periods of the load after which a motion may repeat
-  int max_impacts = 2000;  ///< in a period of the load
   double near = 1e-2;      ///< relative change of the state after which Newton's method is tried
   /// The deviation from the motion without contact at t = 0, one number for each of ContactDynamics::poles();
   /// empty: where it is clear of all obstacles.
   Eigen::VectorXcd start{};
-  ImpactMotionOptions newton{};  ///< its observer is not called
-  Observer observer = {};        ///< called once per period
+  Observer observer = {};  ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

@@ -18,11 +18,11 @@ struct DampedBackboneOptions {
   double initial_step = 0.05;    ///< arc length, that of ln(amplitude) while shape and frequency stay
   double min_step = 1e-6;        ///< below it the curve is lost
   double max_step = 0.1;         ///< of the same
-  double frequency_scale = 0.2;  ///< a change of omega or xi over the linear omega by this has the length 1
-  double tolerance = 1e-10;      ///< on the relative residual of the balance
-  int max_points = 5000;         ///< the curve ends after so many points
-  int max_corrections = 20;      ///< Newton steps per point
-  Observer observer = {};        ///< called before each point; the curve ends when it returns false
+  static constexpr double frequency_scale =
+      0.2;                   ///< a change of omega or xi over the linear omega by this has the length 1
+  double tolerance = 1e-10;  ///< on the relative residual of the balance
+  int max_points = 5000;     ///< the curve ends after so many points
+  Observer observer = {};    ///< called before each point; the curve ends when it returns false
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

@@ -20,9 +20,7 @@ struct ElasticModeOptions {
   bool cosine_only = false;  ///< seek motions that are even in time: half the unknowns; Fourier bases only
   /// automatic: force for a law much stiffer than its contact, else displacement.
   ContactForm form = ContactForm::automatic;
-  double tolerance = 1e-10;         ///< on the relative residual of the balance
-  double resonance_share = 0.15;    ///< as in NonlinearModeOptions
-  double resonance_detuning = 0.1;  ///< as in NonlinearModeOptions
+  double tolerance = 1e-10;  ///< on the relative residual of the balance
 
   /// Throws std::invalid_argument for a number out of its range, whatever the model.
   void validate() const;
@@ -32,14 +30,12 @@ struct ElasticModeOptions {
 struct ElasticBackboneOptions {
   double max_energy = 10.0;          ///< the curve ends once the energy ratio is above
   double max_frequency_ratio = 1.3;  ///< or omega over the linear one
-  double min_frequency_ratio = 0.0;  ///< or below this, for laws that soften
   int max_points = 2000;             ///< or after so many points
   /// Arc lengths. An rms change of the contacts by their gaps has the length 1, as has a change of omega over
   /// the linear one by `frequency_scale`.
   double initial_step = 0.01, min_step = 1e-7, max_step = 0.1;
-  double frequency_scale = 0.2;
-  int max_corrections = 10;  ///< Newton steps per point
-  Observer observer = {};    ///< called before each point; the curve ends when it returns false
+  static constexpr double frequency_scale = 0.2;
+  Observer observer = {};  ///< called before each point; the curve ends when it returns false
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -48,7 +44,7 @@ struct ElasticBackboneOptions {
 /// How a backbone ended.
 enum class BackboneStatus {
   reached_energy,      ///< at max_energy
-  reached_frequency,   ///< at max_frequency_ratio or min_frequency_ratio, below max_energy
+  reached_frequency,   ///< at max_frequency_ratio, below max_energy
   internal_resonance,  ///< on an internal resonance that no step passed, and along which it was lost
   lost,                ///< no further point was found
   no_start,            ///< no point was found beside the linear mode

@@ -6,7 +6,6 @@
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/stability/curve_stability.hpp"
-#include "wavebalance/solvers/stability/monodromy.hpp"
 
 namespace wavebalance::solvers {
 
@@ -16,10 +15,9 @@ struct ModeStabilityOptions {
   /// ratio growth / (2 pi) stops as much.
   double growth = 1e-3;
   double max_closure = 0.1;  ///< largest ModeStability::closure; beyond it the status is too_few_harmonics
-  MonodromyOptions monodromy = {};
-  double tolerance = 1e-5;  ///< of special points: width of a bracket over the distance of two points
-  int max_states = 800;     ///< twice the modes up to which multipliers are computed, at O(states^3)
-  Observer observer = {};   ///< called after each point of a backbone
+  double tolerance = 1e-5;   ///< of special points: width of a bracket over the distance of two points
+  int max_states = 800;      ///< twice the modes up to which multipliers are computed, at O(states^3)
+  Observer observer = {};    ///< called after each point of a backbone
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

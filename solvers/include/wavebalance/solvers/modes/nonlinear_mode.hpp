@@ -43,6 +43,10 @@ struct InternalResonance {
   double share = 0.0;
 };
 
+/// A point is on an internal resonance if one higher harmonic n of one mode j has this share of the kinetic
+/// energy, and |n omega - omega_j| is below resonance_detuning omega_j.
+inline constexpr double resonance_share = 0.15, resonance_detuning = 0.1;
+
 /// The discretisation of a nonlinear mode, and when a solution is accepted.
 struct NonlinearModeOptions {
   int mode = 1;              ///< the linear mode that the nonlinear one continues, from 1
@@ -51,10 +55,6 @@ struct NonlinearModeOptions {
   bool cosine_only = false;  ///< seek motions that are even in time: half the unknowns
   double tolerance = 1e-10;  ///< penetration over the gap that counts as contact
   int max_iterations = 200;  ///< exchanges of the active set, per number of harmonics
-  /// A point is on an internal resonance if one higher harmonic n of one mode j has this share of the kinetic
-  /// energy, and |n omega - omega_j| is below resonance_detuning omega_j.
-  double resonance_share = 0.15;
-  double resonance_detuning = 0.1;
 
   /// Throws std::invalid_argument for a number out of its range, whatever the model.
   void validate() const;
@@ -125,7 +125,7 @@ struct BackboneOptions {
   double max_energy = 10.0;    ///< the curve ends once the energy ratio is above
   /// Largest change of ln(energy ratio) between accepted neighbours. Above it a point is solved anew by
   /// harmonic continuation.
-  double max_jump = 0.25;
+  static constexpr double max_jump = 0.25;
   Observer observer = {};  ///< called before each point; the curve ends when it returns false
 
   /// Throws std::invalid_argument for a number out of its range.

@@ -19,11 +19,11 @@ struct SettlingOptions {
   int max_periods = 600;    ///< of the load
   int longest = 16;         ///< periods of the load after which a motion may repeat
   double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
-  int max_modes = 120;      ///< of the structure; the others deflect statically
-  int max_size = 400;       ///< degrees of freedom up to which the modes are computed
-  double max_operations = 1e10;  ///< two to five seconds; as much again for motions near returns
-  int max_returns = 12;          ///< pieces of the motion that are kept where it does not settle
-  Observer observer;             ///< called once per period
+  static constexpr int max_modes = 120;  ///< of the structure; the others deflect statically
+  int max_size = 400;                    ///< degrees of freedom up to which the modes are computed
+  double max_operations = 1e10;          ///< two to five seconds; as much again for motions near returns
+  int max_returns = 12;                  ///< pieces of the motion that are kept where it does not settle
+  Observer observer;                     ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;

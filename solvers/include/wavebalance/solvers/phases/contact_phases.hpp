@@ -61,7 +61,7 @@ enum class PhasesStatus {
   chattering,            ///< infinitely many impacts in a finite time, then contact that lasts
   lasting_contact,       ///< contact lasts from an impact without rebound on, as load or motion press it
   not_settled,           ///< no periodic motion was found within the options' limits
-  too_many_impacts,      ///< more than max_impacts in a period of the load
+  too_many_impacts,      ///< more than 2000 in a period of the load
   cancelled              ///< the observer returned false; the motion is that found before, if there is one
 };
 

@@ -22,8 +22,5 @@ struct MasslessContacts {
 /// independently of one another. O(n^3).
 MasslessContacts with_massless_contacts(LinearStructure structure, int modes, const Eigen::VectorXd& omega,
                                         const Eigen::MatrixXd& shapes);
-/// The same with as many modes as the contacts leave, which are computed. Throws std::invalid_argument also
-/// where mass or stiffness are not positive definite.
-MasslessContacts with_massless_contacts(LinearStructure structure);
 
 }  // namespace wavebalance::solvers

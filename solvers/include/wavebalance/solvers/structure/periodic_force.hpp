@@ -33,9 +33,8 @@ struct PeriodicForce {
   Eigen::VectorXcd amplitudes(double frequency) const;
 };
 
-/// The value of Re sum_m amplitudes[m] exp(2 pi i m s) at s periods, and its derivative by s. O(H).
+/// The value of Re sum_m amplitudes[m] exp(2 pi i m s) at s periods. O(H).
 double series_value(const Eigen::VectorXcd& amplitudes, double periods);
-double series_slope(const Eigen::VectorXcd& amplitudes, double periods);
 
 /// How often a series repeats within its period: the greatest common divisor of its harmonics above 0, 1
 /// without any.
