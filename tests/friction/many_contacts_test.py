@@ -58,3 +58,33 @@ def test_work_and_wear_are_drawn_of_the_contacts_where_they_are_largest(tmp_path
     words = "Stability was not computed. analysis.stability = true computes it."
     assert words in (tmp_path / "report.html").read_text()
 
+
+
+def rubbing_beam(count, elements=30):
+    """A clamped steel beam with 20 N at its tip, of which `count` nodes rub: springs of 1e6 N/m, at most 3 N."""
+    modulus, density, width, height, h = 2.1e11, 7850.0, 0.03, 0.01, 0.6 / elements
+    bending, mass_of_one, n = modulus * width * height**3 / 12, density * width * height * h, 2 * elements + 2
+    k = bending / h**3 * np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h],
+                                   [-12, -6 * h, 12, -6 * h], [6 * h, 2 * h * h, -6 * h, 4 * h * h]])
+    m = mass_of_one / 420 * np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
+                                      [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]])
+    mass, stiffness = np.zeros((n, n)), np.zeros((n, n))
+    for first in range(0, 2 * elements, 2):
+        mass[first:first + 4, first:first + 4] += m
+        stiffness[first:first + 4, first:first + 4] += k
+    nodes = np.round(np.linspace(2, elements - 1, count)).astype(int)
+    return {
+        "structure": {"type": "matrices", "mass": mass[2:, 2:], "stiffness": stiffness[2:, 2:],
+                      "stiffness_damping": 2e-5, "contact_dofs": [int(2 * node - 1) for node in nodes]},
+        "contact": {"law": "coulomb", "friction": 0.3, "normal_load": 10.0, "tangential_stiffness": 1e6},
+        "forcing": {"load_dofs": [2 * elements - 1], "amplitude": 20.0, "frequency": 23.2},
+        "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 256},
+        "analysis": {"stability": False, "phases": False},
+    }
+
+
+def test_a_beam_on_which_seventeen_of_24_contacts_slip_is_solved_from_the_motion_in_which_all_stick():
+    record = wb.run(rubbing_beam(24))
+    assert record.converged
+    assert record.summary["strategy"] == "sticking"
+    assert np.count_nonzero(record.summary["friction"]["slip_fraction"]) == 17

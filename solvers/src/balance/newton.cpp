@@ -29,6 +29,7 @@ void NewtonOptions::validate() const {
   detail::require_positive(who, "tolerance", tolerance);
   detail::require_at_least(who, "max_iterations", max_iterations, 0);
   detail::require_positive(who, "min_step", min_step);
+  detail::require_at_least(who, "memory", memory, 1);
   if (!(max_operations > 0.0)) detail::reject(who, "max_operations", max_operations, "positive");
 }
 
@@ -93,7 +94,8 @@ class ContactEquation {
   NewtonResult solve(Eigen::VectorXd& u) {
     u_ = &u;
     first_operations_ = system_.operations();
-    const detail::NewtonRun run = detail::damped_newton(*this, u, options_.max_iterations, options_.min_step);
+    const detail::NewtonRun run =
+        detail::damped_newton(*this, u, options_.max_iterations, options_.min_step, options_.memory);
     NewtonResult result;
     result.status = is_acceptable() ? SolveStatus::converged
                     : exhausted_    ? SolveStatus::effort_limit

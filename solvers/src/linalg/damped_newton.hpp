@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <deque>
 
 namespace wavebalance::solvers::detail {
 
@@ -22,7 +24,8 @@ concept DampedNewtonSystem = requires(System system, Eigen::VectorXd vector) {
 
 /// Replaces x by x - step direction for the largest step of 1, 1/2, 1/4, ... down to `min_step` with which
 /// the norm falls enough [Armijo's rule; Nocedal and Wright, Numerical Optimization, 2006, section 3.1, with
-/// constant 1e-4]. False when there is none: x is then as before, and evaluated again. `norm` is that at x.
+/// constant 1e-4]. False when there is none: x is then as before, and evaluated again. `norm` is that at x,
+/// or a larger one.
 template <class System>
 bool armijo_step(System& system, Eigen::VectorXd& x, const Eigen::VectorXd& direction, double norm,
                  double min_step) {
@@ -45,12 +48,16 @@ struct NewtonRun {
   int iterations = 0;
 };
 
-/// Newton's method with Armijo backtracking on the norm of F, from x, which it improves in place.
+/// Newton's method with Armijo backtracking on the norm of F, from x, which it improves in place. The norm
+/// has to fall below the largest of the last `memory` ones [L. Grippo, F. Lampariello, S. Lucidi, SIAM J.
+/// Numer. Anal. 23, 1986, doi:10.1137/0723046].
 template <DampedNewtonSystem System>
-NewtonRun damped_newton(System& system, Eigen::VectorXd& x, int max_iterations, double min_step) {
+NewtonRun damped_newton(System& system, Eigen::VectorXd& x, int max_iterations, double min_step,
+                        int memory = 1) {
   NewtonRun run;
   Eigen::VectorXd direction;
-  for (double norm = system.evaluate(x);; ++run.iterations) {
+  std::deque<double> norms;
+  for (norms.push_back(system.evaluate(x));; ++run.iterations) {
     if (system.is_solved()) return run;
     run.end = NewtonEnd::cancelled;
     if (!system.goes_on(run.iterations)) return run;
@@ -59,9 +66,10 @@ NewtonRun damped_newton(System& system, Eigen::VectorXd& x, int max_iterations, 
     run.end = NewtonEnd::singular;
     if (!system.direction(direction)) return run;
     run.end = NewtonEnd::stalled;
-    if (!armijo_step(system, x, direction, norm, min_step)) return run;
+    if (!armijo_step(system, x, direction, *std::ranges::max_element(norms), min_step)) return run;
     run.end = NewtonEnd::solved;
-    norm = system.norm();
+    norms.push_back(system.norm());
+    if (static_cast<int>(norms.size()) > memory) norms.pop_front();
   }
 }
 

@@ -91,6 +91,7 @@ Candidate improve(const Task& task, ContactSystem& system, Candidate candidate, 
   newton_options.observer = task.options.observer;
   if (strategy != Strategy::newton)
     newton_options.max_operations = std::min(newton_options.max_operations, task.fallback_operations);
+  if (strategy == Strategy::sticking) newton_options.memory = 10;
   const double before = system.operations();
   candidate.newton = newton(system, candidate.unknown, newton_options);
   candidate.operations = system.operations() - before;
@@ -144,6 +145,27 @@ Candidate try_stiffness(const Task& task, const Eigen::VectorXd& series_flexibil
   candidate.iterations = path.iterations;
   if (path.status != SolveStatus::converged) return candidate;
   return improve(task, system, std::move(candidate), Strategy::stiffness_continuation);
+}
+
+/// Fewer contacts are integrated in time at once, which leads to a stable motion.
+bool has_many_with_friction(const Task& task) {
+  constexpr int many = 10;
+  for (int c = 0; c < task.problem.contacts(); ++c)
+    if (task.laws[c].friction()) return task.problem.contacts() > many;
+  return false;
+}
+
+/// Newton's method from the motion in which all contacts stick, to which a whole step from rest leads. Many
+/// contacts that change between sticking and slipping leave no descent, so the residual may rise in between.
+Candidate try_sticking(const Task& task, const Eigen::VectorXd& form) {
+  ContactSystem system = task.system(form);
+  Candidate candidate =
+      no_solution(SolveStatus::stalled, form, Eigen::VectorXd::Zero(task.problem.samples()));
+  system.evaluate(candidate.unknown);
+  Eigen::VectorXd step;
+  if (!system.factorize() || !system.solve(system.residual(), step)) return candidate;
+  candidate.unknown -= step;
+  return improve(task, system, std::move(candidate), Strategy::sticking);
 }
 
 /// Continuation in the gaps: the obstacles are lowered onto the contact-free motion u0. With gaps larger by h
@@ -234,8 +256,11 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, int& att
     if (best.ended()) return best;
   }
   // A continuation in the load passes through sticking and slipping sample by sample.
-  if (task.laws.act_over_period())
+  if (task.laws.act_over_period()) {
+    if (has_many_with_friction(task)) best = better(std::move(best), try_sticking(task, form));
+    if (best.ended()) return best;
     return solve_settled(task, form, first, std::move(best), attractor_periods);
+  }
   for (const Eigen::VectorXd& tried : forms_of(task)) {
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;

@@ -13,6 +13,7 @@ std::string_view to_string(Strategy strategy) {
                                     {stiffness_continuation, "stiffness_continuation"},
                                     {gap_continuation, "gap_continuation"},
                                     {load_continuation, "load_continuation"},
+                                    {sticking, "sticking"},
                                     {settling, "settling"},
                                     {recurrence, "recurrence"},
                                     {residual_homotopy, "residual_homotopy"},

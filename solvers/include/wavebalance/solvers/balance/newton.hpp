@@ -27,6 +27,8 @@ struct NewtonOptions {
   double tolerance = 1e-11;      ///< on ||R|| / (||u0|| + ||K f||)
   int max_iterations = 60;       ///< 0 evaluates the start alone
   double min_step = 1.0 / 4096;  ///< least step of the line search, relative to the Newton step
+  /// Past residuals of which a step has to undercut the largest; with 1 each residual is below the last.
+  int memory = 1;
   double max_operations = 1e11;  ///< of linear systems and products; 1e10 take about a second
   LinearSolver linear_solver = LinearSolver::automatic;
   Observer observer;  ///< called before each iteration
@@ -48,8 +50,8 @@ struct NewtonResult {
 };
 
 /// Semismooth Newton iteration (L. Qi, J. Sun, Math. Program. 58, 1993, doi:10.1007/BF01581275) with a line
-/// search on ||R||^2 from the displacement samples in `u`. `u` is changed in place and holds the iterate
-/// of the smallest residual. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N
+/// search on ||R||^2 from the displacement samples in `u`. `u` is changed in place and holds the last
+/// iterate. O(active^3 + N log N) per iteration, or with GMRES for many active samples O(N
 /// log N) per product, with a few products per iteration. Throws what NewtonOptions::validate throws.
 NewtonResult newton(ContactSystem& system, Eigen::VectorXd& u, const NewtonOptions& options);
 

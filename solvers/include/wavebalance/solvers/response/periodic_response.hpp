@@ -16,6 +16,7 @@ enum class Strategy {
   stiffness_continuation,
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
   load_continuation,  ///< arc length in the load, from rest, of laws that act on both sides
+  sticking,           ///< Newton's method from the motion in which all contacts with friction stick
   settling,           ///< Newton's method from the motion that the structure at rest settles to
   recurrence,         ///< Newton's method from a period after which that motion nearly returns
   residual_homotopy,  ///< arc length from that motion, or from the start given, to a solution
