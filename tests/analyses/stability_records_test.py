@@ -117,3 +117,22 @@ def test_a_sweep_without_stability_has_the_turning_points_of_the_samples(solved,
     assert len(record.summary["turning_points_Hz"]) == 2
     assert "unstable" not in record.sweep
     assert len(figure_of(record, tmp_path, "sweep")["panels"][0]["series"]) == 2
+
+
+def test_the_grazing_of_one_of_several_contacts_is_one_point():
+    # Where the first contact touches between two samples only, the others go on being counted.
+    n = 4
+    stiffness = 1e4 * (2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1))
+    stiffness[-1, -1] = 1e4
+    first = np.sqrt(np.linalg.eigvalsh(stiffness)[0]) / 2 / np.pi
+    record = wb.run({
+        "structure": {"type": "matrices", "mass": np.eye(n), "stiffness": stiffness, "modal_damping": 0.02,
+                      "contact_dofs": [4, 3, 2, 1]},
+        "contact": {"law": "linear", "stiffness": 1e3, "gap": [1e-3, 0.8e-3, 0.6e-3, 0.3e-3]},
+        "forcing": {"load_dofs": [n], "amplitude": 0.4, "frequency": first},
+        "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 64},
+        "analysis": {"type": "frequency_sweep", "frequency_from": 0.8 * first, "frequency_to": 1.1 * first}})
+    special = record.summary["special_points"]
+    grazing = [status for kind, status in zip(special["type"], special["status"]) if kind == "grazing"]
+    assert len(grazing) == np.abs(np.diff(record.sweep["contacts"])).sum() == 4
+    assert set(grazing) == {"located"}

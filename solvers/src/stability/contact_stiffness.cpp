@@ -41,20 +41,27 @@ bool passes_between_samples(const Eigen::VectorXd& samples, const Value& value, 
 
 using Intervals = std::vector<ContactInterval>;
 
-// The intervals in which a law acts(l) at samples l, which change(l) at times between l and the next; nothing
+// Those that hold a sample, and whether these are all.
+struct SampledIntervals {
+  Intervals intervals;
+  bool complete = true;
+};
+
+// The intervals in which a law acts(l) at samples l, which change(l) at times between l and the next; not all
 // where one of them holds no sample, passes(l) about sample l.
 template <class Acts, class Change, class Passes>
-std::optional<Intervals> intervals_of_action(int contact, Index count, const Acts& acts, const Change& change,
-                                             const Passes& passes) {
+SampledIntervals intervals_of_action(int contact, Index count, const Acts& acts, const Change& change,
+                                     const Passes& passes) {
+  SampledIntervals result;
   std::vector<bool> at(static_cast<std::size_t>(count));
   for (Index l = 0; l < count; ++l) at[static_cast<std::size_t>(l)] = acts(l);
   std::vector<double> openings, closings;
   for (std::size_t l = 0; l < at.size(); ++l) {
     const bool before = at[(l + at.size() - 1) % at.size()], next = at[(l + 1) % at.size()];
     if (at[l] != next) (next ? closings : openings).push_back(change(Index(l)));
-    if (!at[l] && !before && !next && passes(Index(l))) return std::nullopt;
+    if (!at[l] && !before && !next && passes(Index(l))) result.complete = false;
   }
-  Intervals intervals;
+  Intervals& intervals = result.intervals;
   if (closings.empty() && at.front()) intervals.push_back({contact, 0.0, 1.0});
   for (const double begin : closings) {  // to the next end
     const auto end = std::upper_bound(openings.begin(), openings.end(), begin);
@@ -62,7 +69,7 @@ std::optional<Intervals> intervals_of_action(int contact, Index count, const Act
     intervals.push_back(
         {contact, begin - shift, (end == openings.end() ? openings.front() + 1.0 : *end) - shift});
   }
-  return intervals;
+  return result;
 }
 
 // The time between samples l and l + 1 of a curve at which a law begins or ceases to act.
@@ -79,8 +86,8 @@ double change_of_action(const Along& along, const ContactCurve& curve, Index l) 
 }
 
 template <class Along, class Passes>
-std::optional<Intervals> intervals_of_action(const Along& along, const ContactCurve& curve, int contact,
-                                             const Passes& passes) {
+SampledIntervals intervals_of_action(const Along& along, const ContactCurve& curve, int contact,
+                                     const Passes& passes) {
   return intervals_of_action(
       contact, curve.samples().size(), [&](Index l) { return along.acts(curve.time_of(double(l))); },
       [&](Index l) { return change_of_action(along, curve, l); }, passes);
@@ -143,7 +150,7 @@ std::vector<double> cut_times(const ContactAlong& along) {
   return crossings(along.curve, levels(along, std::move(smooth)), most);
 }
 
-std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) {
+SampledIntervals find_intervals(const ContactAlong& along, int contact) {
   const ContactCurve& curve = along.curve;
   const double gap = along.law.gap();
   const auto passes = [&](Index l) {
@@ -152,7 +159,7 @@ std::optional<Intervals> find_intervals(const ContactAlong& along, int contact) 
                curve.samples(), [&](double sample) { return curve(curve.time_of(sample)); }, gap, l);
   };
   if (along.has_velocity()) return intervals_of_action(along, curve, contact, passes);
-  if (!along.unilateral) return intervals_between_kinks(along, contact);
+  if (!along.unilateral) return {intervals_between_kinks(along, contact)};
   return intervals_of_action(
       contact, curve.samples().size(), [&](Index l) { return curve.samples()[l] > gap; },
       [&](Index l) { return crossing(curve, gap, l); }, passes);
@@ -240,12 +247,13 @@ bool add_intervals(const CoupledAlong& along, Intervals& intervals) {
   Eigen::VectorXd samples(curve.samples().size());
   for (Index l = 0; l < samples.size(); ++l) samples[l] = value(double(l));
   const auto passes = [&](Index l) { return passes_between_samples(samples, value, 0.0, l); };
+  bool complete = true;
   for (int contact = along.row; contact < along.row + along.law.rows(); ++contact) {
-    auto own = intervals_of_action(along, curve, contact, passes);
-    if (!own) return false;
-    intervals.insert(intervals.end(), own->begin(), own->end());
+    const auto own = intervals_of_action(along, curve, contact, passes);
+    intervals.insert(intervals.end(), own.intervals.begin(), own.intervals.end());
+    complete = complete && own.complete;
   }
-  return true;
+  return complete;
 }
 
 // Adds the contacts with friction; false where one has slip along two tangents or is another law over a
@@ -265,15 +273,15 @@ bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const Cont
 
 using AllContacts = std::vector<ContactAlong>;
 
-// Adds the intervals of one contact and its cuts; nothing where one of them holds no sample, else their
-// number.
-std::optional<int> add_intervals(const ContactAlong& along, int contact, PeriodicStiffness& stiffness) {
-  const auto intervals = find_intervals(along, contact);
-  if (!intervals) return std::nullopt;
-  stiffness.intervals.insert(stiffness.intervals.end(), intervals->begin(), intervals->end());
-  if (!intervals->empty())
+// Adds the intervals of one contact, of which it returns the number, and its cuts. Where another one holds no
+// sample the status says so.
+int add_intervals(const ContactAlong& along, int contact, PeriodicStiffness& stiffness) {
+  const auto [intervals, complete] = find_intervals(along, contact);
+  stiffness.intervals.insert(stiffness.intervals.end(), intervals.begin(), intervals.end());
+  if (!intervals.empty())
     for (const double time : cut_times(along)) stiffness.cuts.push_back({contact, time});
-  return static_cast<int>(intervals->size());
+  if (!complete) stiffness.status = StabilityStatus::too_few_samples;
+  return static_cast<int>(intervals.size());
 }
 
 // The law of several rows that has a contact; null for others.
@@ -359,12 +367,12 @@ PeriodicStiffness contact_stiffness(const AnyTimeBasis& trial, const ContactLaws
   for (int c = 0; c < count; ++c) {
     if (law_at(instant, c)) stiffness.intervals.push_back({c, 0.0, 1.0});
     if (laws[c].acts_over_period()) continue;
-    const auto added = add_intervals(contacts[static_cast<std::size_t>(c)], c, stiffness);
-    if (!added) return ended(StabilityStatus::too_few_samples);
-    (laws[c].is_rigid() ? rigid : elastic) += *added;
+    (laws[c].is_rigid() ? rigid : elastic) +=
+        add_intervals(contacts[static_cast<std::size_t>(c)], c, stiffness);
   }
   for (const CoupledAlong& one : coupled)
-    if (!add_intervals(one, stiffness.intervals)) return ended(StabilityStatus::too_few_samples);
+    if (!add_intervals(one, stiffness.intervals)) stiffness.status = StabilityStatus::too_few_samples;
+  if (stiffness.status != StabilityStatus::converged) return stiffness;
   std::sort(stiffness.intervals.begin(), stiffness.intervals.end(), comes_before);
   if (rigid > 0) {
     if (elastic > 0 || !coupled.empty()) stiffness.intervals.clear();

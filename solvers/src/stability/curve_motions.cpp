@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace wavebalance::solvers {
 namespace {
@@ -41,7 +42,8 @@ CurveMotions::CurveMotions(const char* who, CondensedProblem& problem, const Con
     : curve_(with_unknowns(who, problem, curve)),
       system_(problem, laws, curve.series_flexibility),
       path_(system_, curve_parameter(curve.parameter), with_scales(curve, std::move(options))),
-      evaluator_(problem.pair().trial(), output_points, 0) {
+      evaluator_(problem.pair().trial(), output_points, 0),
+      points_(problem.points()) {
   if (curve.parameter == SweepParameter::load_scale && !curve.points.empty())
     problem.set_load_frequency(curve.points.front().frequency);
 }
@@ -49,6 +51,35 @@ CurveMotions::CurveMotions(const char* who, CondensedProblem& problem, const Con
 PeriodicResponse CurveMotions::response(const CurvePoint& point) {
   curve_parameter(curve_.parameter).set(system_, point.parameter);
   return response_at(system_, point.displacement);
+}
+
+// Samples change between contact and its absence one after the other. The first one whose neighbours are
+// alike begins, ends, joins or splits an interval.
+double CurveMotions::share_of_grazing(const CurvePoint& a, const CurvePoint& b) const {
+  struct Change {
+    double share;
+    int sample;
+  };
+  const int samples = static_cast<int>(a.displacement.size());
+  std::vector<bool> closed(static_cast<std::size_t>(samples));
+  std::vector<Change> changes;
+  for (int l = 0; l < samples; ++l) {
+    const double from = a.displacement[l], to = b.displacement[l];
+    const int piece = system_.piece_at(l, from), other = system_.piece_at(l, to);
+    closed[std::size_t(l)] = piece != system_.rest_piece(l);
+    if (closed[std::size_t(l)] == (other != system_.rest_piece(l))) continue;
+    const double kink = system_.kinks_at(l)[std::size_t(std::min(piece, other))].at;
+    changes.push_back({(kink - from) / (to - from), l});
+  }
+  std::ranges::sort(changes, {}, &Change::share);
+  for (const Change& change : changes) {
+    const int first = change.sample / points_ * points_, at = change.sample - first;
+    const auto before = std::size_t(first + (at + points_ - 1) % points_),
+               after = std::size_t(first + (at + 1) % points_);
+    if (closed[before] == closed[after]) return change.share;
+    closed[std::size_t(change.sample)].flip();
+  }
+  return 0.5;
 }
 
 SpecialPoint CurveMotions::special_point(SpecialPointType type, const CurvePoint& a, const CurvePoint& b,

@@ -26,6 +26,9 @@ class CurveMotions {
   double value_of(const SweepPoint& point) const { return parameter_of(point, curve_.parameter); }
   CurvePoint at(const SweepPoint& point) const { return curve_point(point.unknown, value_of(point)); }
   PeriodicResponse response(const CurvePoint& point);
+  /// The share of the chord between two points at which the number of contact intervals first changes, by
+  /// linear interpolation of samples; 0.5 where no sample tells.
+  double share_of_grazing(const CurvePoint& a, const CurvePoint& b) const;
   /// A special point between two others, in the middle of which its parameter is, with the displacements and
   /// the unknown of the first. `next` is the index of the point of the curve behind it.
   SpecialPoint special_point(SpecialPointType type, const CurvePoint& a, const CurvePoint& b,
@@ -36,6 +39,7 @@ class CurveMotions {
   ContactSystem system_;
   ArcLength path_;
   TrialEvaluator evaluator_;
+  int points_;  // samples of a contact
 };
 
 }  // namespace wavebalance::solvers

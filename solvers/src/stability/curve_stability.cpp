@@ -160,33 +160,46 @@ class Tracker {
     sample.stability.unstable = count.count;
   }
 
-  // Locates each difference between two points by bisection, which has taken so many halvings of the distance
-  // of two neighbours on the curve. Points between them are measured only as far as the difference needs.
-  void examine(const CurveSample& a, const CurveSample& b, int halvings) {
+  // Locates each difference between two points by divisions of the distance of two neighbours on the curve.
+  // Points between them are measured only as far as the difference needs.
+  void examine(const CurveSample& a, const CurveSample& b, int divisions) {
+    constexpr int most = 27;
     const Difference between = difference(a, b);
     if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
-    const bool located = motions_.path().distance(a.point, b.point) <= options_.tolerance * step_;
-    const bool ends = located || std::ldexp(1.0, -halvings) < 0.01 * options_.tolerance;
-    const bool signs = between.fold || between.flip;
+    const double width = motions_.path().distance(a.point, b.point) / step_;
+    const bool located = width <= options_.tolerance, signs = between.fold || between.flip;
     const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;
-    const std::optional<CurveSample> middle = ends ? std::nullopt : sample_between(a.point, b.point, what);
+    const double share = what == Measure::contacts ? share_beside_grazing(a, b, width) : 0.5;
+    const std::optional<CurveSample> middle =
+        located || divisions >= most ? std::nullopt : sample_between(a.point, b.point, share, what);
     if (!middle) {
       for (const SpecialPointType type :
            events(between, reverses_between(a.point.parameter, b.point.parameter)))
         add(special_point(type, a.point, b.point, located));
       return;
     }
-    examine(a, *middle, halvings + 1);
-    examine(*middle, b, halvings + 1);
+    examine(a, *middle, divisions + 1);
+    examine(*middle, b, divisions + 1);
   }
 
-  // A point between two others, preferably one whose stability is known. The plane through the middle of
+  // A share of the chord a little to the longer side of the grazing that samples predict, so that the other
+  // part holds it. The prediction is in error by the square of the width.
+  double share_beside_grazing(const CurveSample& a, const CurveSample& b, double width) const {
+    constexpr double curvature = 0.5, of_tolerance = 0.3;
+    const double at = motions_.share_of_grazing(a.point, b.point);
+    const double beside =
+        std::max(curvature * width * at * (1.0 - at), of_tolerance * options_.tolerance / width);
+    return std::clamp(at > 0.5 ? at - beside : at + beside, 0.01 * beside, 1.0 - 0.01 * beside);
+  }
+
+  // A point between two others, preferably one whose stability is known. The plane through this place of
   // their chord may meet the curve at a kink, where Newton's method cycles, or where contact has just begun.
   // Planes through other places of the chord are then tried.
-  std::optional<CurveSample> sample_between(const CurvePoint& a, const CurvePoint& b, Measure what) {
+  std::optional<CurveSample> sample_between(const CurvePoint& a, const CurvePoint& b, double first,
+                                            Measure what) {
     constexpr double farthest = 0.25;  // from the chord, over the distance of two neighbours on the curve
     std::optional<CurveSample> found;
-    for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7}) {
+    for (const double share : {first, 0.4, 0.6, 0.3, 0.7}) {
       CurveSample sample{{}, {}};
       if (!motions_.path().between(a, b, share, sample.point, farthest * step_)) continue;
       measure(sample, what);
