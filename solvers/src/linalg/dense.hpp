@@ -54,6 +54,8 @@ extern template class Lu<std::complex<double>>;
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// A B^T on and below the diagonal alone, where A has the same number of rows for each row of B.
+Eigen::MatrixXd lower_product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A^* B.
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);

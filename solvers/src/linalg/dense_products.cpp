@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "linalg/dense.hpp"
@@ -32,6 +33,23 @@ Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::Matrix
 
 Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return multiply(a, false, b, true);
+}
+
+Eigen::MatrixXd lower_product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  constexpr Eigen::Index block = 48;
+  const double one = 1.0, zero = 0.0;
+  const Eigen::Index of_each = a.rows() / std::max<Eigen::Index>(1, b.rows());
+  const lapack_int inner = lapack_size(a.cols()), a_stride = lapack_size(a.rows()),
+                   b_stride = lapack_size(b.rows());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.rows(), b.rows());
+  for (Eigen::Index first = 0; first < b.rows() && inner > 0; first += block) {
+    const Eigen::Index above = of_each * first;
+    const lapack_int rows = lapack_size(a.rows() - above),
+                     columns = lapack_size(std::min(block, b.rows() - first));
+    dgemm_("N", "T", &rows, &columns, &inner, &one, a.data() + above, &a_stride, b.data() + first, &b_stride,
+           &zero, result.col(first).data() + above, &a_stride);
+  }
+  return result;
 }
 
 Eigen::MatrixXcd adjoint_product(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {

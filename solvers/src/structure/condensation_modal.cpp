@@ -8,8 +8,6 @@
 namespace wavebalance::solvers {
 namespace {
 
-using Complex = std::complex<double>;
-
 // One product per load, each the same as without others.
 Eigen::MatrixXd modal_loads(const LinearStructure& structure, const Eigen::MatrixXd& shapes) {
   const Eigen::MatrixXd loads = structure.load_shapes();
@@ -56,21 +54,25 @@ class ModalMethod final : public Condensation::Method {
     record(scale_.require_regular(factors, std::sqrt(moduli_.col(0).dot(size_squares_)), 1.0));
     const Eigen::ArrayXcd slope = -compliance.square() * combine(derivatives);
     const Index count = contacts_.rows();
-    // One real product computes the real and imaginary parts of both.
+    // One real product computes the real and imaginary parts of both, four rows for each contact.
+    Eigen::Matrix<double, 4, Eigen::Dynamic> parts(4, contacts_.cols());
+    parts << compliance.real().matrix().transpose(), compliance.imag().matrix().transpose(),
+        slope.real().matrix().transpose(), slope.imag().matrix().transpose();
     Eigen::MatrixXd weighted(4 * count, contacts_.cols());
-    weighted << contacts_ * compliance.real().matrix().asDiagonal(),
-        contacts_ * compliance.imag().matrix().asDiagonal(), contacts_ * slope.real().matrix().asDiagonal(),
-        contacts_ * slope.imag().matrix().asDiagonal();
-    const Eigen::MatrixXd parts = detail::product_transposed(weighted, contacts_);
+    for (Index j = 0; j < contacts_.cols(); ++j)
+      weighted.col(j).reshaped(4, count).noalias() = parts.col(j) * contacts_.col(j).transpose();
+    const Eigen::MatrixXd products = detail::lower_product_transposed(weighted, contacts_);
     CondensedPoint point;
-    point.compliance = joined(parts.topRows(2 * count));
-    point.compliance_slope = joined(parts.bottomRows(2 * count));
+    point.compliance = symmetric(products, 0);
+    point.compliance_slope = symmetric(products, 2);
     point.load_response.resize(count * loads_.cols());
     point.load_response_slope.resize(count * loads_.cols());
     for (Index l = 0; l < loads_.cols(); ++l) {
       const Eigen::VectorXd loaded = weighted * loads_.col(l);
-      point.load_response.segment(count * l, count) = joined(loaded.head(2 * count));
-      point.load_response_slope.segment(count * l, count) = joined(loaded.tail(2 * count));
+      for (Index c = 0; c < count; ++c) {
+        point.load_response[count * l + c] = {loaded[4 * c], loaded[4 * c + 1]};
+        point.load_response_slope[count * l + c] = {loaded[4 * c + 2], loaded[4 * c + 3]};
+      }
     }
     set_errors(factors, point);
     return point;
@@ -83,9 +85,14 @@ class ModalMethod final : public Condensation::Method {
   }
 
  private:
-  static Eigen::MatrixXcd joined(const Eigen::MatrixXd& parts) {
-    const Index count = parts.rows() / 2;
-    return parts.topRows(count) + Complex(0.0, 1.0) * parts.bottomRows(count);
+  // The complex matrix whose lower part has two of the four rows of each contact, from `first` on.
+  static Eigen::MatrixXcd symmetric(const Eigen::MatrixXd& products, Index first) {
+    const Index count = products.cols();
+    Eigen::MatrixXcd result(count, count);
+    for (Index d = 0; d < count; ++d)
+      for (Index c = d; c < count; ++c)
+        result(c, d) = result(d, c) = {products(4 * c + first, d), products(4 * c + first + 1, d)};
+    return result;
   }
 
   Eigen::ArrayXcd combine(const ImpedanceCoefficients& s) const {
