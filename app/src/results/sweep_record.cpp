@@ -205,11 +205,6 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
          sweep.start_status == "undetermined"
              ? " A body is free and its position is not determined: hold it by a soft spring to ground."
              : "");
-  if (sweep.curve.makes_no_way)
-    warn(record,
-         "The curve is given up at {:.7g} {}, where many points led it hardly any farther: contacts begin or "
-         "cease to stick, slip or touch at nearly each of them.",
-         parameter_of(sweep.curve.points.back(), sweep.curve.parameter), sweep_axis(sweep).unit);
   const double highest = largest_of(sweep.curve.points, &SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =

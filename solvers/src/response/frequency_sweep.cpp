@@ -131,7 +131,6 @@ class Sweep {
     recent_.clear();
     lost_at_ = attempts_back_ = 0;
     while (true) {
-      mark_.reset();
       ArcLengthOptions now = arc;
       now.initial_step *= std::pow(shorter, attempts_back_);
       ArcLength curve(system_, bounded_ ? *bounded_ : curve_parameter(parameter_), now);
@@ -142,8 +141,7 @@ class Sweep {
         return;
       }
       result_.status = follow(curve, detector);
-      const bool lost = result_.status == SweepStatus::lost && !result_.makes_no_way;
-      if (lost && step_back(detector, from)) continue;
+      if (result_.status == SweepStatus::lost && step_back(detector, from)) continue;
       result_.closed_at_start = result_.status == SweepStatus::closed && returned_to_ == 0;
       if (result_.status != SweepStatus::closed || result_.closed_at_start || !shorten(arc)) return;
       const std::size_t before = returned_to_ > 0 ? returned_to_ - 1 : 0;
@@ -189,18 +187,6 @@ class Sweep {
     forget_points_after(static_cast<int>(count - back));
     detector.forget_points_after(static_cast<int>(count - back));
     return true;
-  }
-
-  // Whether the curve came hardly any farther since the last mark, so many points ago. Friction changes at
-  // the points of a curve; grazing events of samples may be many, but no more than samples.
-  bool makes_no_way(ArcLength& curve) {
-    constexpr double least_way = 0.01;  // in arc length
-    const std::size_t count = result_.points.size(), points = laws_.act_over_period() ? 100 : 1000;
-    if (mark_ && count < marked_at_ + points) return false;
-    const bool none = mark_ && curve.distance(curve.point(), *mark_) < least_way;
-    mark_ = curve.point();
-    marked_at_ = count;
-    return none;
   }
 
   void remember(const CurvePoint& point) {
@@ -267,8 +253,6 @@ class Sweep {
         return SweepStatus::closed;
       }
       if (has_grown_past_bounds()) return SweepStatus::unbounded;
-      result_.makes_no_way = makes_no_way(curve);
-      if (result_.makes_no_way) return SweepStatus::lost;
     }
     return SweepStatus::point_limit;
   }
@@ -324,11 +308,9 @@ class Sweep {
   std::vector<std::size_t> turns_at_point_;  // number of turning points up to each point
   std::size_t returned_to_ = 0;              // the kept point that a closed curve came back to
   std::optional<detail::BandwidthSteps> bounded_;
-  std::deque<CurvePoint> recent_;   // the last points of the curve
-  std::optional<CurvePoint> mark_;  // the way is measured from there
-  std::size_t marked_at_ = 0;       // its number of points
-  std::size_t lost_at_ = 0;         // the most points after which the curve was lost
-  std::size_t attempts_back_ = 0;   // from there
+  std::deque<CurvePoint> recent_;  // the last points of the curve
+  std::size_t lost_at_ = 0;        // the most points after which the curve was lost
+  std::size_t attempts_back_ = 0;  // from there
 };
 
 FrequencySweep sweep_from(CondensedProblem& problem, const ContactLaws& laws,

@@ -121,8 +121,6 @@ struct FrequencySweep {
   /// Of a closed curve, whether it came back to its first point, so that it is complete. Another earlier
   /// point is one at which curves cross, or after which a step has jumped.
   bool closed_at_start = false;
-  /// Of a curve that is lost, whether it was given up since many points led it hardly any farther.
-  bool makes_no_way = false;
   SweepParameter parameter = SweepParameter::frequency;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
   Eigen::VectorXd series_flexibility;            ///< PeriodicResponse::series_flexibility of the whole curve
