@@ -62,6 +62,7 @@ TableLaw::TableLaw(std::vector<double> displacements, std::vector<double> forces
     : displacements_(std::move(displacements)), forces_(std::move(forces)) {
   require_table(displacements_, forces_);
   slopes_ = monotone_slopes(displacements_, forces_);
+  set_cells();
   energies_.assign(forces_.size(), 0.0);
   for (std::size_t i = 1; i < energies_.size(); ++i) {
     const double h = displacements_[i] - displacements_[i - 1];
@@ -77,17 +78,40 @@ TableLaw::TableLaw(std::vector<double> displacements, std::vector<double> forces
   energy_at_gap_ = energy_from_begin(gap_);
 }
 
+std::size_t TableLaw::cell_of(double displacement) const {
+  const double first = 0.5 * displacements_.front(), length = 0.5 * displacements_.back() - first,
+               share = (0.5 * displacement - first) / length;
+  if (!(share > 0.0)) return 0;
+  return static_cast<std::size_t>(share * static_cast<double>(displacements_.size() - 1));
+}
+
+// The points of a cell are those at which its number is that of the cell, which rises with the displacement.
+void TableLaw::set_cells() {
+  cells_.reserve(displacements_.size() + 1);
+  for (std::size_t i = 0; i < displacements_.size(); ++i)
+    while (cells_.size() <= cell_of(displacements_[i])) cells_.push_back(i);
+  cells_.push_back(displacements_.size());
+}
+
+std::size_t TableLaw::interval_of(double displacement) const {
+  const std::size_t cell = cell_of(displacement);
+  const auto point = [&](std::size_t number) {
+    return displacements_.begin() + static_cast<std::ptrdiff_t>(cells_[number]);
+  };
+  const auto after = std::upper_bound(point(cell), point(cell + 1), displacement);
+  return static_cast<std::size_t>(after - displacements_.begin()) - 1;
+}
+
 // Hermite's cubic between two points.
 ForceAndTangent TableLaw::evaluate(double displacement) const {
   if (std::isnan(displacement)) return {displacement, displacement};
-  const auto after = std::upper_bound(displacements_.begin(), displacements_.end(), displacement);
-  const bool below = after == displacements_.begin(), beyond = after == displacements_.end();
+  const bool below = displacement < displacements_.front(), beyond = displacement >= displacements_.back();
   if (below || beyond) {
     const std::size_t end = below ? 0 : displacements_.size() - 1;
     return {detail::saturate_both(forces_[end] + slopes_[end] * (displacement - displacements_[end])),
             slopes_[end]};
   }
-  const auto i = static_cast<std::size_t>(after - displacements_.begin()) - 1;
+  const std::size_t i = interval_of(displacement);
   const double h = displacements_[i + 1] - displacements_[i], x = (displacement - displacements_[i]) / h;
   const double rise = forces_[i + 1] - forces_[i], a = h * slopes_[i], b = h * slopes_[i + 1];
   const double square = 3.0 * rise - 2.0 * a - b, cube = a + b - 2.0 * rise;
@@ -95,14 +119,13 @@ ForceAndTangent TableLaw::evaluate(double displacement) const {
 }
 
 double TableLaw::energy_from_begin(double displacement) const {
-  const auto after = std::upper_bound(displacements_.begin(), displacements_.end(), displacement);
-  const bool below = after == displacements_.begin(), beyond = after == displacements_.end();
+  const bool below = displacement < displacements_.front(), beyond = displacement >= displacements_.back();
   if (below || beyond) {
     const std::size_t end = below ? 0 : displacements_.size() - 1;
     const double past = displacement - displacements_[end];
     return energies_[end] + past * (forces_[end] + 0.5 * slopes_[end] * past);
   }
-  const auto i = static_cast<std::size_t>(after - displacements_.begin()) - 1;
+  const std::size_t i = interval_of(displacement);
   const double h = displacements_[i + 1] - displacements_[i], x = (displacement - displacements_[i]) / h;
   const double rise = forces_[i + 1] - forces_[i], a = h * slopes_[i], b = h * slopes_[i + 1];
   const double square = 3.0 * rise - 2.0 * a - b, cube = a + b - 2.0 * rise;

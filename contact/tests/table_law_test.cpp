@@ -37,6 +37,24 @@ TEST(TableLaw, ConvergesToASmoothSpring) {
   EXPECT_LT(error(41), 0.3 * error(21));  // second order or better
 }
 
+TEST(TableLaw, GoesThroughItsPointsHoweverTheyAreSpaced) {
+  for (const double length : {1.0, 1e-200, 1e200}) {
+    std::vector<double> u, f;
+    for (int i = -20; i <= 20; ++i) {
+      u.push_back(length * (i < 0 ? -std::ldexp(1.0, i + 1) : std::ldexp(1.0, i - 20)));
+      f.push_back(i);
+    }
+    std::sort(u.begin(), u.end());
+    const TableLaw law(u, f);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      EXPECT_DOUBLE_EQ(law.force(u[i]), f[i]) << length;
+      if (i == 0) continue;
+      const double between = law.force(0.5 * u[i - 1] + 0.5 * u[i]);
+      EXPECT_TRUE(f[i - 1] < between && between < f[i]) << length << " " << i;
+    }
+  }
+}
+
 TEST(TableLaw, ThatBeginsWithZerosActsBeyondThemOnly) {
   const TableLaw stop({-1.0, 0.5, 1.0, 2.0}, {0.0, 0.0, 10.0, 40.0});
   EXPECT_TRUE(stop.unilateral());

@@ -44,46 +44,44 @@ bool AnyContactLaw::is_rigid() const {
   return std::isfinite(at) && std::isinf(tangent(at));
 }
 
-// Newton on r(u) = u + c force(u) - v, which rises with slope 1 + c tangent, within the bracket that its
-// signs make; halves it where a step leaves it. A force that opposes the displacement keeps u between v and
-// the first point at which the force is zero, which doubling finds.
+// Newton on r(u) = u + c force(u) - v, which rises with slope 1 + c tangent, from v within the bracket that
+// its signs make, down to rounding; halves it where a step leaves it. A force that opposes the displacement
+// keeps u between v and the first point at which the force is zero, which doubling finds.
 ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double flexibility) {
   constexpr int max_iterations = 200;
   constexpr double eps = std::numeric_limits<double>::epsilon();
-  const auto at = [&](double u) {
-    const double tangent = law.tangent(u);
-    return ForceSlope{law.force(u), tangent != 0.0 ? 1.0 / (1.0 / tangent + flexibility) : 0.0};
+  const auto slope = [&](double tangent) {
+    return tangent != 0.0 ? 1.0 / (1.0 / tangent + flexibility) : 0.0;
   };
-  const double first = flexibility * law.force(v);
-  if (first == 0.0) return at(v);
+  ForceSlopes now = law.at(v, 0.0);
+  const double first = flexibility * now.force;
+  if (first == 0.0) return {now.force, slope(now.tangent)};
   if (std::isnan(first)) return {first, first};
   // r(v) = c force(v) has the sign of the force: the other end of the bracket lies on the other side of v.
   const double outward = first > 0.0 ? -1.0 : 1.0;
   double near = v, far = v;
   double reach = std::min(std::abs(first), std::max(std::abs(v - law.gap()), eps * std::abs(v)));
   if (!(reach > 0.0)) reach = std::abs(first);
-  const auto residual = [&](double u) { return u + flexibility * law.force(u) - v; };
   for (int i = 0; i < max_iterations; ++i, reach *= 2.0) {
     far = v + outward * reach;
-    if (residual(far) * outward >= 0.0) break;
+    if ((far + flexibility * law.force(far) - v) * outward >= 0.0) break;
     near = far;
   }
-  double u = 0.5 * (near + far), step = std::abs(far - near);
-  for (int i = 0; i < max_iterations; ++i) {
-    const double r = residual(u);
-    if (r == 0.0) break;
-    (r * outward < 0.0 ? near : far) = u;
-    const double newton = u - r / (1.0 + flexibility * law.tangent(u));
-    const bool inside = (newton - near) * (newton - far) < 0.0 && std::abs(newton - u) <= 0.5 * step;
+  double u = v, r = first, step = 2.0 * std::abs(far - near);
+  for (int i = 0; i < max_iterations && std::abs(r) > eps * std::abs(v); ++i) {
+    const double newton = u - r / (1.0 + flexibility * now.tangent);
+    const bool inside = (newton - near) * (newton - far) <= 0.0 && std::abs(newton - u) <= 0.5 * step;
     const double next = inside ? newton : 0.5 * (near + far);
     step = std::abs(next - u);
     u = next;
+    now = law.at(u, 0.0);
     if (step <= eps * std::abs(u)) break;
+    r = u + flexibility * now.force - v;
+    (r * outward < 0.0 ? near : far) = u;
   }
   // The softer of law and spring says the force without cancellation.
-  const ForceSlope law_at = at(u);
   const bool soft = std::abs(v - u) < 0.5 * std::abs(v - law.gap());
-  return {soft ? law_at.force : (v - u) / flexibility, law_at.tangent};
+  return {soft ? now.force : (v - u) / flexibility, slope(now.tangent)};
 }
 
 bool AnyContactLaw::vanishes_below_gap(const Interface& law) {

@@ -64,6 +64,19 @@ ForceSlopes LawPieces::continued(double displacement, double velocity) const {
           2.0 * rest.damping - back.damping};
 }
 
+// The cubic through the ends of a piece between two breakpoints, which the pieces of tables are, and their
+// lines: a panel that leaves the piece remains smooth. Farther away than the piece is long it is a line.
+ForceSlopes LawPieces::beyond(int piece, double displacement) const {
+  const double low = breakpoint(piece - 1), high = breakpoint(piece), h = high - low;
+  const ForceSlopes a = law_.at(inside(piece, low), 0.0), b = law_.at(inside(piece, high), 0.0);
+  const double rise = b.force - a.force, square = 3.0 * rise - h * (2.0 * a.tangent + b.tangent),
+               cube = h * (a.tangent + b.tangent) - 2.0 * rise,
+               reached = std::clamp(displacement, low - h, high + h), x = (reached - low) / h,
+               tangent = a.tangent + x * (2.0 * square + x * 3.0 * cube) / h;
+  return {a.force + x * (h * a.tangent + x * (square + x * cube)) + tangent * (displacement - reached),
+          tangent, 0.0};
+}
+
 ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const {
   if (rigid_) {
     if (!exerts(piece)) return {};
@@ -73,9 +86,12 @@ ForceSlopes LawPieces::at(int piece, double displacement, double velocity) const
   }
   if (piece >= count()) return {-holding_ * displacement, -holding_, 0.0};
   const double within = inside(piece, displacement);
-  ForceSlopes value =
-      vanishes(piece, displacement, velocity) ? continued(within, velocity) : law_.at(within, velocity);
-  value.force += value.tangent * (displacement - within) - holding_ * displacement;
+  const bool between = piece > 0 && piece + 1 < count() && !law_.depends_on_velocity();
+  ForceSlopes value = between && within != displacement         ? beyond(piece, displacement)
+                      : vanishes(piece, displacement, velocity) ? continued(within, velocity)
+                                                                : law_.at(within, velocity);
+  if (!between) value.force += value.tangent * (displacement - within);
+  value.force -= holding_ * displacement;
   value.tangent -= holding_;
   return value;
 }

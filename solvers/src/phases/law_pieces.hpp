@@ -12,8 +12,9 @@ struct Yielding {
 };
 
 /// A contact law by its analytic pieces, which meet at its breakpoints. Each is continued smoothly beyond its
-/// ends, by a line, so that Newton's method may leave it; and beyond the velocity at which its force
-/// vanishes, where the law does not pull.
+/// ends, so that panels and Newton's method may leave it: one between two breakpoints by the cubic through
+/// its ends, others by a line. It also goes on beyond the velocity at which its force vanishes, where the law
+/// does not pull.
 class LawPieces {
  public:
   /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
@@ -49,6 +50,7 @@ class LawPieces {
  private:
   double inside(int piece, double displacement) const;
   ForceSlopes continued(double displacement, double velocity) const;
+  ForceSlopes beyond(int piece, double displacement) const;
 
   AnyContactLaw law_;
   bool rigid_;

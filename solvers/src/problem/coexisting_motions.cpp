@@ -145,6 +145,7 @@ class MotionsSearch {
     const int periods = settled.attractor_periods / std::gcd(settled.attractor_periods, within);
     ContactProblem& problem = over(periods);
     const SettledMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
+    if (const auto known = come_to(whole, periods)) return known;
     UnsolvedMotion told = unsolved_of(whole, periods, PhasesStatus::not_found);
     for (UnsolvedMotion& known : result_.unsolved)
       if (same_as(known, told)) {
@@ -159,22 +160,32 @@ class MotionsSearch {
     return std::nullopt;
   }
 
+  static MotionSamples samples_of(const SettledMotion& settled, int periods) {
+    const int points = periods * points_of_period;
+    const Eigen::VectorXd last = resample(settled.last.displacement, points, settled.start);
+    return {{last.reshaped(points, settled.last.displacement.rows()).transpose(), {}, {}}, periods};
+  }
+
+  // The stable motion, solved for before, from which an integration that repeats differs by its own errors:
+  // to solve for it once more would take far longer than that.
+  std::optional<std::size_t> come_to(const SettledMotion& settled, int periods) const {
+    constexpr double same = 1e-4;  // of what vibrates
+    const auto known = find_near(samples_, samples_of(settled, periods), same);
+    return known && result_.motions[*known].stability.status == "stable" ? known : std::nullopt;
+  }
+
   // The stable motion that a structure of light damping had nearly come to when its integration ended.
   std::optional<std::size_t> approached(const SettledMotion& settled, MotionSource source) {
     constexpr double near = 1e-2;  // of what vibrates
     if (cancelled_ || !settled.integrated()) return std::nullopt;
+    if (const auto known = come_to(settled, 1)) return known;
     const UnsolvedMotion told = unsolved_of(settled, 1, PhasesStatus::not_found);
     if (std::any_of(given_up_.begin(), given_up_.end(), [&](const auto& one) { return same_as(one, told); }))
       return std::nullopt;
     const auto found = solve(1, settled, source);
     if (!found) given_up_.push_back(told);
     if (!found || result_.motions[*found].stability.status != "stable") return std::nullopt;
-    const Eigen::MatrixXd& motion = samples_[*found].contacts.displacement;
-    if (motion.cols() != points_of_period) return std::nullopt;
-    const Eigen::VectorXd last = resample(settled.last.displacement, points_of_period, settled.start);
-    const Eigen::MatrixXd apart = motion - last.reshaped(points_of_period, motion.rows()).transpose();
-    const double vibrates = (motion.colwise() - motion.rowwise().mean()).norm();
-    return apart.norm() <= near * vibrates ? found : std::nullopt;
+    return find_near({samples_[*found]}, samples_of(settled, 1), near) ? found : std::nullopt;
   }
 
   std::optional<std::size_t> arrive(const detail::StructureState& state, MotionSource source) {

@@ -15,12 +15,25 @@ Eigen::MatrixXd columns_from(const Eigen::MatrixXd& values, Index first, Index c
   return columns;
 }
 
-// Whether `other` is `one`, `periods` periods of the load later.
+// Of `one` from `other` as it is `periods` periods of the load later.
+double distance_after(const MotionSamples& one, const MotionSamples& other, int periods) {
+  const Eigen::MatrixXd& later = other.contacts.displacement;
+  return (one.contacts.displacement - columns_from(later, periods * other.shift(), later.cols())).norm();
+}
+
 bool agree_after(const MotionSamples& one, const MotionSamples& other, int periods) {
-  const Eigen::MatrixXd& now = one.contacts.displacement;
-  const Eigen::MatrixXd later =
-      columns_from(other.contacts.displacement, periods * other.shift(), other.contacts.displacement.cols());
-  return (now - later).norm() <= same_motion * std::max(now.norm(), later.norm());
+  return distance_after(one, other, periods) <=
+         same_motion * std::max(one.contacts.displacement.norm(), other.contacts.displacement.norm());
+}
+
+// The first of some motions of as many periods that `agrees` with another, some periods of the load later.
+template <class Agrees>
+std::optional<std::size_t> find_if_any(const std::vector<MotionSamples>& motions, int periods,
+                                       const Agrees& agrees) {
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    for (int later = 0; motions[i].periods == periods && later < periods; ++later)
+      if (agrees(motions[i], later)) return i;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -33,10 +46,16 @@ MotionSamples samples_of(const PhaseMotion& motion, int periods) {
 
 std::optional<std::size_t> find_among(const std::vector<MotionSamples>& motions,
                                       const MotionSamples& motion) {
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    for (int later = 0; motions[i].periods == motion.periods && later < motion.periods; ++later)
-      if (agree_after(motion, motions[i], later)) return i;
-  return std::nullopt;
+  return find_if_any(motions, motion.periods,
+                     [&](const auto& one, int later) { return agree_after(motion, one, later); });
+}
+
+std::optional<std::size_t> find_near(const std::vector<MotionSamples>& motions, const MotionSamples& motion,
+                                     double share) {
+  const Eigen::MatrixXd& values = motion.contacts.displacement;
+  const double near = share * (values.colwise() - values.rowwise().mean()).norm();
+  return find_if_any(motions, motion.periods,
+                     [&](const auto& one, int later) { return distance_after(motion, one, later) <= near; });
 }
 
 void set_shares(CoexistingMotions& result) {

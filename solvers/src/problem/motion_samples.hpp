@@ -22,6 +22,9 @@ struct MotionSamples {
 MotionSamples samples_of(const PhaseMotion& motion, int periods);
 /// The first of some motions that is this one, also later by whole periods of the load.
 std::optional<std::size_t> find_among(const std::vector<MotionSamples>& motions, const MotionSamples& motion);
+/// Likewise one whose displacements differ by less than a share of what vibrates.
+std::optional<std::size_t> find_near(const std::vector<MotionSamples>& motions, const MotionSamples& motion,
+                                     double share);
 /// Sets CoexistingMotion::share and its error.
 void set_shares(CoexistingMotions& result);
 /// The least number of periods of the load after which a motion repeats.
