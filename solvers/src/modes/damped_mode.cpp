@@ -66,7 +66,7 @@ class DampedFollower : private CurveCorrector<DampedMotions> {
       const CurvePlane plane = ends ? plane_at(last) : plane_across(state_, next);
       if (!solve_in(plane, nullptr, next, iterations_) || !is_near(next, step)) return StepAttempt::too_long;
       CurvePoint way = chord(state_, next);
-      if (!tangent_at(next, way)) return StepAttempt::too_long;
+      if (!tangent_at(next, way) || !orient(next)) return StepAttempt::too_long;
       state_ = std::move(next);
       if (ends) state_.parameter = last;
       step = std::clamp(step * (iterations_ <= 3   ? 1.6
@@ -75,6 +75,28 @@ class DampedFollower : private CurveCorrector<DampedMotions> {
                         options_.min_step, options_.max_step);
       return StepAttempt::taken;
     });
+  }
+
+  // Where contacts begin to slip the curve turns within a step, so that its chord does not say which way
+  // leads on. The last part of the way does, which is halved until the tangent lies along it.
+  bool orient(CurvePoint& next) {
+    constexpr double along = 0.7;
+    constexpr int halvings = 12;
+    CurvePoint from = state_;
+    for (int n = 0; n < halvings; ++n) {
+      const CurvePoint way = chord(from, next);
+      const double length = std::sqrt(inner(way, way)), cosine = inner(next, way) / length;
+      if (std::abs(cosine) > along) {
+        next.displacement_tangent *= std::copysign(1.0, cosine);
+        next.parameter_tangent *= std::copysign(1.0, cosine);
+        return true;
+      }
+      CurvePoint middle;
+      int corrections = 0;
+      if (!between(from, next, 0.5, length, middle, corrections)) return false;
+      from = std::move(middle);
+    }
+    return false;
   }
 
   // Where a contact begins to slip the tangent jumps, so that short chords have any direction.
