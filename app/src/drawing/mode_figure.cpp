@@ -51,7 +51,15 @@ void add_frequencies(Panel& panel, const Table& backbone, const std::vector<doub
   panel.add(std::move(resonances));
 }
 
-/// An empty panel over the vibration of an output, which is scaled, with the onset of contact.
+/// Whether contacts can but slip, under given normal loads, so that a mode is linear until one does.
+bool slip_alone(const Scene& scene) {
+  const auto slides = [](const SceneContact& one) {
+    return has_friction(one.law) && direction_name(one) != "normal";
+  };
+  return std::ranges::all_of(contacts_of(scene), slides);
+}
+
+/// An empty panel over the vibration of an output, which is scaled, with the end of the linear range.
 Panel panel_over(const Scene& scene, bool damped, const ModeOutput& one, std::vector<double>& vibration) {
   double largest = 0.0;
   for (const double value : vibration) largest = std::fmax(largest, value);
@@ -64,7 +72,7 @@ Panel panel_over(const Scene& scene, bool damped, const ModeOutput& one, std::ve
   if (!panel.x.logarithmic) panel.x.lower = 0.0;
   if (!std::isfinite(one.at_onset)) return panel;
   panel.mark_x(scale.factor * one.at_onset);
-  panel.title = has_friction(scene) ? " (dotted: first slip)" : " (dotted: first contact)";
+  panel.title = slip_alone(scene) ? " (dotted: slip onset)" : " (dotted: end of the linear range)";
   return panel;
 }
 
@@ -200,8 +208,8 @@ Figure damped_figure(const Scene& scene, const Table& backbone, const ModeOutput
   for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
                                              {"Damping", "damping_ratio", "Damping ratio"}}) {
     Panel& panel = figure.add_panel(title);
-    panel.x.label = has_friction(scene) ? "Amplitude / amplitude of slip onset"
-                                        : "Amplitude / amplitude of first contact";
+    panel.x.label =
+        slip_alone(scene) ? "Amplitude / amplitude of slip onset" : "Amplitude / largest linear amplitude";
     panel.x.logarithmic = true;
     panel.y.label = label;
     Series series("", backbone, "amplitude_ratio", column);

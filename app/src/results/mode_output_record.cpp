@@ -111,7 +111,8 @@ const ModeOutput* leading_of(const std::vector<ModeOutput>& outputs, const Scene
 
 void draw_outputs(Record& record, const Scene& scene, const std::vector<ModeOutput>& outputs,
                   const solvers::BackboneStability& stability) {
-  if (outputs.empty()) return;
+  const bool drawn_already = outputs.size() == 1 && leading_of(outputs, scene) != nullptr;
+  if (outputs.empty() || drawn_already) return;
   Figure figure = outputs_figure(scene, record.backbone, outputs);
   draw_stability(figure, record.backbone, stability);
   record.output_pictures.push_back({"outputs", std::move(figure),

@@ -14,7 +14,8 @@ std::vector<ModeOutput> append_outputs(Record& record, const Scene& scene, const
 /// The output that leads; null where contacts alone are outputs.
 const ModeOutput* leading_of(const std::vector<ModeOutput>& outputs, const Scene& scene);
 
-/// Adds the picture of the outputs along a mode; none without any.
+/// Adds the picture of the outputs along a mode; none without any, and none of a single one that leads, which
+/// the record's own figure draws.
 void draw_outputs(Record& record, const Scene& scene, const std::vector<ModeOutput>& outputs,
                   const solvers::BackboneStability& stability = {});
 
