@@ -65,7 +65,9 @@ std::string outcome_text(const RunArguments& arguments, const Scene& scene, cons
   const auto path = [&](const char* name) { return (arguments.output / name).string(); };
   if (!arguments.report) return text + "All values: " + path("summary.json") + "\n";
   return text + fmt::format("Report{}: {}; all values: summary.json, --verbose\n",
-                            left_out > 0 ? fmt::format(" with {} more sentences", left_out) : "",
+                            left_out > 0
+                                ? fmt::format(" with {} more finding{}", left_out, left_out == 1 ? "" : "s")
+                                : "",
                             path("report.html"));
 }
 
