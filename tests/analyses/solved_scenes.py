@@ -165,7 +165,13 @@ def figure_of(record, name=None):
 
 
 def outcome_of(record):
-    """The sentences of its page that say what came out."""
+    """The sentences of its page on the results and their accuracy."""
     page = (folder_of(record) / "report.html").read_text()
-    text = page[page.index("<h2>Results</h2>") :]
-    return re.split(r"(?<=\.) (?=[A-Z])", html.unescape(text[text.index("<p>") + 3 : text.index("</p>")]))
+    return [sentence for title in ("Results", "Accuracy") for sentence in sentences_of(page, title)]
+
+
+def sentences_of(page, title):
+    """The sentences of the first paragraph or list of a section of a page; none without the section."""
+    body = re.search(f"<h2>{title}</h2>\n<(p|ul)>(.*?)</\\1>", page, re.S)
+    text = re.sub(r"</li>\s*<li>", " ", body.group(2)) if body else ""
+    return re.split(r"(?<=\.) (?=[A-Z])", html.unescape(re.sub("<[^>]*>", "", text)).strip()) if body else []

@@ -163,9 +163,8 @@ std::string pictures_html(const std::vector<RecordPicture>& pictures, const std:
 std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
                           const std::vector<RecordFile>& files, const Summary& summary) {
   return section_html("Warnings", warnings.empty() ? "" : list_html(warnings)) +
-         section_html("Problem", asked) +
-         section_html("Files",
-                      files_list(files) + folded("All values of the summary", values_table(summary)));
+         section_html("The run", asked + folded("Files", files_list(files)) +
+                                     folded("All values of the summary", values_table(summary)));
 }
 
 std::string report_page(PageParts page, const std::string& heading) {

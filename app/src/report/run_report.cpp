@@ -142,8 +142,8 @@ std::string facts_html(const std::string& description) {
 }
 
 std::string asked(const RunArguments& arguments, const Scene& scene, const std::string& text) {
-  return "<p>The command:</p>\n" + code_html(command_of(arguments)) + "<p>The problem:</p>\n" +
-         facts_html(describe_scene(scene)) + folded("The scene as it was solved", code_html(text));
+  return code_html(command_of(arguments)) + folded("The problem", facts_html(describe_scene(scene))) +
+         folded("The scene as it was solved", code_html(text));
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
   page.body =
       section_html(
           "Results",
-          paragraph(record.sentences.empty() ? outcome_sentences(summary, common_gap(scene), record.axis)
+          paragraph(record.sentences.empty() ? finding_sentences(summary, common_gap(scene), record.axis)
                                              : record.sentences) +
               (record.figure.panels.empty() ? "" : record_picture(files, heading)) + motion(files) +
               in_space + paragraph(rest_sentences(scene, summary)) +
@@ -175,6 +175,7 @@ std::string report_text(const RunArguments& arguments, const Scene& scene, const
               folded_table(summary, "special_points", "Bifurcation and grazing points") +
               folded_table(summary, "isolas", "Isolated branches (isolas)") +
               folded_table(summary, "special_points_of_isolas", "Bifurcation and grazing points of isolas")) +
+      section_html("Accuracy", record.sentences.empty() ? sentences_html(accuracy_sentences(summary)) : "") +
       section_html("Outputs", outputs_of_record(record, files, summary)) +
       section_html("Motions at points of the curve", motions_of_points(record, files, summary)) +
       last_sections(record.warnings, asked(arguments, scene, scene_text), files, summary);

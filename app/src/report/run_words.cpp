@@ -326,10 +326,30 @@ std::vector<std::string> output_sentences(const Summary& summary, const SweepAxi
   return sentences;
 }
 
-std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
-  std::vector<std::string> sentences{solution_sentence(summary)};
+namespace {
+
+bool is_curve(const Summary& summary) {
   const std::string analysis = text_in(summary, quantities::analysis);
-  const bool curve = analysis == "frequency_sweep" || analysis == "amplitude_sweep";
+  return analysis == "frequency_sweep" || analysis == "amplitude_sweep";
+}
+
+/// Then what was found of them is a finding, else a limit.
+bool others_were_sought(const Summary& summary) {
+  return text_in(summary, quantities::other_motions) == "sought";
+}
+
+bool is_solved(const Summary& summary) {
+  const bool* converged = value_in<bool>(summary, quantities::converged.name);
+  return converged != nullptr && *converged;
+}
+
+}  // namespace
+
+std::vector<std::string> finding_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
+  std::vector<std::string> sentences;
+  if (!is_solved(summary)) sentences.push_back(solution_sentence(summary));
+  const std::string analysis = text_in(summary, quantities::analysis);
+  const bool curve = is_curve(summary);
   if (!curve) append_leading_output(sentences, summary, axis);
   if (curve)
     append_curve(sentences, summary, gap, axis);
@@ -340,9 +360,24 @@ std::vector<std::string> outcome_sentences(const Summary& summary, double gap, c
   else
     append_motion(sentences, summary, gap);
   append_contact(sentences, summary, curve ? "up to " : "");
-  append_phases(sentences, summary, curve);
-  if (const std::string others = other_motions_sentence(summary, curve); !others.empty())
+  if (others_were_sought(summary)) sentences.push_back(other_motions_sentence(summary, curve));
+  return sentences;
+}
+
+std::vector<std::string> accuracy_sentences(const Summary& summary) {
+  std::vector<std::string> sentences;
+  if (is_solved(summary)) sentences.push_back(solution_sentence(summary));
+  append_phases(sentences, summary, is_curve(summary));
+  if (const std::string others = other_motions_sentence(summary, is_curve(summary));
+      !others.empty() && !others_were_sought(summary))
     sentences.push_back(others);
+  return sentences;
+}
+
+std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis) {
+  std::vector<std::string> sentences = accuracy_sentences(summary);
+  const std::vector<std::string> found = finding_sentences(summary, gap, axis);
+  sentences.insert(sentences.begin() + (is_solved(summary) ? 1 : 0), found.begin(), found.end());
   return sentences;
 }
 

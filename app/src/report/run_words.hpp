@@ -7,8 +7,15 @@
 
 namespace wavebalance::app {
 
-/// What a run found, in sentences: whether it was solved and how, the motion or the curve, contact. `gap` in
-/// m; NaN where contacts have different gaps or there are none. `axis` is that of a sweep.
+/// What a run found, in sentences: the motion or the curve, contact, isolas; first of all, if so, that it was
+/// not solved. `gap` in m; NaN where contacts have different gaps or there are none. `axis` is that of a
+/// sweep.
+std::vector<std::string> finding_sentences(const Summary& summary, double gap, const SweepAxis& axis = {});
+
+/// Why one may trust it: time and residual, the error, and whether other motions were searched for.
+std::vector<std::string> accuracy_sentences(const Summary& summary);
+
+/// Both, the solution first.
 std::vector<std::string> outcome_sentences(const Summary& summary, double gap, const SweepAxis& axis = {});
 
 /// Where each output vibrates most along a curve, or by how much in a motion, of a dozen of them.
