@@ -254,8 +254,7 @@ void note_stability(report::Artefact& artefact, const CurveParts& parts) {
   if (parts.folds.empty()) return;
   artefact.note(fmt::format(
       "Stability of the curve by arc length, by the number of multipliers outside the unit circle: {}. Dashed is the part between "
-      "the folds at {} and {} Hz if both of its points are unstable; a count takes about a second here, those "
-      "of all points minutes.",
+      "the folds at {} and {} Hz if both of its points are unstable; counts at all points would take minutes.",
       parts.counts_text(), report::number(parts.folds[0].frequency, 5),
       report::number(parts.folds[1].frequency, 5)));
 }

@@ -36,10 +36,10 @@ int main(int argc, char** argv) {
        {"tab01", identity("Table 1", "Test cases", "tab01_cases"), tab01},
        {"tab02", identity("Table 2", "Combinations of trial and weighting functions", "tab02_pairs"), tab02},
        {"haar_readings",
-        identity("Section 4.1, sums", "What the paper leaves open, and what it decides", "haar_readings"),
+        identity("Section 4.1, sums", "The sums: two interpretations and sixteen variants", "haar_readings"),
         haar_readings},
        {"rigid_plateau",
         identity("Rigid contact", "The contact plateau against a rigid obstacle", "rigid_plateau"),
         rigid_plateau},
-       {"speed", identity("Speed against accuracy", "What an error costs in each basis", "speed"), speed}});
+       {"speed", identity("Speed against accuracy", "The time for an error in each basis", "speed"), speed}});
 }

@@ -215,7 +215,7 @@ report::Statement concluded(report::Statement statement, std::vector<report::Rea
 }
 
 void refer_to_readings(report::Artefact& artefact) {
-  artefact.note("The readings and the other ways to form the sums are those of Fig. 6, which explains them.");
+  artefact.note("Fig. 6 explains the interpretations and the variants of the sums.");
 }
 
 void note_readings(report::Artefact& artefact) {

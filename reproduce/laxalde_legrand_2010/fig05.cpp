@@ -205,8 +205,8 @@ void claim_travelling(report::Artefact& artefact, const Motion& contact, const M
          .quote = "which becomes a traveling wave, as displayed in Fig. 5(c)-(d)",
          .criterion = fmt::format(
              "energy 1.8: between x/L = 0.25 and 0.75 the fronts at which the velocity rises and "
-             "falls move at the speed of sound, to a tie ({}); those of a standing wave are everywhere "
-             "at once",
+             "falls move at the speed of sound, to a tie ({}); a standing wave has them everywhere at "
+             "once",
              percent(report::tie_share)),
          .measured = fmt::format(
              "{} c towards the clamp and {} c back (exact motion, by the same measure: {} and {})",

@@ -117,7 +117,7 @@ void fig06(report::Artefact& artefact) {
        "This model is reduced by means of a Craig-Bampton procedure composed of 72 constraints modes "
        "associated with the physical displacements of 24 retained interface nodes belonging to the contact "
        "surface Γ_C complemented by 40 component normal modes.",
-       "24 contact nodes, 112 coordinates, and the eight lowest frequencies within 5e-4 of those of the "
+       "24 contact nodes, 112 coordinates, and the eight lowest frequencies within 5e-4 of the "
        "whole blade",
        fmt::format(
            "{} contact nodes, {} coordinates from {} unknowns; eight frequencies within {}; first {} Hz; "

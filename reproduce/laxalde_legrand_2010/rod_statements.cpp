@@ -179,9 +179,8 @@ void work(report::Artefact& artefact, const QuotientError& error) {
               fmt::format("they differ by up to {} of the linear frequency", number(error.largest, 3)),
               report::invisible(error.largest, error.range)};
   const std::string because = fmt::format(
-      "The force does no work over a period. What the quotient would need to vanish is the mean of force times "
-      "displacement, and that is $g_0$ times the mean force, at least {} of mean force times largest displacement at "
-      "these energies.",
+      "The force does no work over a period. The quotient requires that the mean of force times displacement "
+      "vanishes, but it is $g_0$ times the mean force, at least {} of mean force times largest displacement.",
       number(error.displaced, 3));
   s.panel = "(a) and (c)";
   judge(artefact, s, because);

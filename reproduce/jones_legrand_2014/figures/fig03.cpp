@@ -9,7 +9,7 @@ void fig03(report::Artefact& artefact) {
   artefact.data(table, "time in periods, functions normalised to integral 1",
                 {"the translate whose maximum lies at t = 1/2"});
   artefact.picture(levels_figure(table, "Scaling function (-)", app::SeriesStyle::line));
-  artefact.caption("Of the 2ᴶ translates the one whose maximum lies at t = 1/2 is drawn.");
+  artefact.caption("The translate with its maximum at t = 1/2 is drawn.");
 
   check_integrals(artefact, table);
   const Eigen::VectorXd c = wavelets::orthonormal_cubic_coefficients(100);

@@ -111,7 +111,7 @@ void check_outside(report::Artefact& artefact, const Case& study, const Readings
        "The Haar:Fourier combination appears to approximate the tip displacement outside the contact zone less well "
        "due to the blocky nature of the Haar scaling functions.",
        fmt::format(
-           "outside the contact rms and mean of the error are higher than those of Fourier:Fourier, as the best "
+           "outside the contact rms and mean of the error are higher than with Fourier:Fourier, as the best "
            "constants on {} cells have an rms error of {} mm there",
            plateau_cells, number(millimetres * best)),
        fmt::format("rms error {} mm against {} mm", number(millimetres * app::rms(haar)),

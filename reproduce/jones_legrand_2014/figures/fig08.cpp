@@ -286,7 +286,7 @@ void fig08(report::Artefact& artefact) {
   state_haar_velocity(artefact, study, readings);
   state_sparse(artefact, study);
   artefact.note(
-      "Velocities are those of the trial functions differentiated, eq. (34), at 1024 points. Central differences of the "
+      "Velocities are derivatives of the trial functions, eq. (34), at 1024 points. Central differences of the "
       "displacement at 256 points stand beside them.");
   attach_sums(artefact, study, readings,
               {.label = "Velocity (m/s)", .history = &app::Response::velocity, .from = -0.17, .to = 0.17});

@@ -16,8 +16,8 @@ void fig11(report::Artefact& artefact) {
   figure.panels = drawn.panels(&Measures::rms, "Relative rms error (-)", true);
   artefact.picture(figure);
   artefact.caption(
-      "Rms of the difference from the exact motion over a period, divided by the rms of the exact motion, at the tip. Both panels have one ordinate. Curves "
-      "stand side by side about each number of functions, so that none hides another.");
+      "Rms of the difference from the exact motion over a period, divided by the rms of the exact motion, at the tip. "
+      "Curves are shifted so that none hides another.");
   state_errors(artefact, all);
   state_haar_errors(artefact, all);
   state_similar_trends(artefact, all);

@@ -114,7 +114,7 @@ void state_abstract(report::Artefact& artefact, const std::vector<Convergence>& 
       fmt::format(
           "Piecewise constants are of first order, however the equations are weighted: at 1275 Hz the "
           "order of Haar:Fourier is {}, of Haar:B-spline {}, of Fourier:Fourier {}. The error of DB6:Fourier "
-          "is at most {:g} times that of Fourier:Fourier for {}, those of the Haar pairs for {} and {}.",
+          "is at most {:g} times that of Fourier:Fourier for {}, the errors of the Haar pairs for {} and {}.",
           order_text(all.front(), petrov_galerkin[0]), order_text(all.front(), petrov_galerkin[2]),
           order_text(all.front(), hbm_pair), report::similar_factor,
           often_comparable(all.front(), petrov_galerkin[1], false),

@@ -133,10 +133,8 @@ std::string passing_text(const std::vector<UnderReading>& all) {
       ++curves[reading.keeps_nyquist ? 0 : 1];
       passes[reading.keeps_nyquist ? 0 : 1] += sweep.converged() ? 1 : 0;
     }
-  return fmt::format(
-      "Of the curves with the Nyquist coefficient {} of {} pass the interval, of those without it {} "
-      "of {}.",
-      passes[0], curves[0], passes[1], curves[1]);
+  return fmt::format("With the Nyquist coefficient {} of {} curves pass the interval, without it {} of {}.",
+                     passes[0], curves[0], passes[1], curves[1]);
 }
 
 /// The curves of all pairs under each reading, the first of which is that of the scene.

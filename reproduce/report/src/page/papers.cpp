@@ -25,7 +25,7 @@ const std::vector<Paper>& papers() {
       {"blade", "The blade further", "The blade further: beyond the papers", "", "", false, {}},
       {"cases_of_others",
        "Cases of others",
-       "Cases of others: curves that other programs publish or whose special points are known exactly",
+       "Cases of others: curves that other programs publish or whose bifurcation points are known exactly",
        "",
        "",
        true,
