@@ -1,7 +1,7 @@
 """A periodic motion of the integration near one that is known at samples, and the map of its period by differences."""
 
 import numpy as np
-from event_flow import EndlessEvents, EventFlow
+from event_flow import EndlessEvents, EventFlow, Samples
 
 
 class NoSlope(Exception):
@@ -114,6 +114,18 @@ class NearMotion:
             except (EndlessEvents, NoSlope, np.linalg.LinAlgError):
                 continue
         return False
+
+    def distance(self):
+        """Of the displacements along the contacts from those given, relative to the largest vibration."""
+        flow, n = self.flow, self.flow.size
+        spacing = flow.period / self.points
+        first = int(np.ceil(self.begin / spacing))
+        states, z = flow.over(self.states, self.z, first * spacing - self.begin)
+        samples = Samples(spacing, self.points)
+        flow.over(states, z, flow.period, samples)
+        moved = np.array([[one["direction"] @ z[:n] for z in samples.z] for one in self.mixture["contacts"]])
+        there = self.displacement[:, (first + np.arange(self.points)) % self.points]
+        return np.abs(moved[:, : self.points] - there).max() / self.size
 
     def multipliers(self):
         """Eigenvalues of the map of a period, the largest first."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from solved_scenes import JONES, STOP, STOP_AMPLITUDE, ZIGZAG, refusal, rows_of, solved, where
+from solved_scenes import JONES, SCENES, STOP, STOP_AMPLITUDE, ZIGZAG, refusal, rows_of, solved, where
 
 EXACT = {"analysis.exact": True}
 
@@ -74,7 +74,8 @@ OF_THE_BAR = {"analysis.frequency_from": 1250, "analysis.frequency_to": 1400, "t
     (STOP, {"time.functions": 63}, "frequency_Hz"),
     (STOP_AMPLITUDE, {}, "amplitude_N"),
     (JONES / "case2_sweep.toml", OF_THE_BAR, "frequency_Hz"),
-], ids=["15 functions", "63 functions", "over the amplitude", "bar"])
+    (SCENES / "laws" / "duffing.toml", {}, "frequency_Hz"),
+], ids=["15 functions", "63 functions", "over the amplitude", "bar", "duffing"])
 def test_special_points_of_the_structure_are_those_of_an_exact_curve_to_nine_digits(scene, overrides, axis):
     ordinary, exact = solved(scene, overrides), solved(scene, {**overrides, **EXACT})
     assert ordinary.converged and exact.converged

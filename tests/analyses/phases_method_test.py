@@ -4,7 +4,8 @@ import tomllib
 
 import numpy as np
 import pytest
-from period_oracle import RigidTip, bar_matrices
+from period_oracle import RigidTip
+from rods_and_bars import matrices_of
 from solved_scenes import (
     BALANCE_KEYS,
     BAR,
@@ -81,7 +82,7 @@ def test_phases_divide_the_panels_of_long_contact(gap):
     record = solved(RIGID_BAR, {**PHASES, "time.tolerance": 1e-12, "forcing.frequency": 90, "contact.gap": gap},
                     ALL_BALANCE_KEYS)
     assert record.converged, record.status
-    mass, stiffness = bar_matrices(25)
+    mass, stiffness = matrices_of(BAR["structure"])
     mass[-2, -2] += mass[-1, -1] + 2.0 * mass[-1, -2]  # the tip's mass is its neighbour's
     mass[-1], mass[:, -1] = 0.0, 0.0
     joined = RigidTip(mass, 1e-4 * stiffness, stiffness, 250e3, gap, 90.0).displacement()

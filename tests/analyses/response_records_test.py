@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from period_oracle import bar_matrices
+from rods_and_bars import matrices_of
 from solved_scenes import BAR, BAR_SWEEP, COLUMNS_OF_A_CURVE, FOURIER, JONES, figure_of, folder_of, refusal, solved
 
 import wavebalance
@@ -21,7 +21,7 @@ FREE_BAR = {**BAR, "contact": {"law": "none"}}
 def test_load_and_contact_of_a_bar_are_at_its_tip():
     record = solved(FREE_BAR)
     assert (record.summary["degrees_of_freedom"], record.summary["contacts"]) == (25, 1)
-    mass, stiffness = bar_matrices(25)
+    mass, stiffness = matrices_of(BAR["structure"])
     omega = 2.0 * math.pi * 150.0
     load = 250e3 * np.eye(25)[-1]
     motion = np.linalg.solve(stiffness * (1.0 + 1e-4j * omega) - omega**2 * mass, load)

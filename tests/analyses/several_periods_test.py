@@ -98,6 +98,13 @@ def test_every_branch_is_written_with_its_period():
     assert omega.min() > 2.07 and omega.max() < 3.15
     between = (branch == 0.0) & (omega > 2.21) & (omega < 2.97)
     assert between.any() and (record.sweep["unstable"][between] == 1.0).all()
+    # The branch turns back at two folds, and is itself doubled between two frequencies on its way to the first.
+    doubled, top = omega[branch == 1.0], omega[branch == 1.0].argmax()
+    assert doubled[top] == pytest.approx(3.02430, abs=2e-4) and doubled[top:].min() == pytest.approx(2.92686, abs=2e-4)
+    begin, end = TWO_PI * branches["frequency_Hz"][1], TWO_PI * branches["end_frequency_Hz"][1]
+    assert (begin, end) == pytest.approx((2.36300, 2.44572), abs=2e-4)
+    way = doubled[:top][doubled[:top] < 3.024]
+    np.testing.assert_array_equal(record.sweep["unstable"][branch == 1.0][: len(way)], (way > begin) & (way < end))
 
 
 def test_samples_at_the_middles_change_no_motion_of_two_periods_and_no_branch():

@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from rods_and_bars import BAR
 
 import wavebalance
 
@@ -16,14 +17,6 @@ JONES = SCENES / "jones_legrand_2014"
 
 FOURIER = {"trial": "fourier", "weight": "fourier"}
 
-BAR = {
-    "structure": {"type": "bar", "youngs_modulus": 70e9, "density": 2700, "area": 25e-4, "length": 1.0, "elements": 25,
-                  "stiffness_damping": 1e-4},
-    "contact": {"law": "exponential", "constant": 1e8, "exponent": 50.0, "gap": 1e-3},
-    "forcing": {"amplitude": 250e3, "frequency": 150.0},
-    "time": {**FOURIER, "functions": 64, "quadrature_points": 256},
-    "analysis": {"type": "forced_response"},
-}
 BAR_SWEEP = {"time.functions": 31, "analysis.type": "frequency_sweep", "analysis.frequency_from": 100,
              "analysis.frequency_to": 110}
 #: Damping without a known motion of the structure.

@@ -1,7 +1,4 @@
-"""Motions with impacts by matrix exponentials of the whole structure, which share nothing with the package.
-
-An impact is where a contact that was below its gap is above it, looked for on a fixed grid of instants.
-"""
+"""Motions that have given impacts, by matrix exponentials of the whole structure, which share nothing with the package."""
 
 import math
 from collections import namedtuple
@@ -19,11 +16,9 @@ def strikes_of(impacts, period):
 
 
 class ImpactOracle:
-    """State: displacements and velocities. `own` is what is left of it without the motion that has no contact."""
+    """State: displacements and velocities."""
 
-    BLOCK = 1000
-
-    def __init__(self, structure, steps=8000):
+    def __init__(self, structure):
         self.structure, n = structure, len(structure.mass)
         self.n, self.inverse = n, np.linalg.inv(structure.mass)
         self.rates = np.block([[np.zeros((n, n)), np.eye(n)],
@@ -33,11 +28,6 @@ class ImpactOracle:
         self.speeds = np.roll(self.rows, n, axis=1)
         self.amplitudes = structure.free_amplitudes()
         self.load_period = 2.0 * math.pi / structure.omega
-        self.step = self.load_period / steps
-        by_step, ahead = expm(self.step * self.rates), [self.rows]
-        for _ in range(self.BLOCK):
-            ahead.append(ahead[-1] @ by_step)
-        self.ahead = np.array(ahead[1:])  # displacements at the contacts after 1, 2, ... steps
 
     def free(self, times):
         """The state without contact, a column an instant."""
@@ -55,42 +45,6 @@ class ImpactOracle:
             for k, since in enumerate((np.atleast_1d(times) - strike.time) % whole):
                 states[:, k] -= expm(since * self.rates) @ blow
         return states
-
-    def advance(self, state, time, until):
-        """The state at `until`, and the impacts on the way."""
-        own, strikes = state - self.free(time)[:, 0], []
-        while until - time > 1e-14 * self.load_period:
-            hit = self.next_hit(own, time)
-            if hit is None or time + hit[0] > until:
-                length = min(self.BLOCK * self.step, until - time)
-                own, time = expm(length * self.rates) @ own, time + length
-                continue
-            after, c = hit
-            own, time = expm(after * self.rates) @ own, time + after
-            speed = self.speeds[c] @ (own + self.free(time)[:, 0])
-            if speed > 0.0:
-                impulse = (1.0 + self.structure.restitution) * speed / (self.speeds[c] @ self.impulses[:, c])
-                own = own - impulse * self.impulses[:, c]
-                strikes.append(Strike(c, time, speed, impulse))
-        return own + self.free(until)[:, 0], strikes
-
-    def next_hit(self, own, time):
-        """Time to the first impact of the next block of steps and its contact, or None."""
-        times = time + self.step * np.arange(1, self.BLOCK + 1)
-        above = (self.ahead @ own).T + self.rows @ self.free(times) - self.structure.gaps[:, None]
-        hits = np.argwhere(above.T > 0.0)
-        if len(hits) == 0:
-            return None
-        k = hits[0][0]
-        return min((self.crossing(own, time, k * self.step, (k + 1) * self.step, c), c)
-                   for c in np.flatnonzero(above[:, k] > 0.0))
-
-    def crossing(self, own, time, low, high, c):
-        for _ in range(60):
-            middle = 0.5 * (low + high)
-            place = self.rows[c] @ (expm(middle * self.rates) @ own + self.free(time + middle)[:, 0])
-            low, high = (low, middle) if place > self.structure.gaps[c] else (middle, high)
-        return low if low > 0.0 else high
 
     def multipliers(self, strikes, periods):
         """Of a periodic motion with these impacts: exponentials, and the saltation of each impact."""
@@ -111,9 +65,3 @@ class ImpactOracle:
         if not strikes:
             monodromy = expm(whole * self.rates)
         return np.linalg.eigvals(monodromy)
-
-    def growth_by_differences(self, state, period, change=1e-6):
-        """The largest modulus of the multipliers by differences of motions in time."""
-        columns = [self.advance(state + step, 0.0, period)[0] - self.advance(state - step, 0.0, period)[0]
-                   for step in change * np.eye(len(state))]
-        return np.abs(np.linalg.eigvals(np.array(columns).T / (2.0 * change))).max()

@@ -81,6 +81,14 @@ def scene_of(structure, kind="forced_response", **analysis):
     }
 
 
+def mixture_of(structure):
+    """The structure as EventFlow takes it."""
+    stops = [{"law": "rigid_stop", "direction": row, "gap": gap, "restitution": structure.restitution}
+             for row, gap in zip(structure.contacts, structure.gaps)]
+    return {**{key: getattr(structure, key) for key in ("mass", "damping", "stiffness", "omega")},
+            "load": np.eye(len(structure.mass))[structure.loaded], "contacts": stops}
+
+
 def columns(record, name):
     """The numbers of a file that a record writes, by columns."""
     with tempfile.TemporaryDirectory() as folder:

@@ -152,6 +152,27 @@ def test_backlash_touches_both_sides(example):
     assert gap_lines(record.svg()) == 1
 
 
+def test_backlash_is_a_stop_in_either_direction(example, scenes, monkeypatch):
+    monkeypatch.chdir(Path(scenes) / "laws")
+    text = Path("backlash.toml").read_text().replace("contact_dofs = [1]", "").replace('law = "clearance"', 'law = "linear"')
+    text = text[:text.index("stiffness_below")] + """
+[[contact.pairs]]
+dofs = [1]
+[[contact.pairs]]
+dofs = [1]
+side = "negative"
+stiffness = 10.0
+gap = 0.8
+""" + text[text.index("[forcing]"):]
+    one, two = (record.summary for record in (example("backlash.toml"), wb.run(text)))
+    assert two["contacts"] == 2
+    assert two["max_displacement_m"] == pytest.approx(one["max_displacement_m"], rel=2e-3)
+    assert two["special_points"]["type"] == one["special_points"]["type"]
+    for found, expected in (tuple(summary["unstable_parts"][key] for summary in (two, one)) for key in ("begin_Hz", "end_Hz")):
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-5)
+    np.testing.assert_allclose(two["special_points"]["frequency_Hz"], one["special_points"]["frequency_Hz"], rtol=0.0, atol=1e-5)
+
+
 def test_backlash_has_a_fold_at_its_peak_also_where_its_samples_turn_the_curve(example):
     # The kinks of 256 samples turn the curve 60 times near its peak, at which the stability changes once.
     special = example("backlash.toml", "time.quadrature_points=256").summary["special_points"]

@@ -1,7 +1,6 @@
 """What an integration of the tests' own says of the periodic motion that a record has."""
 
 import numpy as np
-from event_flow import Samples
 from near_motion import NearMotion
 
 # Written down before the first campaign.
@@ -36,18 +35,6 @@ class Comparison(NearMotion):
         held = {int(c) - 1 for c, stays in zip(table["contact"], table["history_dependent"]) if stays}
         super().__init__(mixture, *contact_motion(mixture, record), masses(mixture, record),
                          periods=int(record.summary.get("period_of_motion") or 1), held=held)
-
-    def distance(self):
-        """Of the displacements along the contacts, at the record's samples."""
-        flow, n = self.flow, self.flow.size
-        spacing = flow.period / self.points
-        first = int(np.ceil(self.begin / spacing))
-        states, z = flow.over(self.states, self.z, first * spacing - self.begin)
-        samples = Samples(spacing, self.points)
-        flow.over(states, z, flow.period, samples)
-        moved = np.array([[one["direction"] @ z[:n] for z in samples.z] for one in self.mixture["contacts"]])
-        there = self.displacement[:, (first + np.arange(self.points)) % self.points]
-        return np.abs(moved[:, : self.points] - there).max() / self.size
 
     def run(self):
         """'right', or what is wrong."""

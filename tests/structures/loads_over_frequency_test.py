@@ -1,5 +1,7 @@
 """Loads that vary with the frequency: amplitude_table, accelerations in g, and normal loads that grow or follow a table."""
 
+import os
+
 import numpy as np
 import pytest
 import scipy.interpolate
@@ -38,7 +40,7 @@ def matrices(matrix, tmp_path, monkeypatch):
     for name, value in (("m", MASS), ("k", STIFFNESS), ("c", DAMPING)):
         matrix(f"{name}.mtx", [[value, 0.0], [0.0, value]])
     table("table.csv")
-    return tmp_path
+    table("loads.csv", amplitudes=LOADS, head="frequency_Hz,normal_load")
 
 
 def table(name, places=PLACES, amplitudes=AMPLITUDES, phases=None, head="frequency_Hz,amplitude"):
@@ -46,6 +48,9 @@ def table(name, places=PLACES, amplitudes=AMPLITUDES, phases=None, head="frequen
     lines = [head + ("" if phases is None else ",phase_degrees")] + [",".join(map(repr, row)) for row in zip(*columns)]
     with open(name, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
+
+
+FILES = [("table.csv", "amplitude"), ("loads.csv", "normal_load")]
 
 
 def scene(*each, contact='law = "none"', time=BASES, analysis=RESPONSE):
@@ -81,16 +86,30 @@ def receptance(frequency):
 TABLE = 'dofs = [1]\namplitude_table = "table.csv"'
 
 
+# amplitude_table of [forcing].
+PLAIN = SCENE.replace("frequency = 9.0", "frequency = 9.0\nload_dofs = [1]\namplitude = 2.5\namplitude_table = \"table.csv\"")
+
+
+def plain(**named):
+    return PLAIN.format(**{"contact": 'law = "none"', "terms": "", "time": BASES, "analysis": RESPONSE} | named)
+
+
 @pytest.mark.parametrize("exact", ["false", "true"])
 @pytest.mark.parametrize("phases", [None, PHASES])
-@pytest.mark.parametrize("amplitude", [1.0, 2.5])
-def test_a_curve_has_the_amplitude_of_the_table_at_each_point(exact, phases, amplitude):
+@pytest.mark.parametrize("amplitude, written", [
+    (1.0, lambda **named: scene(TABLE + "\namplitude = 1.0", **named)),
+    (2.5, lambda **named: scene(TABLE + "\namplitude = 2.5", **named)),
+    (2.5, plain),
+], ids=["term", "larger term", "forcing"])
+def test_a_curve_has_the_amplitude_of_the_table_at_each_point(exact, phases, amplitude, written):
     table("table.csv", phases=phases)
-    record = solved(TABLE + f"\namplitude = {amplitude}", analysis=SWEEP + f"\nexact = {exact}")
+    record = wb.run(written(analysis=SWEEP + f"\nexact = {exact}\nstability = true", contact=STOP.replace("2e-4", "1.0")))
+    assert record.converged, record.status
     frequency = record.sweep["frequency_Hz"]
     assert len(frequency) > 10
     expected = np.abs(receptance(frequency) * force_at(frequency, phases, amplitude)) / np.sqrt(2.0)
     np.testing.assert_allclose(record.sweep["rms_displacement_m"], expected, rtol=1e-9)
+    assert not record.sweep["unstable"].any()
 
 
 @pytest.mark.parametrize("kind, unit", [("unbalance", lambda omega: omega**2), ("base_acceleration", lambda omega: -MASS)])
@@ -142,17 +161,6 @@ def test_a_scene_is_written_with_its_table(tmp_path):
     assert "2 N times a table over the frequency" in wb.check(scene(TABLE + "\namplitude = 2.0"))
 
 
-@pytest.mark.parametrize("prepare, part", [
-    (lambda: table("table.csv", places=[7.0, 8.0, 11.0, 15.0]), "6 to 14 Hz"),
-    (lambda: table("table.csv", places=[5.0, 8.0, 8.0, 15.0]), "not above"),
-    (lambda: table("table.csv", head="frequency,amplitude"), "frequency_Hz"),
-    (lambda: table("table.csv", places=[5.0], amplitudes=[1.0]), "at least 2"),
-])
-def test_a_table_that_does_not_fit_is_refused_by_key(prepare, part):
-    prepare()
-    assert part in str(refused(scene(TABLE, analysis=SWEEP), "forcing.terms[1].amplitude_table"))
-
-
 @pytest.mark.parametrize("term, key", [
     (TABLE + "\nharmonic = 0", "forcing.terms[1].amplitude_table"),
     ('dofs = [1]\namplitude = 1.0\nunit = "g"', "forcing.terms[1].unit"),
@@ -161,15 +169,12 @@ def test_a_key_that_does_not_belong_to_the_term_is_refused(term, key):
     refused(scene(term), key)
 
 
-def test_an_amplitude_sweep_takes_no_table():
-    sweep = 'type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'
-    refused(scene(TABLE, analysis=sweep), "forcing.terms[1].amplitude_table", "amplitude alone")
-
-
-# A slider on the first mass, whose normal load grows with the square of the frequency.
+# A slider on the first mass, whose normal load grows with the square of the frequency, or by a table beside one that does not vary.
 MU, TANGENTIAL, GROWTH, LOAD = 0.4, 2e4, 6.5e-3, 1.0
+LOADS = [3.0, 20.0, 6.0, 12.0]
 PRESSED = f'law = "coulomb"\nfriction = {MU}\ntangential_stiffness = {TANGENTIAL}\nnormal_load = '
 GROWING = PRESSED + f"{LOAD}\nnormal_load_speed2 = {GROWTH}"
+TABLED = PRESSED + f"{LOAD}\nnormal_load_table = \"loads.csv\""
 DRIVE = "dofs = [1]\namplitude = 12.0"
 FINE = BASES.replace("31", "63") + "\nquadrature_points = 512"
 
@@ -178,32 +183,42 @@ def normal_load(frequency):
     return LOAD + GROWTH * (2.0 * np.pi * frequency)**2
 
 
+def tabled(frequency):
+    return float(LOAD + steffen(PLACES, np.array(LOADS))(frequency))
+
+
 def at(frequency, load, time=FINE, keys=None):
     """The response at a frequency under a normal load that is given."""
     return solved(DRIVE, contact=PRESSED + repr(load), time=time, overrides={"forcing.frequency": frequency, **(keys or {})})
 
 
+varies = pytest.mark.parametrize("contact, load", [(GROWING, normal_load), (TABLED, tabled)], ids=["growing", "tabled"])
+
+
+@varies
 @pytest.mark.parametrize("time", [FINE, 'method = "exact"', "stepping"])
-def test_a_response_has_the_normal_load_at_its_frequency(time):
+def test_a_response_has_the_normal_load_at_its_frequency(contact, load, time):
     stepping = time == "stepping"
     named = {"time": "" if stepping else time, "analysis": 'type = "time_stepping"' if stepping else RESPONSE}
-    grown = solved(DRIVE, contact=GROWING, **named)
-    given = solved(DRIVE, contact=PRESSED + repr(normal_load(9.0)), **named)
-    assert distance(displacements(grown), displacements(given)) < 1e-10
-    assert grown.summary["friction_work_J"] == pytest.approx(given.summary["friction_work_J"], rel=1e-9)
+    found = solved(DRIVE, contact=contact, **named)
+    given = solved(DRIVE, contact=PRESSED + repr(load(9.0)), **named)
+    assert distance(displacements(found), displacements(given)) < 1e-10
+    assert found.summary["friction_work_J"] == pytest.approx(given.summary["friction_work_J"], rel=1e-9)
     assert given.summary["friction_work_J"] > 0.0
 
 
+@varies
 @pytest.mark.parametrize("exact", ["false", "true"])
-def test_points_of_a_curve_are_responses_under_the_normal_load_there(exact):
-    sweep = solved(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + f"\nexact = {exact}").sweep
+def test_points_of_a_curve_are_responses_under_the_normal_load_there(contact, load, exact):
+    stable = f"\nexact = {exact}\nstability = true"
+    sweep = solved(DRIVE, contact=contact, time=FINE, analysis=SWEEP + stable).sweep
     frequency = sweep["frequency_Hz"]
     assert len(frequency) > 10
     slips = np.flatnonzero(sweep["slip_fraction"] > 0.05) if "slip_fraction" in sweep else np.arange(len(frequency))
     for point in slips[[0, len(slips) // 2, -1]]:
         one = float(frequency[point])
-        beginning = f'type = "frequency_sweep"\nfrequency_from = {one!r}\nfrequency_to = {1.01 * one!r}\nexact = {exact}'
-        fixed = solved(DRIVE, contact=PRESSED + repr(normal_load(one)), time=FINE, analysis=beginning).sweep
+        beginning = f'type = "frequency_sweep"\nfrequency_from = {one!r}\nfrequency_to = {1.01 * one!r}'
+        fixed = solved(DRIVE, contact=PRESSED + repr(load(one)), time=FINE, analysis=beginning + stable).sweep
         assert fixed["frequency_Hz"][0] == one
         for name in ("max_displacement_m", "friction_work_J"):
             if name in sweep:
@@ -222,36 +237,22 @@ def test_the_first_slip_is_where_the_spring_force_is_the_limit_at_its_frequency(
         assert TANGENTIAL * stuck == pytest.approx(MU * normal_load(one), rel=1e-4)
 
 
-def test_a_study_over_the_frequency_has_the_normal_load_of_each_run(tmp_path):
+@varies
+def test_a_study_and_a_diagram_have_the_normal_load_of_each_frequency(contact, load, tmp_path):
     values = [8.0, 10.0]
-    text = scene(DRIVE, contact=GROWING, time=FINE)
-    found = wb.study(text, {"forcing.frequency": values}, output=tmp_path / "study").table["rms_displacement_m"]
-    expected = [at(one, normal_load(one)).summary["rms_displacement_m"] for one in values]
-    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    found = wb.study(scene(DRIVE, contact=contact, time=FINE), {"forcing.frequency": values}, output=tmp_path / "study").table
+    expected = [at(one, load(one)).summary["rms_displacement_m"] for one in values]
+    np.testing.assert_allclose(found["rms_displacement_m"], expected, rtol=1e-9)
+    diagram = 'type = "bifurcation_diagram"\nfrequency_from = 8.0\nfrequency_to = 10.0\nvalues = 2\nexact_curve = false\nboth_ways = false'
+    section = wb.run(scene(DRIVE, contact=contact, time="", analysis=diagram)).section
+    fixed = wb.run(scene(DRIVE, contact=PRESSED + repr(load(10.0)), time="", analysis=diagram)).section
+    assert section["displacement_m"][-1] == pytest.approx(fixed["displacement_m"][-1], rel=1e-6)
 
 
-def test_a_motion_of_the_curve_has_its_friction_at_its_frequency(tmp_path):
-    wb.run(scene(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + "\nmotion_at = [9.0]"), output=tmp_path / "out")
-    assert (tmp_path / "out" / "motion_9_Hz.csv").exists() or list((tmp_path / "out").glob("motion*.csv"))
-
-
-# amplitude_table of [forcing], and the same of a bar.
-PLAIN = SCENE.replace("frequency = 9.0", "frequency = 9.0\nload_dofs = [1]\namplitude = 2.5\namplitude_table = \"table.csv\"")
-
-
-def plain(**named):
-    return PLAIN.format(**{"contact": 'law = "none"', "terms": "", "time": BASES, "analysis": RESPONSE} | named)
-
-
-@pytest.mark.parametrize("exact", ["false", "true"])
-def test_the_amplitude_of_the_forcing_takes_a_table_too(exact):
-    table("table.csv", phases=PHASES)
-    record = wb.run(plain(analysis=SWEEP + f"\nexact = {exact}\nstability = true", contact=STOP.replace("2e-4", "1.0")))
-    frequency = record.sweep["frequency_Hz"]
-    expected = np.abs(receptance(frequency) * force_at(frequency, PHASES, 2.5)) / np.sqrt(2.0)
-    assert len(frequency) > 10
-    np.testing.assert_allclose(record.sweep["rms_displacement_m"], expected, rtol=1e-9)
-    assert not record.sweep["unstable"].any()
+def test_a_motion_of_the_curve_has_the_normal_load_at_its_frequency(tmp_path):
+    wb.run(scene(DRIVE, contact=GROWING, time=FINE, analysis=SWEEP + "\nmotion_at = [9.0]"), output=tmp_path)
+    found = np.genfromtxt(tmp_path / "motion_9Hz.csv", delimiter=",", names=True)["displacement_m"]
+    assert np.ptp(found) == pytest.approx(np.ptp(displacements(at(9.0, normal_load(9.0)))[0]), rel=1e-4)
 
 
 @pytest.mark.parametrize("time, analysis", [
@@ -297,84 +298,38 @@ frequency = 9.0
     assert "0.1 N times a table over the frequency" in wb.check(bar.format(table='amplitude_table = "table.csv"', time=BASES))
 
 
-@pytest.mark.parametrize("prepare, keys, part", [
-    (lambda: table("table.csv", places=[7.0, 8.0, 11.0, 15.0]), {}, "6 to 14 Hz"),
-    (lambda: table("table.csv", amplitudes=[1.0, float("nan"), 1.0, 1.0]), {}, "no finite number"),
-    (lambda: None, {"forcing.amplitude": 0.0}, "which is 0"),
-    (lambda: None, {"forcing.amplitude_table": "other.csv"}, "other.csv"),
+TABLES = {  # of which a sweep is refused at these keys
+    "forcing.terms[1].amplitude_table": lambda **named: scene(TABLE, **named),
+    "forcing.amplitude_table": plain,
+    "contact.normal_load_table": lambda **named: scene(DRIVE, contact=TABLED, **named),
+}
+
+
+@pytest.mark.parametrize("key, prepare, part", [
+    *((key, lambda: [table(name, [7.0, 8.0, 11.0, 15.0], head=f"frequency_Hz,{head}") for name, head in FILES], "6 to 14 Hz")
+      for key in TABLES),
+    ("forcing.terms[1].amplitude_table", lambda: table("table.csv", places=[5.0, 8.0, 8.0, 15.0]), "not above"),
+    ("forcing.terms[1].amplitude_table", lambda: table("table.csv", head="frequency,amplitude"), "frequency_Hz"),
+    ("forcing.terms[1].amplitude_table", lambda: table("table.csv", places=[5.0], amplitudes=[1.0]), "at least 2"),
+    ("forcing.amplitude_table", lambda: table("table.csv", amplitudes=[1.0, float("nan"), 1.0, 1.0]), "no finite number"),
+    ("forcing.amplitude_table", lambda: os.remove("table.csv"), "table.csv"),
+    ("contact.normal_load_table", lambda: table("loads.csv", amplitudes=[1.0, -2.0, 1.0, 1.0], head="frequency_Hz,normal_load"), "at least 0"),
+    ("contact.normal_load_table", lambda: table("loads.csv", head="frequency_Hz,load"), "normal_load"),
+    ("contact.normal_load_table", lambda: os.remove("loads.csv"), "loads.csv"),
 ])
-def test_a_table_of_the_forcing_that_does_not_fit_is_refused_by_key(prepare, keys, part):
+def test_a_table_that_does_not_fit_is_refused_by_key(key, prepare, part):
     prepare()
-    with pytest.raises(wb.SceneError) as refusal:
-        wb.run(plain(analysis=SWEEP), keys)
-    assert "forcing.amplitude_table" in str(refusal.value) and part in str(refusal.value)
+    assert part in str(refused(TABLES[key](analysis=SWEEP), key))
 
 
-def test_an_amplitude_sweep_takes_no_table_of_the_forcing():
-    with pytest.raises(wb.SceneError, match="forcing.amplitude_table"):
-        wb.run(plain(analysis='type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'))
+def test_a_table_of_an_amplitude_of_zero_is_refused():
+    assert "which is 0" in str(refused(plain(), "forcing.amplitude_table", overrides={"forcing.amplitude": 0.0}))
 
 
-# A normal load by a table, beside one that does not vary.
-LOADS = [3.0, 20.0, 6.0, 12.0]
-TABLED = PRESSED + f"{LOAD}\nnormal_load_table = \"loads.csv\""
-
-
-@pytest.fixture
-def loads():
-    table("loads.csv", amplitudes=LOADS, head="frequency_Hz,normal_load")
-
-
-def tabled(frequency):
-    return LOAD + steffen(PLACES, np.array(LOADS))(frequency)
-
-
-@pytest.mark.parametrize("time", [FINE, 'method = "exact"', "stepping"])
-def test_a_response_has_the_normal_load_of_the_table(loads, time):
-    stepping = time == "stepping"
-    named = {"time": "" if stepping else time, "analysis": 'type = "time_stepping"' if stepping else RESPONSE}
-    found = solved(DRIVE, contact=TABLED, **named)
-    given = solved(DRIVE, contact=PRESSED + repr(float(tabled(9.0))), **named)
-    assert distance(displacements(found), displacements(given)) < 1e-10
-    assert found.summary["friction_work_J"] == pytest.approx(given.summary["friction_work_J"], rel=1e-9)
-    assert given.summary["friction_work_J"] > 0.0
-
-
-@pytest.mark.parametrize("exact", ["false", "true"])
-def test_points_of_a_curve_have_the_normal_load_of_the_table_there(loads, exact):
-    sweep = solved(DRIVE, contact=TABLED, time=FINE, analysis=SWEEP + f"\nexact = {exact}\nstability = true").sweep
-    frequency = sweep["frequency_Hz"]
-    for point in (3, len(frequency) // 2, -2):
-        one = float(frequency[point])
-        beginning = f'type = "frequency_sweep"\nfrequency_from = {one!r}\nfrequency_to = {1.01 * one!r}\nexact = {exact}\nstability = true'
-        fixed = solved(DRIVE, contact=PRESSED + repr(float(tabled(one))), time=FINE, analysis=beginning).sweep
-        for name in ("max_displacement_m", "friction_work_J"):
-            assert sweep[name][point] == pytest.approx(fixed[name][0], rel=1e-6)
-        assert sweep["unstable"][point] == fixed["unstable"][0]
-
-
-def test_a_study_and_a_diagram_have_the_normal_load_of_each_frequency(loads, tmp_path):
-    values = [8.0, 10.0]
-    found = wb.study(scene(DRIVE, contact=TABLED, time=FINE), {"forcing.frequency": values}, output=tmp_path / "study").table
-    expected = [at(one, float(tabled(one))).summary["rms_displacement_m"] for one in values]
-    np.testing.assert_allclose(found["rms_displacement_m"], expected, rtol=1e-9)
-    diagram = 'type = "bifurcation_diagram"\nfrequency_from = 8.0\nfrequency_to = 10.0\nvalues = 2\nexact_curve = false\nboth_ways = false'
-    for contact, load in ((TABLED, tabled), (GROWING, normal_load)):
-        section = wb.run(scene(DRIVE, contact=contact, time="", analysis=diagram)).section
-        fixed = wb.run(scene(DRIVE, contact=PRESSED + repr(float(load(10.0))), time="", analysis=diagram)).section
-        assert section["displacement_m"][-1] == pytest.approx(fixed["displacement_m"][-1], rel=1e-6)
-
-
-@pytest.mark.parametrize("prepare, part", [
-    (lambda: table("loads.csv", places=[7.0, 8.0, 11.0, 15.0], amplitudes=LOADS, head="frequency_Hz,normal_load"), "6 to 14 Hz"),
-    (lambda: table("loads.csv", amplitudes=[1.0, -2.0, 1.0, 1.0], head="frequency_Hz,normal_load"), "at least 0"),
-    (lambda: table("loads.csv", head="frequency_Hz,load"), "normal_load"),
-    (lambda: None, "loads.csv"),
-])
-def test_a_table_of_normal_loads_that_does_not_fit_is_refused_by_key(prepare, part):
-    prepare()
-    error = str(refused(scene(DRIVE, contact=TABLED, time=FINE, analysis=SWEEP), "contact.normal_load_table"))
-    assert part in error
+@pytest.mark.parametrize("key", ["forcing.terms[1].amplitude_table", "forcing.amplitude_table"])
+def test_an_amplitude_sweep_takes_no_table(key):
+    sweep = 'type = "amplitude_sweep"\namplitude_from = 0.1\namplitude_to = 0.3'
+    refused(TABLES[key](analysis=sweep), key, "amplitude alone")
 
 
 def test_a_limit_cycle_has_no_frequency_for_a_normal_load_to_follow():

@@ -2,23 +2,13 @@
 
 import numpy as np
 import pytest
+import rods_and_bars
 import scipy.io
+from rods_and_bars import matrices_of
 from structure_scenes import (BAR, CHAIN, CHAIN_MASS, CHAIN_STIFFNESS, MATRICES, ROD, changed, displacements, distance,
                               forces, modal_damping, solved, stepped)
 
 import wavebalance as wb
-
-
-def bar_matrices(modulus, density, area, length, elements, lumped):
-    """Mass, a mixture of the lumped and the consistent one, and stiffness of a clamped bar of two-node elements."""
-    element = length / elements
-    stiffness, mass = np.zeros((2, elements + 1, elements + 1))
-    for e in range(elements):
-        both = np.ix_([e, e + 1], [e, e + 1])
-        stiffness[both] += modulus * area / element * np.array([[1.0, -1.0], [-1.0, 1.0]])
-        consistent = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6.0
-        mass[both] += density * area * element * (lumped * 0.5 * np.eye(2) + (1.0 - lumped) * consistent)
-    return mass[1:, 1:], stiffness[1:, 1:]
 
 
 @pytest.fixture
@@ -38,8 +28,7 @@ def as_matrices(matrix, tmp_path, monkeypatch):
     return scene
 
 
-BAR_MATRICES = bar_matrices(70e9, 2700.0, 25e-4, 1.0, 25, 0.0)
-ROD_MATRICES = bar_matrices(2.1e11, 7800.0, 9e-4, 1.0, 20, 0.5)
+BAR_MATRICES, ROD_MATRICES = (matrices_of(scene["structure"]) for scene in (rods_and_bars.BAR, rods_and_bars.ROD))
 
 
 def largest(found, expected):
