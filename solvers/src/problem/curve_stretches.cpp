@@ -48,9 +48,11 @@ void leave_out(std::vector<Stretch>& stretches, const std::vector<SpecialPoint>&
 }  // namespace
 
 std::vector<Stretch> stretches_about(const FrequencySweep& curve, const std::vector<SpecialPoint>& points,
-                                     const CurveDistance& distance, double reach, std::size_t most) {
+                                     const CurveDistance& distance, double reach, std::size_t most,
+                                     bool grazings) {
   std::vector<Stretch> all;
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!grazings && points[i].type == SpecialPointType::grazing) continue;
     all.push_back(stretch_about(curve, points[i], distance, reach));
     all.back().points = {i};
   }

@@ -26,12 +26,13 @@ class CurveDistance {
   double scale_, largest_;
 };
 
-/// The stretches about special points, in the order of the curve: on either side at least three points of the
-/// curve and, unless it ends before, up to the first point farther away than `reach`. Those that overlap are
-/// one. Of more than `most`, those are left that have special points other than grazings, and the first
-/// ones.
+/// The stretches about special points, without those of grazings if `grazings` is false, in the order of the
+/// curve: on either side at least three points of the curve and, unless it ends before, up to the first point
+/// farther away than `reach`. Those that overlap are one. Of more than `most`, those are left that have
+/// special points other than grazings, and the first ones.
 std::vector<Stretch> stretches_about(const FrequencySweep& curve, const std::vector<SpecialPoint>& points,
-                                     const CurveDistance& distance, double reach, std::size_t most);
+                                     const CurveDistance& distance, double reach, std::size_t most,
+                                     bool grazings);
 
 /// The lowest and the highest value of the parameter on a part of a curve.
 struct ValueRange {

@@ -162,6 +162,7 @@ OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, 
   const ExactCurve forwards = structure.followed(range, start);
   add_events(forwards.events, false, result.events);
   result.cancelled = forwards.status == SweepStatus::cancelled;
+  result.exhausted = forwards.status == SweepStatus::point_limit;
   result.with_multipliers = !forwards.points.empty() && has_multipliers(forwards);
   if (result.cancelled) return result;
   const StretchStart end = structure.start_of(stretch, false);
@@ -173,6 +174,7 @@ OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, 
   const ExactCurve backwards = structure.followed(range, end);
   add_events(backwards.events, true, result.events);
   result.cancelled = backwards.status == SweepStatus::cancelled;
+  result.exhausted = result.exhausted || backwards.status == SweepStatus::point_limit;
   result.with_multipliers = result.with_multipliers && has_multipliers(backwards);
   const Passing of_start = passing(backwards, start);
   result.complete = result.complete || (of_start == Passing::against && left_its_interval(backwards));

@@ -29,6 +29,7 @@ struct OnStretch {
   bool complete = false;  ///< followed from one end of the stretch to the other, or out of the interval
   bool apart = false;     ///< its ends lie on different curves of the structure
   bool with_multipliers = false, cancelled = false;
+  bool exhausted = false;  ///< a curve ended because its effort was used up
 };
 
 /// Follows the curve of the structure from the first point of a stretch of a balance's curve, and where that

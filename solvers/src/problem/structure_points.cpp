@@ -20,13 +20,13 @@ using detail::OnStretch, detail::Stretch;
 // The events of all stretches, each once, and beside them the special points of the balance.
 class Assembly {
  public:
-  /// Points farther apart than `farthest` are not the same.
-  Assembly(const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance, double farthest)
-      : points_(points), distance_(distance), farthest_(farthest) {
+  Assembly(const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance)
+      : points_(points), distance_(distance) {
     result_.of_balance.resize(points.size());
   }
 
-  void add(const Stretch& stretch, OnStretch found) {
+  /// Points farther apart than `farthest` are not the same. Of a part of a stretch only what is found counts.
+  void add(const Stretch& stretch, OnStretch found, double farthest, bool part = false) {
     std::vector<std::size_t> numbers;
     for (ExactEvent& event : found.events) {
       event.next_point = stretch.first;
@@ -37,7 +37,8 @@ class Assembly {
       const bool by_multipliers =
           points_[i].type != SpecialPointType::grazing && points_[i].type != SpecialPointType::fold;
       const bool known = found.complete && (found.with_multipliers || !by_multipliers);
-      result_.of_balance[i] = near(i, numbers, known);
+      const NearStructurePoint one = near(i, numbers, farthest, known);
+      if (!part || one.status == StructurePointStatus::repeated) result_.of_balance[i] = one;
     }
   }
 
@@ -72,10 +73,11 @@ class Assembly {
     return number;
   }
 
-  NearStructurePoint near(std::size_t point, const std::vector<std::size_t>& events, bool known) const {
+  NearStructurePoint near(std::size_t point, const std::vector<std::size_t>& events, double farthest,
+                          bool known) const {
     const std::size_t* best = nullptr;
     for (const std::size_t& event : events)
-      if (result_.events[event].type == points_[point].type && distance(point, event) <= farthest_ &&
+      if (result_.events[event].type == points_[point].type && distance(point, event) <= farthest &&
           (best == nullptr || distance(point, event) < distance(point, *best)))
         best = &event;
     if (best != nullptr) return {StructurePointStatus::repeated, *best};
@@ -84,7 +86,6 @@ class Assembly {
 
   const std::vector<SpecialPoint>& points_;
   const detail::CurveDistance& distance_;
-  double farthest_;
   StructurePoints result_;
 };
 
@@ -143,21 +144,28 @@ std::vector<std::size_t> passed_by(ContactProblem& problem, const FrequencySweep
   return numbers;
 }
 
-// Not whole where the curve of the structure was not followed through the interval.
-StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve,
-                         const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance,
-                         const StructurePointsOptions& options, detail::PlacesProgress& progress) {
-  const Stretch all = all_of(curve, points);
-  OnStretch found = along_whole(problem, curve, all, options, progress);
-  if (!found.complete) return {};
+StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
+                         OnStretch found, Assembly assembly, const StructurePointsOptions& options) {
   const bool apart = found.apart;
-  Assembly assembly(points, distance, options.reach);
-  assembly.add(all, std::move(found));
+  assembly.add(all, std::move(found), options.reach);
   StructurePoints result = assembly.finished();
   result.whole = true;
   result.apart = apart;
   result.passed_by = passed_by(problem, curve, result, detail::unit_of_parameter(options), options.reach);
   return result;
+}
+
+StructurePoints of_stretches(const ProblemMaker& make, const FrequencySweep& curve,
+                             const std::vector<Stretch>& stretches, Assembly assembly,
+                             const StructurePointsOptions& options, detail::PlacesProgress& progress) {
+  constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
+  if (stretches.empty()) return assembly.finished();
+  std::vector<ContactProblem> problems =
+      detail::thread_problems(make, places_worth * stretches.size(), options.threads);
+  std::vector<OnStretch> found = along_all(stretches, problems, curve, options, progress);
+  for (std::size_t i = 0; i < stretches.size(); ++i)
+    assembly.add(stretches[i], std::move(found[i]), std::numeric_limits<double>::infinity());
+  return assembly.finished();
 }
 
 }  // namespace
@@ -188,21 +196,23 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
                                  const StructurePointsOptions& options) {
   options.validate();
   const detail::CurveDistance distance(curve, detail::unit_of_parameter(options));
-  Assembly assembly(points, distance, std::numeric_limits<double>::infinity());
+  Assembly assembly(points, distance);
   ContactProblem problem = make();
   if (curve.points.empty() || problem.dynamics() == nullptr) return assembly.finished();
   detail::PlacesProgress progress(options.observer, "special points",
                                   unit_of(problem.condensed(), curve.parameter));
-  StructurePoints result = of_whole(problem, curve, points, distance, options, progress);
-  if (!result.whole && !points.empty()) {
-    const std::vector<Stretch> stretches =
-        detail::stretches_about(curve, points, distance, options.reach, options.max_stretches);
-    constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
-    std::vector<ContactProblem> problems =
-        detail::thread_problems(make, places_worth * stretches.size(), options.threads);
-    std::vector<OnStretch> found = along_all(stretches, problems, curve, options, progress);
-    for (std::size_t i = 0; i < stretches.size(); ++i) assembly.add(stretches[i], std::move(found[i]));
-    result = assembly.finished();
+  const Stretch all = all_of(curve, points);
+  OnStretch along = along_whole(problem, curve, all, options, progress);
+  StructurePoints result;
+  if (along.complete) {
+    result = of_whole(problem, curve, all, std::move(along), std::move(assembly), options);
+  } else {
+    const bool grazings = !along.exhausted;  // else they would take more than the curve of the balance
+    if (along.exhausted) assembly.add(all, std::move(along), options.reach, true);
+    result = of_stretches(
+        make, curve,
+        detail::stretches_about(curve, points, distance, options.reach, options.max_stretches, grazings),
+        std::move(assembly), options, progress);
   }
   result.cancelled = progress.cancelled();
   return result;

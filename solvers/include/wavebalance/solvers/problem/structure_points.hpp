@@ -32,7 +32,7 @@ struct StructurePointsOptions {
   double reach = 0.25;
   std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
   int max_points = 2000;           ///< motions on the whole curve; and on all stretches together
-  double max_operations = 1e12;    ///< floating-point operations of all curves together
+  double max_operations = 5e11;    ///< floating-point operations of all curves together
   double max_distance = 0.1;       ///< as of CurvePhasesOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
   ContactPhasesOptions phases{};
@@ -64,7 +64,8 @@ struct StructurePoints {
 /// The special points of the structure along a balance's curve. exact_curve() is followed from a motion by
 /// phases of contact near the first point of the balance's curve, and where it does not come to its last
 /// point, back from that. Where a quarter of the operations is not enough for it, or it is lost, it is
-/// followed along stretches about the special points of the balance alone, likewise from both ends. Points
+/// followed along stretches about the special points of the balance alone, likewise from both ends; where the
+/// effort was too small, without those of grazings alone. Points
 /// that lie near each other share a stretch, so that one of the structure stands once where samples make many
 /// of it, and one that the balance does not have is found in a stretch, too; beside all stretches none is
 /// sought.

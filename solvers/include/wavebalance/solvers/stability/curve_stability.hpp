@@ -72,12 +72,14 @@ struct CurveStability {
 
 /// The stability of every point of a curve that frequency_sweep() or amplitude_sweep() has traced on
 /// `problem` with keep_unknowns, and its special points. Where two neighbours differ in the count, in a sign
-/// or in the number of intervals of contact, the curve between them is halved, each time with a new solution
-/// of the balance, until each difference stands alone in a bracket of the tolerance. Two changes between
+/// or in the number of intervals of contact, the curve between them is divided, each time with a new solution
+/// of the balance, until each difference stands alone in a bracket of the tolerance: at the grazing that
+/// samples predict, else in the middle. Two changes between
 /// neighbours that cancel each other are not noticed.
 ///
 /// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
-/// unstable_multipliers() per point, and about 20 responses and counts per special point.
+/// unstable_multipliers() per point, about 7 responses per grazing point, and about 20 responses and counts
+/// per other special point.
 CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweep& curve, DynamicsAlong dynamics,
                                const CurveStabilityOptions& options = {});
