@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "analysis/response_parts.hpp"
+#include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
@@ -109,15 +110,16 @@ double responses(const Analysis& analysis) {
 void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
   if (!is_sweep(scene.analysis) || !scene.analysis.stability) return;
   constexpr double least = 0.1, most = 10.0;         // of the curve
-  constexpr double longest_structure_curve = 300.0;  // s, estimated of StructurePointsOptions::max_operations
+  constexpr double longest_structure_curve = 150.0;  // s, estimated of StructurePointsOptions::max_operations
   // A structure that turns has other modes at each point, of which there are 2 n complex ones.
   constexpr double most_modes = 400.0, modes_of_structure_curve = 5.0;
   const double modes = turns_along_curve(scene) ? responses(scene.analysis) * 2e-8 *
                                                       std::pow(2.0 * std::min(sizes.degrees, most_modes), 3)
                                                 : 0.0;
   cost.least_stability_seconds = least * cost.seconds + modes;
-  cost.most_stability_seconds = most * cost.seconds + modes_of_structure_curve * modes +
-                                (sizes.contacts > 1.0 ? longest_structure_curve : 0.0);
+  cost.most_stability_seconds =
+      most * cost.seconds + modes_of_structure_curve * modes +
+      (sizes.contacts > 1.0 && seeks_exact_points(scene) ? longest_structure_curve : 0.0);
 }
 
 /// Beside a response: Newton steps of the exact motion, of unknowns that only the search shows. What is not

@@ -87,7 +87,9 @@ solvers::ContactPhasesOptions phases_options(bool all) {
 /// Sets `cancelled` where the observer stops it.
 SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& cancelled) {
   const bool all = of.scene.analysis.phases;
-  const std::vector<std::size_t> taken = special_points_taken(of.special_points, all);
+  const std::vector<std::size_t> taken = !seeks_exact_points(of.scene)
+                                             ? std::vector<std::size_t>()
+                                             : special_points_taken(of.special_points, all);
   solvers::CurvePhasesOptions options;
   options.phases = phases_options(all);
   options.stability = all && of.scene.analysis.stability;
@@ -110,7 +112,8 @@ SweepPhases phases_of(const PhasedCurve& of, const Observer& observer, bool& can
 /// pipe with 23 degrees of freedom take three times as long.
 constexpr double enough_for_special_points = 1e-6;
 
-/// Those of the structure along the main curve.
+/// Those of the structure along the main curve, with more effort where all of its exact motions are asked
+/// for.
 void add_structure_points(const Scene& scene, const StructureModel& model, Sweep& sweep,
                           const Observer& observer) {
   if (sweep.phases_cancelled) return;
@@ -123,6 +126,7 @@ void add_structure_points(const Scene& scene, const StructureModel& model, Sweep
   options.phases.max_operations = most_operations;
   options.phases.max_cut_panels = most_cut_panels;
   options.phases.tolerance = enough_for_special_points;
+  if (scene.analysis.phases) options.max_operations *= 10.0;
   options.threads = model.threads;
   options.observer = observer;
   sweep.structure_points = solvers::structure_points([&] { return compose_problem(scene, model); },
@@ -131,6 +135,12 @@ void add_structure_points(const Scene& scene, const StructureModel& model, Sweep
 }
 
 }  // namespace
+
+bool seeks_exact_points(const Scene& scene) {
+  constexpr int few_contacts = 6, few_unknowns = 400;
+  const int contacts = contact_count(scene);
+  return scene.analysis.phases || contacts <= few_contacts || contacts * scene.time.functions <= few_unknowns;
+}
 
 std::size_t peak_of(const solvers::FrequencySweep& curve) {
   const auto highest =
@@ -194,7 +204,7 @@ void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, c
   // Along curves with friction or laws of several rows, which have no phases to be followed, this takes as
   // long as exact ones.
   const bool followed = !has_friction(scene) && !names_coupled_rows(scene.contact);
-  if (scene.analysis.stability && scene.analysis.special_points && followed)
+  if (scene.analysis.stability && scene.analysis.special_points && followed && seeks_exact_points(scene))
     add_structure_points(scene, model, sweep, observer);
   for (const solvers::Branch& branch : sweep.branches) {
     SweepPhases& phases = sweep.phases.emplace_back();

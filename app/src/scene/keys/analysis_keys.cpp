@@ -221,14 +221,15 @@ void add_mode(std::vector<SceneKey>& keys) {
   for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = losing;
 }
 
-/// Whether counts take a few times as long as the curve, or less.
+/// Whether counts and grazing points take a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   const bool sweep = is_sweep(scene.analysis.type);
   if (!sweep && !mode) return true;
   if (mode && (is_rigid(scene.contact.law) || takes_energy(scene.contact))) return true;  // not known
   constexpr int few = 6;
-  constexpr int most_unknowns = 400;  // contacts times functions, beyond which a count takes tens of points
+  // Contacts times functions. With a loss of energy a count takes tens of points beyond.
+  const int most_unknowns = takes_energy(scene.contact) ? 400 : 2000;
   const int contacts = contact_count(scene);
   return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
@@ -271,13 +272,13 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or at each point of a curve",
       derived("true; with more than 6 contacts false for modes, and for curves if contacts times "
-              "functions exceed 400",
+              "functions exceed 2000, with friction or dampers 400",
               stability_by_default),
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(&Analysis::special_points, "special_points", "",
-           "with stability, true locates the bifurcation and grazing points of a curve and the "
-           "exact ones near them; false only counts multipliers at its points, which is much faster "
-           "for many contacts",
+           "with stability, true locates the bifurcation and grazing points of a curve, and the exact "
+           "ones near them for up to 6 contacts or with phases = true; false only counts multipliers at "
+           "its points",
            optional, only_with(of_sweeps() && by_balance()));
   analysis(&Analysis::phases, "phases", "",
            "true computes the exact periodic solution near the response: its contact intervals, its "

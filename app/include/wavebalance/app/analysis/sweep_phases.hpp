@@ -4,9 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/problem/phases_along.hpp"
 
 namespace wavebalance::app {
+
+/// Whether exact bifurcation points are sought along a curve of a scene. Those of many contacts take tens of
+/// times as long as the curve, and are sought only with analysis.phases.
+bool seeks_exact_points(const Scene& scene);
 
 /// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
 inline constexpr std::size_t most_special_points_with_phases = 24;
