@@ -50,6 +50,8 @@ def test_the_curve_of_a_hardening_spring_folds_and_is_unstable_between_its_folds
     unstable = curve.frequency[~curve.stable]
     assert min(folds) <= unstable.min() and unstable.max() <= max(folds)
     assert curve.response(-1).frequency == curve.frequency[-1]
+    with pytest.raises(ValueError, match="kind is 'folds'; expected one of fold, "):
+        curve.special("folds")
     np.testing.assert_allclose(
         curve.response(10).motion(1024).displacement.max(), curve.max_displacement[10], rtol=1e-12
     )

@@ -59,6 +59,17 @@ def test_a_law_of_ones_own_follows_the_speed():
     np.testing.assert_allclose(mine.displacement, known.displacement, rtol=0.0, atol=1e-12)
 
 
+def test_an_unbalance_may_turn_with_a_harmonic_of_the_load():
+    """As of a second shaft that turns three times as fast."""
+    shaft = wb.Structure(MASS, DAMPING, STIFFNESS, np.zeros(4), [0], unbalance=[(AMOUNT, (0, 1), 20.0, 3)],
+                         gyroscopic=3.0 * GYROSCOPIC)
+    expected = radius(33.0, 2.0 * np.pi * 33.0)
+    found = wb.forced_response(shaft, FAR, 11.0).displacement
+    record = wb.run(shaft.scene(FAR, frequency=11.0, type="forced_response"))
+    for moved in (found, record.response["displacement_m"]):
+        assert np.sqrt(2.0) * np.std(moved) == pytest.approx(expected, rel=1e-9)
+
+
 def test_a_structure_that_turns_is_pickled():
     copy = pickle.loads(pickle.dumps(rotor(spin_stiffness=SPIN_STIFFNESS)))
     same = [wb.forced_response(one, STOP, 33.0).displacement for one in (copy, rotor(spin_stiffness=SPIN_STIFFNESS))]
@@ -77,7 +88,8 @@ def test_parts_that_do_not_turn_are_refused(turning, words):
         rotor(**turning)
 
 
-@pytest.mark.parametrize("load", [(1.0, (0, 0)), (1.0, (0, 1, 2)), (1.0, (4,)), (1.0,), ("much", (0, 1))])
+@pytest.mark.parametrize("load", [(1.0, (0, 0)), (1.0, (0, 1, 2)), (1.0, (4,)), (1.0,), ("much", (0, 1)), (1.0, (0, 1), 0.0, 0),
+                                  (1.0, (0, 1), 0.0, 1.5), (1.0, (0, 1), 0.0, 1, 1)])
 def test_an_unbalance_names_its_degrees_of_freedom(load):
     with pytest.raises(ValueError, match="unbalance"):
         wb.Structure(MASS, DAMPING, STIFFNESS, np.zeros(4), [0], unbalance=[load])

@@ -12,26 +12,33 @@ import scipy.sparse.linalg
 
 from ._matrices import as_csc
 
-Unbalance = Union[tuple[float, Sequence[int]], tuple[float, Sequence[int], float]]
+Unbalance = Union[
+    tuple[float, Sequence[int]], tuple[float, Sequence[int], float], tuple[float, Sequence[int], float, int]
+]
 
 
-def unbalance_load(given: Any, size: int) -> tuple[float, list[int], float]:
-    """Amount, degrees of freedom and phase. Raises ValueError."""
+def unbalance_load(given: Any, size: int) -> tuple[float, list[int], float, int]:
+    """Amount, degrees of freedom, phase and harmonic. Raises ValueError."""
     try:
-        amount, dofs, phase = given if len(given) == 3 else (*given, 0.0)
+        amount, dofs, *more = given
+        phase, harmonic = (*more, *(0.0, 1)[len(more) :])
         rows = [operator.index(dof) for dof in np.atleast_1d(np.asarray(dofs)).tolist()]
-        result = float(amount), rows, float(phase)
+        result = float(amount), rows, float(phase), operator.index(harmonic)
     except (TypeError, ValueError):
-        raise ValueError(f"unbalance has {given!r}; expected (kg m, degrees of freedom) or (..., phase in degrees)") from None
+        raise ValueError(
+            f"unbalance has {given!r}; expected (kg m, degrees of freedom), (..., phase in degrees) or (..., phase, harmonic)"
+        ) from None
+    if result[3] < 1:
+        raise ValueError(f"unbalance: harmonic {result[3]}; expected 1 or more")
     if not 1 <= len(rows) <= 2 or len(set(rows)) < len(rows) or not all(0 <= row < size for row in rows):
         raise ValueError(f"unbalance: degrees of freedom {rows}; expected one or two different ones in 0 to {size - 1}")
     return result
 
 
-def turning_forces(amount: float, dofs: list[int], phase: float, size: int) -> list[tuple[Any, Any, int]]:
+def turning_forces(amount: float, dofs: list[int], phase: float, harmonic: int, size: int) -> list[tuple[Any, Any, int]]:
     """The second derivative of -amount cos(Omega t + phase) along the first, a quarter of a turn later along the second."""
     turned = np.exp(1j * np.radians([phase, phase - 90.0]))
-    return [(-amount * np.eye(1, size, dof)[0], np.array([0.0, one]), 2) for dof, one in zip(dofs, turned)]
+    return [(-amount * np.eye(1, size, dof)[0], np.r_[np.zeros(harmonic), one], 2) for dof, one in zip(dofs, turned)]
 
 
 def turning_part(matrix: Any, name: str, sign: float) -> scipy.sparse.csc_matrix | None:

@@ -56,8 +56,9 @@ class Structure(_core.Structure):
     spin_speed:
         Omega, rad/s; 0 turns with the load, Omega = 2 pi f, also along a curve over its frequency.
     unbalance:
-        Loads (amount, dofs) or (amount, dofs, phase): kg m, one or two degrees of freedom, from 0, towards the second of which it
-        turns from the first, and degrees. Its force is amount Omega^2 with Omega = 2 pi f.
+        Loads (amount, dofs), (amount, dofs, phase) or (amount, dofs, phase, n): kg m, one or two degrees of freedom, from 0,
+        towards the second of which it turns from the first, degrees, and the harmonic, 1 unless given. Its force is
+        amount Omega^2 with Omega = 2 pi n f, so that shafts may turn at speeds in the ratio of integers.
     contact_mass:
         "keep", or "redistribute" for contacts without mass, which rigid obstacles need: the structure is replaced by its
         lowest n - C modes beside contacts that deflect by the flexibility of the others. O(n^3).
@@ -190,9 +191,9 @@ class Structure(_core.Structure):
         if frequency is not None:
             forcing["frequency"] = float(frequency)
         terms = [term for shape, series, _ in self._forces for term in _terms(shape, series)]
-        for amount, dofs, phase in self._unbalance:
+        for amount, dofs, phase, harmonic in self._unbalance:
             rows = [dof + 1 for dof in dofs]
-            terms.append({"kind": "unbalance", "dofs": rows, "amplitude": amount, "phase": phase})
+            terms.append({"kind": "unbalance", "dofs": rows, "amplitude": amount, "phase": phase, "harmonic": harmonic})
         if terms:
             forcing["terms"] = terms
         result = {"structure": structure, "contact": self._contact_keys(laws), "forcing": forcing}

@@ -100,7 +100,9 @@ class Sweep(_core.Curve):
         return Response(self._response(index), self._problem, self._laws)
 
     def special(self, kind: str) -> list[dict[str, Any]]:
-        """The bifurcation or grazing points of one type."""
+        """The bifurcation or grazing points of one type. Raises ValueError for a name of none."""
+        if kind not in _plots.MARKERS:
+            raise ValueError(f"kind is {kind!r}; expected one of {', '.join(_plots.MARKERS)}")
         return [point for point in self.special_points if point["type"] == kind]
 
     def harmonics(self, dofs: Sequence[int] | None = None, count: int = 3, points: int = 256) -> npt.NDArray[np.complex128]:

@@ -50,7 +50,7 @@ class VectorFunction(Law):
         return _restored_vector_function, self._arguments
 
     def scene_keys(self) -> dict[str, Any]:
-        raise ValueError("a law of Python functions has no keys")
+        raise ValueError("a law of Python functions has no keys; forced_response() and the sweeps take structure and law as they are")
 
 
 def _restored_vector_function(force: Any, rows: int, length: float, speed: float) -> VectorFunction:

@@ -116,7 +116,7 @@ def test_pairs_need_no_defaults_where_each_has_its_own(completed, refusal, chang
     ("[3, 1]", "[]", 11, "pairs[1].dofs", "there are 0"),
     ("[3, 1]", "[3, 4]", 11, "pairs[1].dofs", "no degree of freedom 4; expected 1..3"),
     ("[3, 1]", "[3, 0]", 11, "pairs[1].dofs", "out of range"),
-    ("[3, 1]", "[3, -1]", 11, "pairs[1].dofs", "out of range"),
+    ("[3, 1]", "[3, -1]", 11, "pairs[1].dofs", 'side = "negative"'),
     ("[3, 1]", "[3, 3]", 11, "pairs[1].dofs", "twice; expected each once"),
     ("[3, 1]", "[3, 1.5]", 11, "pairs[1].dofs", "a list of integers"),
     ("[3, 1]", "3", 11, "pairs[1].dofs", "a list of integers"),

@@ -121,7 +121,11 @@ SceneValue checked_text(const Document& document, const DocumentEntry& entry, co
 
 void check_number(const Document& document, const DocumentEntry& entry, const SceneKey& key, double value) {
   if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
-  if (!key.bounds.contain(value)) fail_at(document, entry, "out of range; expected " + key.expected());
+  if (key.bounds.contain(value)) return;
+  const bool other_side = key.dofs && value < 0.0 && entry.section.starts_with("contact.pairs");
+  fail_at(document, entry,
+          "out of range; expected " + key.expected() +
+              (other_side ? "; an obstacle on the negative side is side = \"negative\"" : ""));
 }
 
 SceneValue checked_number(const Document& document, const DocumentEntry& entry, const SceneKey& key) {
