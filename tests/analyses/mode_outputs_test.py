@@ -1,11 +1,18 @@
 """Outputs along nonlinear modes: against linear modes, forced responses with the loads that hold the motion, and sweeps."""
 
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy.io
 import scipy.linalg
 import wavebalance as wb
 
+RECIPES = Path(__file__).resolve().parents[2] / "docs" / "recipes"
 MASS = np.diag([2.0, 1.0, 3.0])
 STIFFNESS = 1e4 * np.array([[5.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.5]])
 ROUNDING = 1e-9
@@ -151,6 +158,24 @@ def test_the_peak_of_a_sweep_lies_on_the_mode_of_its_output():
     assert sweep.summary["row_2_peak_frequency_Hz"] == pytest.approx(np.interp(peak, vibration, frequency), rel=1e-4)
 
 
+def test_a_mode_leads_on_where_two_contacts_begin_to_slip_together(tmp_path):
+    """The blade of the damper's recipe: the peak of a sweep, 4 Hz wide by the damping ratio, is within 0.01 Hz of its mode."""
+    shutil.copy(RECIPES / "damper" / "damper.toml", tmp_path)
+    subprocess.run([sys.executable, RECIPES / "damper" / "make.py"], cwd=tmp_path, check=True,
+                   env={**os.environ, "PYTHONPATH": str(RECIPES)})
+    scene, fewer = tmp_path / "damper.toml", {"time.functions": 31, "time.quadrature_points": 256}
+    mode = wb.run(scene, {**fewer, "analysis.type": "nonlinear_mode"},
+                  unset=["analysis.frequency_from", "analysis.frequency_to", "analysis.peak_of", "analysis.stability"])
+    assert mode.converged, mode.status
+    ratio, vibration = mode.backbone["amplitude_ratio"], mode.backbone["row_19_half_peak_to_peak_m"]
+    assert ratio[-1] == pytest.approx(10.0, rel=ROUNDING) and mode.backbone["stick_fraction"][-1] < 0.5
+    sweep = wb.run(scene, {**fewer, "analysis.frequency_from": 160.0, "analysis.frequency_to": 180.0})
+    assert sweep.converged, sweep.status
+    peak, frequency = (sweep.summary[f"row_19_{name}"] for name in ("half_peak_to_peak_m", "peak_frequency_Hz"))
+    assert np.all(np.diff(vibration) > 0.0) and vibration[0] < peak < vibration[-1]
+    assert frequency == pytest.approx(np.interp(peak, vibration, mode.backbone["frequency_Hz"]), abs=0.02)
+
+
 def test_velocities_and_accelerations_are_derivatives_of_the_displacement():
     words = ["row 1", "velocity of row 1", "acceleration of row 1 in g"]
     table = wb.run(elastic({**STOP, "gap": 1.0}, outputs=words, energy_ratio=0.5)).summary["outputs"]
@@ -206,6 +231,14 @@ def test_pictures_and_sentences_begin_with_the_output(scene, panels, tmp_path):
     page = (tmp_path / "out" / "report.html").read_text()
     assert "The vibration of row 1 (half peak to peak) is" in page and "where contacts begin to act" in page
     assert "Vibration of row 1" in (tmp_path / "out" / "backbone.svg").read_text()
+
+
+@pytest.mark.parametrize("scene, words", [(elastic(STOP, outputs=[1]), "dotted: end of the linear range"),
+                                          (damped(outputs=[1]), "dotted: slip onset")])
+def test_a_single_output_is_drawn_once_with_what_ends_the_linear_range(scene, words, tmp_path):
+    wb.run(scene, output=tmp_path / "out")
+    assert {one.name for one in (tmp_path / "out").glob("*.svg")} == {"backbone.svg"}
+    assert words in (tmp_path / "out" / "backbone.svg").read_text()
 
 
 def test_one_motion_of_a_damped_mode_has_its_outputs_and_the_whole_structure(tmp_path):
