@@ -38,7 +38,7 @@ TEST(TableLaw, ConvergesToASmoothSpring) {
 }
 
 TEST(TableLaw, GoesThroughItsPointsHoweverTheyAreSpaced) {
-  for (const double length : {1.0, 1e-200, 1e200}) {
+  for (const double length : {1.0, 1e-100, 1e100}) {
     std::vector<double> u, f;
     for (int i = -20; i <= 20; ++i) {
       u.push_back(length * (i < 0 ? -std::ldexp(1.0, i + 1) : std::ldexp(1.0, i - 20)));

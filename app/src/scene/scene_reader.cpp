@@ -123,9 +123,10 @@ void check_number(const Document& document, const DocumentEntry& entry, const Sc
   if (!std::isfinite(value)) fail_at(document, entry, "expected " + key.expected() + "; it must be finite");
   if (key.bounds.contain(value)) return;
   const bool other_side = key.dofs && value < 0.0 && entry.section.starts_with("contact.pairs");
-  fail_at(document, entry,
-          "out of range; expected " + key.expected() +
-              (other_side ? "; an obstacle on the negative side is side = \"negative\"" : ""));
+  fail_at(
+      document, entry,
+      "out of range; expected " + key.expected() +
+          (other_side ? "; the other sign is a negative one of coefficients, or side = \"negative\"" : ""));
 }
 
 SceneValue checked_number(const Document& document, const DocumentEntry& entry, const SceneKey& key) {

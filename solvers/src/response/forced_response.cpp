@@ -187,6 +187,48 @@ Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) 
                       Strategy::load_continuation);
 }
 
+/// Newton's method at another size of the load.
+Candidate at_load(const Task& task, double scale, Candidate from) {
+  task.problem.set_load_scale(scale);
+  ContactSystem system = task.system(from.series_flexibility);
+  return improve(task, system, std::move(from), Strategy::load_continuation);
+}
+
+bool has_closed_contacts(const Task& task, const Candidate& at) {
+  ContactSystem system = task.system(at.series_flexibility);
+  system.evaluate(at.unknown);
+  return !system.force().isZero(0.0);
+}
+
+/// Newton's method at growing loads, from rest under the static load. Contacts that are closed there may stay
+/// so where the motion without contact would open all of them, as springs and dimples that press against each
+/// other. Nothing where none is closed.
+Candidate try_from_rest(const Task& task, const Eigen::VectorXd& series_flexibility) {
+  constexpr double least_step = 1.0 / 16.0;
+  CondensedProblem& problem = task.problem;
+  const double whole = problem.load_scale();
+  problem.set_load_scale(0.0);
+  const Start rest{problem.contact_free_response(), {}};
+  Candidate now = at_load(
+      task, 0.0, no_solution(SolveStatus::stalled, series_flexibility, unknown_of(rest, series_flexibility)));
+  double solved = 0.0, step = now.converged() && has_closed_contacts(task, now) ? 1.0 : 0.0;
+  while (solved < 1.0 && step >= least_step && now.converged()) {
+    const double share = std::min(1.0, solved + step);
+    Candidate next = at_load(task, share * whole, now);
+    if (next.ended()) {
+      solved = share;
+      now = std::move(next);
+    } else {
+      now.iterations = next.iterations;
+      step *= 0.5;
+    }
+  }
+  problem.set_load_scale(whole);
+  if (solved < 1.0) now.newton.residual = std::numeric_limits<double>::infinity();
+  if (solved < 1.0 && now.converged()) now.newton.status = SolveStatus::stalled;
+  return now;
+}
+
 /// The forms in which gaps or load are continued: that of the options and, where it is left open, the force
 /// form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
@@ -265,7 +307,9 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, int& att
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
   }
-  return solve_settled(task, form, first, std::move(best), attractor_periods);
+  best = solve_settled(task, form, first, std::move(best), attractor_periods);
+  if (best.ended() || !task.laws.unilateral() || task.problem.is_free()) return best;
+  return better(std::move(best), try_from_rest(task, form));
 }
 
 /// PeriodicResponse::rounding_error. `system` was evaluated at the response.
