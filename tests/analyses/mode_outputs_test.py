@@ -172,8 +172,9 @@ def test_a_mode_leads_on_where_two_contacts_begin_to_slip_together(tmp_path):
     sweep = wb.run(scene, {**fewer, "analysis.frequency_from": 160.0, "analysis.frequency_to": 180.0})
     assert sweep.converged, sweep.status
     peak, frequency = (sweep.summary[f"row_19_{name}"] for name in ("half_peak_to_peak_m", "peak_frequency_Hz"))
-    assert np.all(np.diff(vibration) > 0.0) and vibration[0] < peak < vibration[-1]
-    assert frequency == pytest.approx(np.interp(peak, vibration, mode.backbone["frequency_Hz"]), abs=0.02)
+    (at,) = np.flatnonzero((vibration[:-1] < peak) & (peak <= vibration[1:]))
+    on_mode = np.interp(peak, vibration[at:at + 2], mode.backbone["frequency_Hz"][at:at + 2])
+    assert frequency == pytest.approx(on_mode, abs=0.02)
 
 
 def test_velocities_and_accelerations_are_derivatives_of_the_displacement():

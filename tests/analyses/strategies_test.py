@@ -1,9 +1,16 @@
 """Each strategy of the solvers solves a case that those before it do not."""
 
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
+import scipy.linalg
 import wavebalance as wb
 from rods_and_bars import warns
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "docs" / "recipes"))
+from beams import bending
 
 CHAIN, RIGID_BAR = "extremes/chain.toml", "jones_legrand_2014/case1_rigid.toml"
 
@@ -36,6 +43,34 @@ def test_a_hundred_contacts_are_reached_from_soft_ones():
         "analysis": {"stability": False, "phases": False}})
     assert record.converged, record.status
     assert record.summary["strategy"] == "stiffness_continuation"
+
+
+# Eight springs press a rod of 1 m against two dimples each. The motion without contact is a hundred times as large as
+# what the grid leaves of it, and opens all contacts.
+def test_the_contacts_of_a_grid_stay_closed_from_rest_on():
+    section = 100e9 * np.pi / 64 * (0.0095**4 - 0.0083**4), 9000 * np.pi / 4 * 0.0095**2  # N m^2, kg/m: filled
+    mass, stiffness = (matrix[2:, 2:] for matrix in bending(np.linspace(0.0, 1.0, 26), *section))
+    pairs = []
+    for level, row in enumerate(range(3, 51, 6)):
+        gap = -2e-6 if level % 2 else 5e-6
+        pairs += [{"dofs": [row], "stiffness": 1e5, "gap": -1e-4},
+                  *({"dofs": [beside], "side": "negative", "stiffness": 1e6, "gap": gap} for beside in (row - 2, row + 2))]
+    record = wb.run({
+        "structure": {"type": "matrices", "mass": mass, "stiffness": stiffness, "modal_damping": 0.01},
+        "contact": {"law": "linear", "pairs": pairs}, "forcing": {"load_dofs": [49], "amplitude": 0.3, "frequency": 30.0},
+        "time": {"trial": "fourier", "weight": "fourier", "functions": 31, "quadrature_points": 128},
+        "analysis": {"type": "forced_response", "outputs": [49], "stability": False, "phases": False}})
+    assert record.converged, record.status
+    assert record.summary["strategy"] == "load_continuation" and record.summary["contact_fraction"] == 1.0
+    # All contacts are springs: damping is that of the modes without them.
+    squares, modes = scipy.linalg.eigh(stiffness, mass)
+    damping = mass @ modes @ np.diag(0.02 * np.sqrt(squares)) @ modes.T @ mass
+    held = stiffness.copy()
+    for pair in pairs:
+        held[pair["dofs"][0] - 1, pair["dofs"][0] - 1] += pair["stiffness"]
+    omega, load = 2.0 * np.pi * 30.0, np.eye(1, 50, 48)[0] * 0.3
+    moved = np.linalg.solve(held + 1j * omega * damping - omega**2 * mass, load)[48]
+    assert record.summary["row_49_half_peak_to_peak_m"] == pytest.approx(abs(moved), rel=1e-3)  # between 1024 instants
 
 
 # From rest this chain settles to a motion of the load's period, which 31 functions have no solution near.

@@ -187,46 +187,29 @@ Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) 
                       Strategy::load_continuation);
 }
 
-/// Newton's method at another size of the load.
-Candidate at_load(const Task& task, double scale, Candidate from) {
-  task.problem.set_load_scale(scale);
-  ContactSystem system = task.system(from.series_flexibility);
-  return improve(task, system, std::move(from), Strategy::load_continuation);
-}
-
 bool has_closed_contacts(const Task& task, const Candidate& at) {
   ContactSystem system = task.system(at.series_flexibility);
   system.evaluate(at.unknown);
   return !system.force().isZero(0.0);
 }
 
-/// Newton's method at growing loads, from rest under the static load. Contacts that are closed there may stay
-/// so where the motion without contact would open all of them, as springs and dimples that press against each
-/// other. Nothing where none is closed.
+/// From rest under the static load. Contacts that are closed there may stay so where the motion without
+/// contact would open all of them, as springs and dimples that press against each other. Nothing where none
+/// is closed.
 Candidate try_from_rest(const Task& task, const Eigen::VectorXd& series_flexibility) {
-  constexpr double least_step = 1.0 / 16.0;
   CondensedProblem& problem = task.problem;
   const double whole = problem.load_scale();
   problem.set_load_scale(0.0);
-  const Start rest{problem.contact_free_response(), {}};
-  Candidate now = at_load(
-      task, 0.0, no_solution(SolveStatus::stalled, series_flexibility, unknown_of(rest, series_flexibility)));
-  double solved = 0.0, step = now.converged() && has_closed_contacts(task, now) ? 1.0 : 0.0;
-  while (solved < 1.0 && step >= least_step && now.converged()) {
-    const double share = std::min(1.0, solved + step);
-    Candidate next = at_load(task, share * whole, now);
-    if (next.ended()) {
-      solved = share;
-      now = std::move(next);
-    } else {
-      now.iterations = next.iterations;
-      step *= 0.5;
-    }
-  }
+  const Start start{problem.contact_free_response(), {}};
+  Candidate rest = try_newton(task, series_flexibility, start, Strategy::load_continuation);
+  const bool presses = rest.converged() && has_closed_contacts(task, rest);
   problem.set_load_scale(whole);
-  if (solved < 1.0) now.newton.residual = std::numeric_limits<double>::infinity();
-  if (solved < 1.0 && now.converged()) now.newton.status = SolveStatus::stalled;
-  return now;
+  if (rest.newton.status == SolveStatus::cancelled) return rest;
+  if (!presses) return no_solution(SolveStatus::stalled, series_flexibility, std::move(rest.unknown));
+  ContactSystem system = task.system(series_flexibility);
+  const Candidate loaded = improve(task, system, rest, Strategy::load_continuation);
+  if (loaded.ended()) return loaded;
+  return try_homotopy(task, series_flexibility, std::move(rest.unknown), Strategy::load_continuation);
 }
 
 /// The forms in which gaps or load are continued: that of the options and, where it is left open, the force

@@ -72,7 +72,7 @@ inline constexpr std::array<RecordTable, 6> record_tables{{
     {"section", &Record::section, "Poincare section: states at the start of each forcing period"},
     {"outputs", &Record::outputs, "every output over one period"},
     {"sweep", &Record::sweep, "periodic responses along the curve"},
-    {"backbone", &Record::backbone, "a nonlinear mode over its energy"},
+    {"backbone", &Record::backbone, "a nonlinear mode, a motion per row"},
 }};
 
 /// Where a solution starts, what watches it, and on how many threads it runs.
