@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "phases/phase_loads.hpp"
+#include "balance/free_contacts.hpp"
 
 namespace wavebalance::solvers {
 

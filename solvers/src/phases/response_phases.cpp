@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "phases/phase_loads.hpp"
+#include "balance/free_contacts.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"

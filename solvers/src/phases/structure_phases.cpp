@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "balance/free_contacts.hpp"
 #include "linalg/option_checks.hpp"
-#include "phases/phase_loads.hpp"
 #include "phases/phase_motion_parts.hpp"
 #include "wavebalance/solvers/structure/condensation.hpp"
 #include "wavebalance/spectral/fft.hpp"

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "phases/phase_loads.hpp"
+#include "balance/free_contacts.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/branches/subharmonic_response.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"

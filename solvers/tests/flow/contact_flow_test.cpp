@@ -1,7 +1,7 @@
 // Motions in time by events against event-driven integrations that share nothing with them.
 
+#include "balance/free_contacts.hpp"
 #include "linalg/index.hpp"
-#include "phases/phase_loads.hpp"
 #include "support/friction_table.hpp"
 #include "support/impact_scenes.hpp"
 #include "support/small_problems.hpp"

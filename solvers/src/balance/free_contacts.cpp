@@ -1,4 +1,4 @@
-#include "phases/phase_loads.hpp"
+#include "balance/free_contacts.hpp"
 
 #include <algorithm>
 #include <complex>
