@@ -6,10 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "linalg/dense.hpp"
 #include "linalg/enum_table.hpp"
+#include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/curve_motions.hpp"
 #include "stability/stability_checks.hpp"
+#include "stability/stop_motion.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 
 namespace wavebalance::solvers {
@@ -85,6 +88,7 @@ class Tracker {
         curve_(curve),
         dynamics_(std::move(dynamics)),
         options_(options),
+        stops_(StopMotions::of(problem, laws, *dynamics_.at(problem.structure()), options.stability)),
         motions_("curve_stability", problem, laws, curve, lengths(laws), options.output_points) {}
 
   CurveStability run() {
@@ -140,6 +144,8 @@ class Tracker {
     if (what == Measure::contacts) return;
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;
+    if (stops_ && stops_->are_needed(stiffness, at.frequency, how))
+      return measure_exact(stops_->map_beside(problem_, at, stiffness), what, sample);
     if (what == Measure::count_alone && stiffness.friction.empty())
       return set_count(unstable_multipliers(*dynamics, stiffness, at.frequency, how), sample);
     if (what == Measure::signs && stiffness.friction.empty())
@@ -147,6 +153,16 @@ class Tracker {
     const SignsAndCount both = signs_and_count(*dynamics, stiffness, at.frequency, how);
     set_signs(both.signs, sample);
     if (is_known(sample)) set_count(both.count, sample);
+  }
+
+  static void measure_exact(const std::optional<Eigen::MatrixXd>& map, Measure what, CurveSample& sample) {
+    PointStability& stability = sample.stability;
+    stability.status = map ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+    if (!map) return;
+    if (what != Measure::count_alone) set_signs(signs_of_multipliers(detail::map_multipliers(*map)), sample);
+    if (what == Measure::signs) return;
+    stability.unstable = detail::count_outside_circle(*map);
+    if (stability.unstable < 0) stability.status = StabilityStatus::on_unit_circle;
   }
 
   static void set_signs(const StabilitySigns& signs, CurveSample& sample) {
@@ -277,7 +293,13 @@ class Tracker {
     const auto consider = [&](Complex multiplier) {
       if (!(distance_from(type, multiplier) >= distance_from(type, nearest))) nearest = multiplier;
     };
-    if (const auto all = multipliers_of_costly(*dynamics, stiffness, at.frequency, how.stability))
+    std::optional<Eigen::MatrixXd> exact;
+    if (stops_ && stops_->are_needed(stiffness, at.frequency, how.stability))
+      exact = stops_->map_beside(problem_, at, stiffness);
+    if (exact)
+      for (const Complex multiplier : detail::map_multipliers(*exact))
+        consider({multiplier.real(), std::abs(multiplier.imag())});
+    else if (const auto all = multipliers_of_costly(*dynamics, stiffness, at.frequency, how.stability))
       for (const Complex multiplier : *all) consider({multiplier.real(), std::abs(multiplier.imag())});
     else
       for (const FloquetExponent& one : floquet_exponents(*dynamics, stiffness, at.frequency, how).values)
@@ -290,6 +312,7 @@ class Tracker {
   const FrequencySweep& curve_;
   DynamicsAlong dynamics_;
   const CurveStabilityOptions& options_;
+  std::optional<StopMotions> stops_;
   CurveMotions motions_;
   CurveStability result_;
   std::size_t index_ = 0;  // the point at the end of the piece that is examined

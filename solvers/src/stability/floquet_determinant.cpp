@@ -76,9 +76,6 @@ FloquetDeterminant::FloquetDeterminant(const ContactDynamics& dynamics, const Pe
   }
 }
 
-namespace {
-
-// The middle of the longest time over which the fewest contacts are closed.
 double quiet_instant(const std::vector<ContactInterval>& intervals) {
   std::vector<std::pair<double, int>> changes{{0.0, 0}, {1.0, 0}};
   int closed = 0;
@@ -101,8 +98,6 @@ double quiet_instant(const std::vector<ContactInterval>& intervals) {
   }
   return instant;
 }
-
-}  // namespace
 
 void FloquetDeterminant::place_nodes(const PeriodicStiffness& stiffness,
                                      const std::vector<ContactInterval>& pieces) {
@@ -361,6 +356,13 @@ std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& d
   if (truncation.harmonics == 0) return std::nullopt;
   FloquetDeterminant determinant(dynamics, stiffness, frequency, truncation);
   return determinant.resolved() ? std::optional(std::move(determinant)) : std::nullopt;
+}
+
+bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                       int harmonics, double max_omitted) {
+  const Truncation truncation =
+      resolving_truncation(dynamics, stiffness, two_pi * frequency, harmonics, harmonics, max_omitted);
+  return truncation.harmonics > 0 && truncation.at_once.size() == 0;
 }
 
 StabilityStatus require_stiffness(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness) {

@@ -9,6 +9,9 @@
 
 namespace wavebalance::solvers {
 
+/// The middle of the longest time (in periods) over which the fewest contacts are closed.
+double quiet_instant(const std::vector<ContactInterval>& intervals);
+
 /// How many harmonics represent perturbations, and with which compliances at once.
 struct Truncation {
   int harmonics = 0;        ///< H; 0 for none
@@ -105,6 +108,10 @@ class FloquetDeterminant {
 std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& dynamics,
                                                         const PeriodicStiffness& stiffness, double frequency,
                                                         int harmonics, int most, double max_omitted);
+
+/// Whether such a determinant takes these harmonics, without compliances at once.
+bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
+                       int harmonics, double max_omitted);
 
 /// Whether an exponent of the structure lies on the imaginary axis to rounding.
 bool has_undamped_pole(const ContactDynamics& dynamics, double angular_frequency);

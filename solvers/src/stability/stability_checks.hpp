@@ -19,6 +19,9 @@ std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dyn
                                                       const PeriodicStiffness& stiffness, double frequency,
                                                       const StabilityOptions& options);
 
+/// The signs by all multipliers of a motion.
+StabilitySigns signs_of_multipliers(const Eigen::VectorXcd& multipliers);
+
 /// Signs and, where they are known, count of one motion.
 struct SignsAndCount {
   StabilitySigns signs;

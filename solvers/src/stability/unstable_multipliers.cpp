@@ -323,14 +323,18 @@ StabilitySigns signs_of(Way& way, const ContactDynamics& dynamics, double freque
     return signs;
   }
   const auto multipliers = multipliers_of(way, dynamics, frequency, options);
-  if (!multipliers) return {StabilityStatus::too_few_harmonics};
-  const auto real = multipliers->imag().array() == 0.0;
-  signs.fold = (real && multipliers->real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
-  signs.flip = (real && multipliers->real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
-  return signs;
+  return multipliers ? signs_of_multipliers(*multipliers) : StabilitySigns{StabilityStatus::too_few_harmonics};
 }
 
 }  // namespace
+
+StabilitySigns signs_of_multipliers(const Eigen::VectorXcd& multipliers) {
+  const auto real = multipliers.imag().array() == 0.0;
+  StabilitySigns signs;
+  signs.fold = (real && multipliers.real().array() > 1.0).count() % 2 == 0 ? 1 : -1;
+  signs.flip = (real && multipliers.real().array() < -1.0).count() % 2 == 0 ? 1 : -1;
+  return signs;
+}
 
 std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
                                                       const PeriodicStiffness& stiffness, double frequency,

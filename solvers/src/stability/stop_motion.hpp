@@ -1,0 +1,44 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "balance/free_contacts.hpp"
+#include "stability/linear_stops.hpp"
+#include "wavebalance/solvers/stability/unstable_multipliers.hpp"
+
+namespace wavebalance::solvers {
+
+/// Exact periodic motions of a structure between linear stops, for the stability along a curve where the
+/// harmonics of its balance do not represent perturbations. Between two instants at which a stop closes or
+/// opens the structure is linear, so that the motion is exact in all modes however stiff the stops.
+///
+/// The instants of the balance's motion determine a periodic state, the motion from this state other
+/// instants, and so on: Newton's method, since stops change without a force and a perturbation passes them
+/// unchanged. One object per thread.
+class StopMotions {
+ public:
+  /// Nothing for other laws and for structures of which not all modes are known, that turn, are held by
+  /// springs, or have more than max_states. Keeps a reference to the dynamics.
+  static std::optional<StopMotions> of(const CondensedProblem& problem, const ContactLaws& laws,
+                                       const ContactDynamics& dynamics, const StabilityOptions& options);
+
+  /// Whether the harmonics of the options do not do, of a damped structure.
+  bool are_needed(const PeriodicStiffness& stiffness, double frequency,
+                  const StabilityOptions& options) const;
+
+  /// The map of perturbations over a period of the exact motion beside a response; nothing where it is not
+  /// found. O(instants S^3) for each of about five steps, S states.
+  std::optional<Eigen::MatrixXd> map_beside(const CondensedProblem& problem, const PeriodicResponse& response,
+                                            const PeriodicStiffness& stiffness);
+
+ private:
+  StopMotions(const ContactDynamics& dynamics, detail::LinearStops stops);
+
+  const ContactDynamics& dynamics_;
+  detail::LinearStops stops_;
+  std::map<std::vector<int>, std::optional<detail::HeldByStops>> held_;  // by the stops that are closed
+  std::optional<detail::FreeContacts> free_;                             // once a motion is sought
+};
+
+}  // namespace wavebalance::solvers
