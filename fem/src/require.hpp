@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 namespace wavebalance::fem::detail {
 
@@ -14,6 +16,20 @@ inline std::string text(double number, int digits = 17) {
   result.precision(digits);
   result << number;
   return result.str();
+}
+
+/// Texts and whole numbers one after another.
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  const auto text_of = [](const auto& part) {
+    if constexpr (std::is_integral_v<std::remove_cvref_t<decltype(part)>>)
+      return std::to_string(part);
+    else
+      return std::string_view(part);
+  };
+  std::string result;
+  (result.append(text_of(parts)), ...);
+  return result;
 }
 
 /// Throws std::invalid_argument "<where>: <fault>" unless valid.

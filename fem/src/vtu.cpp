@@ -6,11 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iomanip>
-#include <ostream>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -48,53 +43,39 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-// The data arrays of a file: written as text in place, or collected and appended after the XML tree.
+// The data arrays of a file, which are appended after the XML tree.
 class Arrays {
  public:
-  Arrays(std::ostream& output, VtuFormat format) : output_(output), format_(format) {}
-
   template <typename Number, typename Values>
-  void write(const std::string& attributes, const char* type, const Values& values, int digits = 0) {
-    output_ << "<DataArray type=\"" << type << "\" " << attributes;
-    if (format_ == VtuFormat::ascii) {
-      output_ << " format=\"ascii\">\n";
-      if (digits > 0) output_ << std::setprecision(digits);
-      for (Eigen::Index column = 0; column < values.cols(); ++column)
-        for (Eigen::Index row = 0; row < values.rows(); ++row)
-          output_ << +static_cast<Number>(values(row, column)) << (row + 1 == values.rows() ? '\n' : ' ');
-      output_ << "</DataArray>\n";
-      return;
-    }
-    output_ << " format=\"appended\" offset=\"" << appended_.size() << "\"/>\n";
+  std::string tag(const std::string& attributes, const char* type, const Values& values) {
+    const std::size_t offset = appended_.size();
     const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic> data = values.template cast<Number>();
     const std::uint64_t size = static_cast<std::uint64_t>(data.size()) * sizeof(Number);
     std::string bytes(sizeof size + size, '\0');
     std::memcpy(bytes.data(), &size, sizeof size);
     if (size > 0) std::memcpy(bytes.data() + sizeof size, data.data(), size);
     appended_ += base64(bytes);
-  }
-  void write_appended() {
-    if (format_ == VtuFormat::ascii) return;
-    output_ << "<AppendedData encoding=\"base64\">\n_" << appended_ << "\n</AppendedData>\n";
+    return std::string("<DataArray type=\"") + type + "\" " + attributes + " format=\"appended\" offset=\"" +
+           std::to_string(offset) + "\"/>\n";
   }
 
+  const std::string& appended() const { return appended_; }
+
  private:
-  std::ostream& output_;
-  VtuFormat format_;
   std::string appended_;
 };
 
 void validate(Eigen::Index nodes, std::span<const PointField> fields) {
   for (const PointField& field : fields) {
-    detail::require(!field.name.empty(), "write_vtu", "a field has no name");
+    detail::require(!field.name.empty(), "vtu_text", "a field has no name");
     const Eigen::Index rows = field.values.rows(), columns = field.values.cols();
     if (columns != nodes)
-      detail::reject_value("write_vtu", "the number of columns of the field " + field.name,
+      detail::reject_value("vtu_text", "the number of columns of the field " + field.name,
                            static_cast<double>(columns), "that of the nodes, " + std::to_string(nodes));
     if (rows < 1 || rows > 9)
-      detail::reject_value("write_vtu", "the number of rows of the field " + field.name,
+      detail::reject_value("vtu_text", "the number of rows of the field " + field.name,
                            static_cast<double>(rows), "in 1..9");
-    detail::require(field.values.allFinite(), "write_vtu",
+    detail::require(field.values.allFinite(), "vtu_text",
                     "the field " + field.name + " has an entry that is not finite");
   }
 }
@@ -103,10 +84,10 @@ Eigen::Map<const Eigen::RowVectorXi> as_row(const std::vector<int>& numbers) {
   return {numbers.data(), std::ssize(numbers)};
 }
 
-void write_cells(Arrays& arrays, const Mesh& mesh) {
-  arrays.write<std::int64_t>("Name=\"connectivity\"", "Int64", as_row(mesh.connectivity));
-  arrays.write<std::int64_t>("Name=\"offsets\"", "Int64", as_row(mesh.cell_ends));
-  arrays.write<std::uint8_t>("Name=\"types\"", "UInt8", as_row(mesh.cell_types));
+std::string cells_text(Arrays& arrays, const Mesh& mesh) {
+  return arrays.tag<std::int64_t>("Name=\"connectivity\"", "Int64", as_row(mesh.connectivity)) +
+         arrays.tag<std::int64_t>("Name=\"offsets\"", "Int64", as_row(mesh.cell_ends)) +
+         arrays.tag<std::uint8_t>("Name=\"types\"", "UInt8", as_row(mesh.cell_types));
 }
 
 std::string file_open_tag(const char* type) {
@@ -141,55 +122,33 @@ Mesh mesh_of(const SolidMesh& solid) {
   return mesh;
 }
 
-void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const PointField> fields,
-               VtuFormat format) {
-  write_vtu(output, mesh_of(mesh), fields, format);
-}
-
-void write_vtu(std::ostream& output, const Mesh& mesh, std::span<const PointField> fields, VtuFormat format) {
+std::string vtu_text(const Mesh& mesh, std::span<const PointField> fields) {
   mesh.validate();
   validate(mesh.points.cols(), fields);
-  const auto precision = output.precision();
-  Arrays arrays(output, format);
-  output << file_open_tag("UnstructuredGrid") << "<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-         << mesh.points.cols() << "\" NumberOfCells=\"" << mesh.cell_types.size() << "\">\n<PointData>\n";
+  Arrays arrays;
+  std::string text = file_open_tag("UnstructuredGrid") + "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+                     std::to_string(mesh.points.cols()) + "\" NumberOfCells=\"" +
+                     std::to_string(mesh.cell_types.size()) + "\">\n<PointData>\n";
   for (const PointField& field : fields)
-    arrays.write<double>("Name=\"" + escaped(field.name) + "\" NumberOfComponents=\"" +
-                             std::to_string(field.values.rows()) + "\"",
-                         "Float64", field.values, 9);
-  output << "</PointData>\n<Points>\n";
-  arrays.write<double>("Name=\"points\" NumberOfComponents=\"3\"", "Float64", mesh.points, 17);
-  output << "</Points>\n<Cells>\n";
-  write_cells(arrays, mesh);
-  output << "</Cells>\n</Piece>\n</UnstructuredGrid>\n";
-  arrays.write_appended();
-  output << "</VTKFile>\n";
-  output.precision(precision);
-  if (!output) throw std::runtime_error("write_vtu: writing failed");
+    text += arrays.tag<double>("Name=\"" + escaped(field.name) + "\" NumberOfComponents=\"" +
+                                   std::to_string(field.values.rows()) + "\"",
+                               "Float64", field.values);
+  text += "</PointData>\n<Points>\n" +
+          arrays.tag<double>("Name=\"points\" NumberOfComponents=\"3\"", "Float64", mesh.points) +
+          "</Points>\n<Cells>\n" + cells_text(arrays, mesh);
+  return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"base64\">\n_" +
+         arrays.appended() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,
-               VtuFormat format) {
-  mesh.validate();
-  validate(mesh.nodes.cols(), fields);
-  std::ofstream output(file, std::ios::binary);
-  if (!output) throw std::runtime_error(file.string() + ": the file cannot be opened for writing");
-  write_vtu(output, mesh, fields, format);
-  output.close();
-  if (!output) throw std::runtime_error(file.string() + ": writing failed");
-}
-
-void write_pvd(std::ostream& output, std::span<const PvdEntry> entries) {
-  std::ostringstream text;
-  text << std::setprecision(17) << file_open_tag("Collection") << "<Collection>\n";
+std::string pvd_text(std::span<const PvdEntry> entries) {
+  std::string text = file_open_tag("Collection") + "<Collection>\n";
   for (const PvdEntry& entry : entries) {
-    detail::require_value(std::isfinite(entry.time), "write_pvd", ("the time of " + entry.file).c_str(),
+    detail::require_value(std::isfinite(entry.time), "pvd_text", ("the time of " + entry.file).c_str(),
                           entry.time, "finite");
-    text << "<DataSet timestep=\"" << entry.time << "\" part=\"0\" file=\"" << escaped(entry.file)
-         << "\"/>\n";
+    text += "<DataSet timestep=\"" + detail::text(entry.time) + "\" part=\"0\" file=\"" +
+            escaped(entry.file) + "\"/>\n";
   }
-  output << text.str() << "</Collection>\n</VTKFile>\n";
-  if (!output) throw std::runtime_error("write_pvd: writing failed");
+  return text + "</Collection>\n</VTKFile>\n";
 }
 
 }  // namespace wavebalance::fem

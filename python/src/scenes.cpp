@@ -111,9 +111,8 @@ void add_scenes(py::module_& module) {
       return run_scene(source, output, start_from, threads, copy_inputs, observer);
     });
   });
-  module.def("write_matrix_market", [](const std::string& file, const Eigen::SparseMatrix<double>& matrix) {
-    fem::write_matrix_market(file, matrix);
-  });
+  module.def("matrix_market_text",
+             [](const Eigen::SparseMatrix<double>& matrix) { return fem::matrix_market_text(matrix); });
   module.def("describe_scene",
              [](const SceneSource& source) { return app::describe_scene(scene_of(source)); });
   module.def("complete_scene", [](const SceneSource& source) { return app::write_scene(scene_of(source)); });

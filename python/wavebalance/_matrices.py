@@ -84,4 +84,4 @@ def load_matrix(file: Path) -> Any:
 def write_matrix(file: Path, matrix: Any, name: str) -> None:
     """Writes a matrix, or a vector as a column, in the format of Matrix Market with all digits."""
     column = matrix if scipy.sparse.issparse(matrix) or np.ndim(matrix) == 2 else np.reshape(matrix, (-1, 1))
-    _core.write_matrix_market(os.fspath(file), as_csc(column, name))
+    file.write_text(_core.matrix_market_text(as_csc(column, name)), encoding="utf-8")

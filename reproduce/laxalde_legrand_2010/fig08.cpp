@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "blade.hpp"
 #include "figures.hpp"
@@ -69,14 +68,10 @@ void attach_series(report::Artefact& artefact, const fem::Blade& blade, const Sh
     const std::string name = stem + "_" + (frame < 10 ? "0" : "") + std::to_string(frame) + ".vtu";
     body.frames.push_back(drawn_gap * shape.frames[frame]);
     const fem::PointField fields[] = {{"displacement", body.frames.back()}};
-    std::ostringstream text;
-    fem::write_vtu(text, mesh, fields);
-    artefact.attach(name, text.str(), false);
+    artefact.attach(name, fem::vtu_text(fem::mesh_of(mesh), fields), false);
     entries.push_back({static_cast<double>(frame) / shape_times, name});
   }
-  std::ostringstream text;
-  fem::write_pvd(text, entries);
-  artefact.attach(stem + ".pvd", text.str());
+  artefact.attach(stem + ".pvd", fem::pvd_text(entries));
   artefact.attach(stem + ".body.js", app::body_script(stem, body), false);
 }
 

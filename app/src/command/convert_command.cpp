@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cctype>
-#include <sstream>
 #include <stdexcept>
 
 #include "command/commands.hpp"
@@ -29,19 +28,10 @@ std::string file_name(const std::string& role) {
   return name + ".mtx";
 }
 
-std::string market_text(const Eigen::SparseMatrix<double>& matrix) {
-  const bool symmetric = matrix.rows() == matrix.cols() &&
-                         (matrix - Eigen::SparseMatrix<double>(matrix.transpose())).norm() == 0.0;
-  std::ostringstream text;
-  fem::write_matrix_market(
-      text, matrix, symmetric ? fem::MatrixMarketSymmetry::symmetric : fem::MatrixMarketSymmetry::general);
-  return text.str();
-}
-
 std::vector<Converted> converted(const fem::CollectedMatrices& all) {
   std::vector<Converted> files;
   for (const fem::CollectedMatrix& one : all.matrices)
-    files.push_back({file_name(one.role), market_text(one.matrix),
+    files.push_back({file_name(one.role), fem::matrix_market_text(one.matrix),
                      fmt::format("{} x {}, {}of {}", one.matrix.rows(), one.matrix.cols(),
                                  one.name.empty() ? "" : one.name + " ", one.file.string())});
   if (all.map)

@@ -1,6 +1,5 @@
 #include "command/commands.hpp"
 
-#include <sstream>
 #include <stdexcept>
 
 #include "command/starter_texts.hpp"
@@ -56,12 +55,6 @@ std::string row_names(Eigen::Index rows) {
   return text;
 }
 
-std::string matrix_text(const Eigen::SparseMatrix<double>& matrix) {
-  std::ostringstream text;
-  fem::write_matrix_market(text, matrix, fem::MatrixMarketSymmetry::symmetric);
-  return text.str();
-}
-
 /// `text` with `stem` in place of STEM.
 std::string with_stem(std::string text, const std::string& stem) {
   for (auto place = text.find("STEM"); place != std::string::npos;
@@ -90,8 +83,8 @@ std::vector<RecordFile> starter_scene(const std::string& kind, const std::string
   if (kind == "study") files.push_back({stem + "_scene.toml", text_of("bar"), ""});
   if (kind == "matrices") {
     const Cantilever beam = cantilever();
-    files.push_back({stem + "_mass.mtx", matrix_text(beam.mass), ""});
-    files.push_back({stem + "_stiffness.mtx", matrix_text(beam.stiffness), ""});
+    files.push_back({stem + "_mass.mtx", fem::matrix_market_text(beam.mass), ""});
+    files.push_back({stem + "_stiffness.mtx", fem::matrix_market_text(beam.stiffness), ""});
     files.push_back({stem + "_rows.csv", row_names(beam.mass.rows()), ""});
   }
   return files;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "drawing/record_figure.hpp"
@@ -26,30 +25,16 @@ namespace {
 
 constexpr const char* about_motion = "motion of the whole structure";
 
-template <class Mesh>
-std::string vtu_text(const Mesh& mesh, std::span<const fem::PointField> fields) {
-  std::ostringstream text;
-  fem::write_vtu(text, mesh, fields);
-  return std::move(text).str();
-}
-
-std::string vtu_text(const fem::SolidModel& solid, const Eigen::Matrix3Xd& displacement) {
+std::string frame_text(const fem::Mesh& mesh, const fem::SolidModel& solid,
+                       const Eigen::Matrix3Xd& displacement) {
   const fem::PointField fields[] = {{"displacement", displacement},
                                     {"stress", fem::nodal_stress(solid, displacement)}};
-  return vtu_text(solid.mesh, fields);
+  return fem::vtu_text(mesh, fields);
 }
 
-std::string vtu_text(const MovedMesh& moved, const Eigen::Matrix3Xd& displacement) {
+std::string frame_text(const fem::Mesh& mesh, const MovedMesh&, const Eigen::Matrix3Xd& displacement) {
   const fem::PointField fields[] = {{"displacement", displacement}};
-  return vtu_text(moved.mesh, fields);
-}
-
-std::string array_text(const Eigen::MatrixXd& whole) {
-  std::ostringstream text;
-  fem::write_matrix_market_array(
-      text, whole,
-      "displacement of every degree of freedom (row) at uniform instants of the period (column), m");
-  return std::move(text).str();
+  return fem::vtu_text(mesh, fields);
 }
 
 /// A file for each frame, their series, and the body that the page moves; of many points it would be a page
@@ -60,12 +45,10 @@ void append_mesh_files(std::vector<RecordFile>& files, const Moving& moving, con
   std::vector<fem::PvdEntry> entries;
   for (std::size_t frame = 0; frame < frames.size(); ++frame) {
     files.push_back(
-        {fmt::format("{}_{:04}.vtu", name, frame), vtu_text(moving, frames[frame]), about_motion});
+        {fmt::format("{}_{:04}.vtu", name, frame), frame_text(mesh, moving, frames[frame]), about_motion});
     entries.push_back({double(frame) / double(frames.size()), files.back().name});
   }
-  std::ostringstream series;
-  fem::write_pvd(series, entries);
-  files.push_back({name + ".pvd", std::move(series).str(), about_motion});
+  files.push_back({name + ".pvd", fem::pvd_text(entries), about_motion});
   constexpr Eigen::Index most = 1'000'000;  // points times instants
   if (!available(Library::three) || mesh.points.cols() * std::ssize(frames) > most) return;
   MovingBody body{name, mesh.points, fem::surface_of(mesh), std::move(frames)};
@@ -87,7 +70,9 @@ std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::M
     append_mesh_files(files, solid, fem::mesh_of(solid.mesh), std::move(frames), name);
     return files;
   }
-  files.push_back({name + ".mtx", array_text(whole), about_motion});
+  constexpr const char* rows =
+      "displacement of every degree of freedom (row) at uniform instants of the period (column), m";
+  files.push_back({name + ".mtx", fem::matrix_market_text(whole, rows), about_motion});
   if (!model.mesh) return files;
   for (const auto& unknowns : whole.colwise()) {
     const Eigen::VectorXd moved = model.mesh->displacements * unknowns;

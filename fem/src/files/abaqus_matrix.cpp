@@ -38,8 +38,7 @@ class AbaqusReader {
       return;
     }
     if (!in_loads_)
-      lines_.fail("found \"" + lines_.text().substr(0, 60) +
-                  "\"; the keyword must be *MATRIX INPUT or *CLOAD");
+      lines_.fail("found \"", lines_.text().substr(0, 60), "\"; the keyword must be *MATRIX INPUT or *CLOAD");
     imaginary_ = line.find("imaginary") != std::string::npos;
     if (!imaginary_) ++cases_;
   }
@@ -47,14 +46,13 @@ class AbaqusReader {
   NodeDof dof(std::string_view node, std::string_view direction) const {
     constexpr int most = 6;
     const int number = lines_.number<int>(direction, "the degree of freedom");
-    if (number < 1 || number > most)
-      lines_.fail("the degree of freedom is " + std::to_string(number) + "; it must be in 1..6");
+    if (number < 1 || number > most) lines_.fail("the degree of freedom is ", number, "; it must be in 1..6");
     return {lines_.number<int>(node, "the node"), number};
   }
 
   void add_entry(const std::vector<std::string_view>& words) {
     if (words.size() != 5)
-      lines_.fail("found \"" + lines_.text().substr(0, 120) +
+      lines_.fail("found \"", lines_.text().substr(0, 120),
                   "\"; the line must hold node, degree of freedom, node, degree of freedom and value");
     const int row = matrix_.place(dof(words[0], words[1]));
     matrix_.add(row, matrix_.place(dof(words[2], words[3])), lines_.finite(words[4]));
@@ -62,12 +60,12 @@ class AbaqusReader {
 
   void add_load(const std::vector<std::string_view>& words) {
     if (words.size() != 3)
-      lines_.fail("found \"" + lines_.text().substr(0, 120) +
+      lines_.fail("found \"", lines_.text().substr(0, 120),
                   "\"; the line must hold node, degree of freedom and value");
     const int row = loads_.place(dof(words[0], words[1]));
     const double value = lines_.finite(words[2]);
     if (imaginary_ && value != 0.0)
-      lines_.fail("the load has an imaginary part, " + std::string(words[2]) + "; it must be real");
+      lines_.fail("the load has an imaginary part, ", words[2], "; it must be real");
     if (!imaginary_) loads_.add(row, cases_ - 1, value);
   }
 

@@ -50,7 +50,7 @@ class SubstructureReader {
     if (line.starts_with("*user element")) return begin_element(line);
     const std::string type = keyword_value(line, "type");
     if (!line.starts_with("*matrix") || type.empty())
-      lines_.fail("found \"" + lines_.text().substr(0, 60) +
+      lines_.fail("found \"", lines_.text().substr(0, 60),
                   "\"; the keyword must be *USER ELEMENT or *MATRIX, TYPE=");
     end_matrix();
     if (labels_.empty()) end_element();
@@ -63,7 +63,7 @@ class SubstructureReader {
       lines_.fail("there is a second *USER ELEMENT; the file must have one, that of a substructure");
     const std::string count = keyword_value(line, "nodes");
     count_ = lines_.number<int>(count, "the number of nodes");
-    if (count_ < 1) lines_.fail("the number of nodes is " + count + "; it must be at least 1");
+    if (count_ < 1) lines_.fail("the number of nodes is ", count, "; it must be at least 1");
     symmetric_ = line.find("unsymm") == std::string::npos;
   }
 
@@ -86,8 +86,7 @@ class SubstructureReader {
     if (!dofs_.empty()) {
       node = lines_.index(words[first++], "the place of the node", count_) + 1;
       if (node <= dofs_.back().node)
-        lines_.fail("the place of the node is " + std::to_string(node) + "; it must be above " +
-                    std::to_string(dofs_.back().node));
+        lines_.fail("the place of the node is ", node, "; it must be above ", dofs_.back().node);
     }
     dofs_.push_back({node, {}});
     for (; first < words.size(); ++first)
@@ -96,8 +95,7 @@ class SubstructureReader {
 
   void end_element() {
     if (static_cast<int>(nodes_.size()) != count_)
-      lines_.fail("\"** ELEMENT NODES\" lists " + std::to_string(nodes_.size()) +
-                  " nodes; *USER ELEMENT says " + std::to_string(count_));
+      lines_.fail("\"** ELEMENT NODES\" lists ", nodes_.size(), " nodes; *USER ELEMENT says ", count_);
     for (int i = 1; i <= count_; ++i) {
       const auto after =
           std::find_if(dofs_.begin(), dofs_.end(), [i](const Dofs& one) { return one.node > i; });
@@ -116,9 +114,8 @@ class SubstructureReader {
     if (name_.empty()) return;
     const std::size_t size = labels_.size(), expected = symmetric_ ? size * (size + 1) / 2 : size * size;
     if (values_.size() != expected)
-      lines_.fail("the matrix of TYPE=" + name_ + " has " + std::to_string(values_.size()) +
-                  " values; it must have " + std::to_string(expected) + " for " + std::to_string(size) +
-                  " rows");
+      lines_.fail("the matrix of TYPE=", name_, " has ", values_.size(), " values; it must have ", expected,
+                  " for ", size, " rows");
     detail::LabelledEntries entries;
     std::vector<int> places;
     for (const NodeDof& label : labels_) places.push_back(entries.place(label));

@@ -34,7 +34,7 @@ Columns named_columns(const Lines& lines, Words names) {
                        : name == "row" || name == "equation" || name == "eqn" ? &columns.row
                                                                               : nullptr;
     if (place == nullptr || *place >= 0)
-      lines.fail("found the column \"" + std::string(names[i]) +
+      lines.fail("found the column \"", names[i],
                  "\"; columns must be node, direction and, if there is one, row, each once");
     *place = static_cast<int>(i);
   }
@@ -46,8 +46,7 @@ Columns named_columns(const Lines& lines, Words names) {
 int direction_in(const Lines& lines, std::string_view name) {
   const int direction = direction_of(name);
   if (direction == 0)
-    lines.fail("the direction is \"" + std::string(name) +
-               "\"; it must be x, y, z, rx, ry, rz, scalar or a number in 1..6");
+    lines.fail("the direction is \"", name, "\"; it must be x, y, z, rx, ry, rz, scalar or a number in 1..6");
   return direction;
 }
 
@@ -57,8 +56,7 @@ int node_in(const Lines& lines, std::string_view text) { return lines.number<int
 NodeDof dotted(const Lines& lines, std::string_view word) {
   const std::size_t dot = word.find('.');
   if (dot == std::string_view::npos)
-    lines.fail("found \"" + std::string(word) +
-               "\"; the line must hold node.direction, or the columns node and direction");
+    lines.fail("found \"", word, "\"; the line must hold node.direction, or the columns node and direction");
   return {node_in(lines, word.substr(0, dot)), direction_in(lines, word.substr(dot + 1))};
 }
 
@@ -94,7 +92,7 @@ class DofMapReader {
     if (words.size() == 1 && columns_.count == 2) return add(next, dotted(lines_, words[0]));
     if (words.size() != columns_.count)
       lines_.fail(
-          "found \"" + lines_.text().substr(0, 120) + "\"; the line must hold " +
+          "found \"", lines_.text().substr(0, 120), "\"; the line must hold ",
           (columns_.row < 0 ? "node.direction, or node and direction" : "the columns of the first line"));
     const auto word = [&](int column) { return words[static_cast<std::size_t>(column)]; };
     const NodeDof dof{node_in(lines_, word(columns_.node)), direction_in(lines_, word(columns_.direction))};

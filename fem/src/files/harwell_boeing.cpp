@@ -26,30 +26,27 @@ struct HarwellBoeingHeader {
 };
 
 int counted(const Lines& lines, std::size_t word, const char* what, int most) {
-  if (lines.words().size() <= word) lines.fail(std::string(what) + " is missing");
+  if (lines.words().size() <= word) lines.fail(what, " is missing");
   const int count = lines.number<int>(word, what);
-  if (count < 1 || count > most)
-    lines.fail(std::string(what) + " is " + std::to_string(count) + "; it must be in 1.." +
-               std::to_string(most));
+  if (count < 1 || count > most) lines.fail(what, " is ", count, "; it must be in 1..", most);
   return count;
 }
 
 void next_line(Lines& lines, const char* what) {
-  if (!lines.next()) lines.fail("the file ends before " + std::string(what));
+  if (!lines.next()) lines.fail("the file ends before ", what);
 }
 
 void read_type(Lines& lines, HarwellBoeingHeader& header) {
   next_line(lines, "the line of the matrix type");
   const std::string type = lines.words().empty() ? "" : detail::lower(lines.words()[0]);
   if (type != "rsa" && type != "rua")
-    lines.fail("the type of the matrix is \"" + type +
+    lines.fail("the type of the matrix is \"", type,
                "\"; it must be RSA (real, symmetric, assembled) or RUA (real, unsymmetric, assembled)");
   header.symmetric = type == "rsa";
   header.rows = counted(lines, 1, "the number of rows", detail::largest_side);
   const int columns = counted(lines, 2, "the number of columns", detail::largest_side);
   if (columns != header.rows)
-    lines.fail("the matrix is " + std::to_string(header.rows) + " x " + std::to_string(columns) +
-               "; it must be square");
+    lines.fail("the matrix is ", header.rows, " x ", columns, "; it must be square");
   header.entries = counted(lines, 3, "the number of entries", std::numeric_limits<int>::max() - 1);
 }
 
@@ -57,8 +54,7 @@ FortranFormat read_format(const Lines& lines, std::string_view& rest, const char
   const std::string_view text = detail::next_parentheses(rest);
   const auto format = detail::fortran_format(text);
   if (!format || format->real() != real)
-    lines.fail("the format of the " + std::string(what) + " is \"" + std::string(text) +
-               "\"; it must be a Fortran format such as " +
+    lines.fail("the format of the ", what, " is \"", text, "\"; it must be a Fortran format such as ",
                (real ? "(4D20.12), (3E26.18), (1P,5E16.8) or (4F20.8)" : "(10I8) or (1I14)"));
   return *format;
 }
@@ -92,9 +88,7 @@ template <class Use>
 void for_each_field(Lines& lines, const FortranFormat& format, int count, const char* what, Use use) {
   const auto width = static_cast<std::size_t>(format.width);
   for (int found = 0; found < count;) {
-    if (!lines.next())
-      lines.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(count) + " " +
-                 what);
+    if (!lines.next()) lines.fail("the file ends after ", found, " of ", count, " ", what);
     const std::string_view text = lines.text();
     for (int i = 0; i < format.repeat && found < count; ++i, ++found) {
       const std::size_t start = static_cast<std::size_t>(i) * width;
@@ -105,8 +99,7 @@ void for_each_field(Lines& lines, const FortranFormat& format, int count, const 
 
 int integer_in(const Lines& lines, std::string_view field, const char* what) {
   field = detail::trimmed(field);
-  if (field.empty())
-    lines.fail("the field of " + std::string(what) + " is blank; the line must hold a whole number there");
+  if (field.empty()) lines.fail("the field of ", what, " is blank; the line must hold a whole number there");
   return lines.number<int>(field, what);
 }
 
@@ -117,22 +110,21 @@ std::vector<int> read_pointers(Lines& lines, const HarwellBoeingHeader& header) 
     const int pointer = integer_in(lines, field, "a column pointer") - 1;
     const int least = pointers.empty() ? 0 : pointers.back();
     if (pointer < least || pointer > header.entries || (pointers.empty() && pointer != 0))
-      lines.fail("a column pointer is " + std::to_string(pointer + 1) +
-                 "; pointers must increase from 1 to " + std::to_string(header.entries + 1) +
-                 ", the number of entries and 1");
+      lines.fail("a column pointer is ", pointer + 1, "; pointers must increase from 1 to ",
+                 header.entries + 1, ", the number of entries and 1");
     pointers.push_back(pointer);
   });
   if (pointers.back() != header.entries)
-    lines.fail("the last column pointer is " + std::to_string(pointers.back() + 1) + "; it must be " +
-               std::to_string(header.entries + 1) + ", the number of entries and 1");
+    lines.fail("the last column pointer is ", pointers.back() + 1, "; it must be ", header.entries + 1,
+               ", the number of entries and 1");
   return pointers;
 }
 
 double real_in(const Lines& lines, std::string_view field, const FortranFormat& format) {
   const auto value = detail::fortran_real(field, format);
   if (!value)
-    lines.fail("a value is \"" + std::string(field) + "\"; it must be a finite number in a field of " +
-               std::to_string(format.width) + " characters");
+    lines.fail("a value is \"", field, "\"; it must be a finite number in a field of ", format.width,
+               " characters");
   return *value;
 }
 
@@ -141,9 +133,7 @@ detail::MatrixEntries read_entries(Lines& lines, const HarwellBoeingHeader& head
   std::vector<int> rows;
   for_each_field(lines, header.indices, header.entries, "row indices", [&](std::string_view field) {
     const int row = integer_in(lines, field, "a row index");
-    if (row < 1 || row > header.rows)
-      lines.fail("a row index is " + std::to_string(row) + "; it must be in 1.." +
-                 std::to_string(header.rows));
+    if (row < 1 || row > header.rows) lines.fail("a row index is ", row, "; it must be in 1..", header.rows);
     rows.push_back(row - 1);
   });
   detail::MatrixEntries entries;
@@ -161,8 +151,8 @@ detail::MatrixEntries read_entries(Lines& lines, const HarwellBoeingHeader& head
 void require_one_load(const Lines& lines, const HarwellBoeingHeader& header) {
   if (header.loads == 0) lines.fail("the file has no right-hand side; expected one, the load");
   if (header.loads != 1 || header.load_type.empty() || header.load_type[0] != 'f')
-    lines.fail("the file has " + std::to_string(header.loads) + " right-hand sides of the type \"" +
-               header.load_type + "\"; expected one of the type F, a full vector");
+    lines.fail("the file has ", header.loads, " right-hand sides of the type \"", header.load_type,
+               "\"; expected one of the type F, a full vector");
   if (!header.load_values || !header.load_values->real())
     lines.fail(
         "the format of the right-hand side is missing or no Fortran format; expected one such as "

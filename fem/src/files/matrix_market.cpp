@@ -1,10 +1,9 @@
 #include "wavebalance/fem/matrix_market.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iomanip>
 #include <istream>
 #include <limits>
 #include <sstream>
@@ -34,7 +33,7 @@ Symmetry symmetry_of(const Lines& lines, const std::string& word) {
   if (word == "general") return Symmetry::general;
   if (word == "symmetric") return Symmetry::symmetric;
   if (word == "skew-symmetric") return Symmetry::skew;
-  lines.fail("the symmetry is \"" + word + "\"; it must be general, symmetric or skew-symmetric");
+  lines.fail("the symmetry is \"", word, "\"; it must be general, symmetric or skew-symmetric");
 }
 
 Header read_header(Lines& lines) {
@@ -45,7 +44,7 @@ Header read_header(Lines& lines) {
   const auto choice = [&](std::size_t word, const char* what, const char* first, const char* second) {
     const std::string found = lower(words[word]);
     if (found != first && found != second)
-      lines.fail(std::string("the ") + what + " is \"" + found + "\"; it must be " + first + " or " + second);
+      lines.fail("the ", what, " is \"", found, "\"; it must be ", first, " or ", second);
     return found == second;
   };
   const bool array = choice(2, "format", "coordinate", "array");
@@ -55,27 +54,23 @@ Header read_header(Lines& lines) {
 
 int read_size(const Lines& lines, std::size_t word, const char* what) {
   const int size = lines.number<int>(word, what);
-  if (size < 0) lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must not be negative");
+  if (size < 0) lines.fail(what, " is ", size, "; it must not be negative");
   return size;
 }
 
 int read_side(const Lines& lines, std::size_t word, const char* what) {
   const int size = read_size(lines, word, what);
   if (size > detail::largest_side)
-    lines.fail(std::string(what) + " is " + std::to_string(size) + "; it must be at most " +
-               std::to_string(detail::largest_side));
+    lines.fail(what, " is ", size, "; it must be at most ", detail::largest_side);
   return size;
 }
 
 void require_data(Lines& lines, long long found, long long expected) {
-  if (!lines.next_with_data('%'))
-    lines.fail("the file ends after " + std::to_string(found) + " of " + std::to_string(expected) +
-               " entries");
+  if (!lines.next_with_data('%')) lines.fail("the file ends after ", found, " of ", expected, " entries");
 }
 
 void require_end(Lines& lines, long long expected) {
-  if (lines.next_with_data('%'))
-    lines.fail("there is more than the " + std::to_string(expected) + " entries announced");
+  if (lines.next_with_data('%')) lines.fail("there is more than the ", expected, " entries announced");
 }
 
 struct Sizes {
@@ -89,8 +84,8 @@ Sizes read_sizes(Lines& lines, const Header& header) {
   Sizes sizes{read_side(lines, 0, "the count of rows"), read_side(lines, 1, "the count of columns"), 0};
   const long long rows = sizes.rows, room = rows * sizes.columns;
   if (header.one_triangle() && sizes.rows != sizes.columns)
-    lines.fail("a symmetric or skew-symmetric matrix must be square; this one is " +
-               std::to_string(sizes.rows) + " x " + std::to_string(sizes.columns));
+    lines.fail("a symmetric or skew-symmetric matrix must be square; this one is ", sizes.rows, " x ",
+               sizes.columns);
   if (header.array)
     sizes.entries = header.symmetry == Symmetry::symmetric ? rows * (rows + 1) / 2
                     : header.symmetry == Symmetry::skew    ? rows * (rows - 1) / 2
@@ -98,16 +93,15 @@ Sizes read_sizes(Lines& lines, const Header& header) {
   else
     sizes.entries = read_size(lines, 2, "the count of entries");
   if (sizes.entries > room)
-    lines.fail("the count of entries is " + std::to_string(sizes.entries) + "; the matrix has room for " +
-               std::to_string(room));
+    lines.fail("the count of entries is ", sizes.entries, "; the matrix has room for ", room);
   return sizes;
 }
 
 /// A file of one triangle has no entry above the diagonal, and of a skew-symmetric matrix none on it.
 void require_in_triangle(const Lines& lines, Symmetry symmetry, int row, int column) {
   if (row > column || (row == column && symmetry != Symmetry::skew)) return;
-  lines.fail("the entry (" + std::to_string(row + 1) + ", " + std::to_string(column + 1) + ") is " +
-             (row == column ? "on" : "above") + " the diagonal; a " +
+  lines.fail("the entry (", row + 1, ", ", column + 1, ") is ", (row == column ? "on" : "above"),
+             " the diagonal; a ",
              (symmetry == Symmetry::skew ? "skew-symmetric file holds what is below it"
                                          : "symmetric file holds the lower triangle"));
 }
@@ -153,18 +147,19 @@ void append_negative_mirror(MatrixEntries& entries) {
   }
 }
 
-void require_writable(const Sparse& matrix, MatrixMarketSymmetry symmetry) {
-  for (int column = 0; column < matrix.outerSize(); ++column)
-    for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
-      const auto place = [&] {
-        return "(" + std::to_string(entry.row() + 1) + ", " + std::to_string(entry.col() + 1) + ")";
-      };
-      if (!std::isfinite(entry.value()))
-        throw std::invalid_argument("write_matrix_market: the entry " + place() + " is not finite");
-      if (symmetry == MatrixMarketSymmetry::symmetric &&
-          (matrix.rows() != matrix.cols() || matrix.coeff(entry.col(), entry.row()) != entry.value()))
-        throw std::invalid_argument("write_matrix_market: the matrix is not symmetric at " + place());
-    }
+bool is_symmetric(const Sparse& matrix) {
+  if (matrix.rows() != matrix.cols()) return false;
+  const Sparse turned = matrix.transpose();
+  return turned.nonZeros() == matrix.nonZeros() &&
+         std::equal(turned.valuePtr(), turned.valuePtr() + turned.nonZeros(), matrix.valuePtr()) &&
+         std::equal(turned.innerIndexPtr(), turned.innerIndexPtr() + turned.nonZeros(),
+                    matrix.innerIndexPtr());
+}
+
+void append(std::string& text, double value) {
+  std::array<char, 32> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+  text += '\n';
 }
 
 }  // namespace
@@ -185,46 +180,33 @@ Sparse read_matrix_market(const std::filesystem::path& file) {
   return detail::from_file(file, [](auto&&... from) { return read_matrix_market(from...); });
 }
 
-void write_matrix_market(std::ostream& output, const Sparse& matrix, MatrixMarketSymmetry symmetry) {
-  require_writable(matrix, symmetry);
-  const bool symmetric = symmetry == MatrixMarketSymmetry::symmetric;
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10);
+std::string matrix_market_text(const Sparse& given) {
+  Sparse matrix = given;
+  matrix.makeCompressed();
+  const bool symmetric = is_symmetric(matrix);
+  std::string entries;
   long long count = 0;
   for (int column = 0; column < matrix.outerSize(); ++column)
     for (Sparse::InnerIterator entry(matrix, column); entry; ++entry) {
-      if (symmetric && entry.row() < entry.col()) continue;
-      text << entry.row() + 1 << ' ' << entry.col() + 1 << ' ' << entry.value() << '\n';
+      const std::string place = std::to_string(entry.row() + 1) + " " + std::to_string(column + 1);
+      if (!std::isfinite(entry.value()))
+        throw std::invalid_argument("matrix_market_text: the entry (" + place + ") is not finite");
+      if (symmetric && entry.row() < column) continue;
+      append(entries += place + " ", entry.value());
       ++count;
     }
-  output << "%%MatrixMarket matrix coordinate real " << (symmetric ? "symmetric" : "general") << '\n'
-         << matrix.rows() << ' ' << matrix.cols() << ' ' << count << '\n'
-         << text.str();
-  if (!output) throw MatrixMarketError("write_matrix_market: writing failed");
+  return std::string("%%MatrixMarket matrix coordinate real ") + (symmetric ? "symmetric\n" : "general\n") +
+         std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + " " + std::to_string(count) +
+         "\n" + entries;
 }
 
-void write_matrix_market(const std::filesystem::path& file, const Sparse& matrix,
-                         MatrixMarketSymmetry symmetry) {
-  std::ofstream output(file);
-  if (!output) throw MatrixMarketError(file.string() + ": the file cannot be opened for writing");
-  write_matrix_market(output, matrix, symmetry);
-  output.close();
-  if (!output) throw MatrixMarketError(file.string() + ": writing failed");
-}
-
-void write_matrix_market_array(std::ostream& output, const Eigen::MatrixXd& matrix,
-                               const std::string& comment) {
+std::string matrix_market_text(const Eigen::MatrixXd& matrix, const std::string& comment) {
   std::string text = "%%MatrixMarket matrix array real general\n";
   std::istringstream lines(comment);
   for (std::string line; std::getline(lines, line);) text += "% " + line + "\n";
   text += std::to_string(matrix.rows()) + " " + std::to_string(matrix.cols()) + "\n";
-  std::array<char, 32> digits;
-  for (const double value : matrix.reshaped()) {
-    text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-    text += '\n';
-  }
-  output << text;
-  if (!output) throw MatrixMarketError("write_matrix_market_array: writing failed");
+  for (const double value : matrix.reshaped()) append(text, value);
+  return text;
 }
 
 }  // namespace wavebalance::fem

@@ -117,7 +117,7 @@ class MeshReader {
     shape_ = shape_of(type);
     if (!shape_ && !has_no_shape(type))
       lines_.fail(
-          "the element is \"" + type +
+          "the element is \"", type,
           "\"; it must be a solid C3D4 to C3D20, a shell S3 to S8, a beam B31 or B32, a truss T3D2 or T3D3, "
           "or one without a shape such as SPRINGA");
   }
@@ -134,12 +134,12 @@ class MeshReader {
 
   void add_node(const std::vector<std::string>& words) {
     if (words.size() < 2 || words.size() > 4)
-      lines_.fail("found \"" + lines_.text() + "\"; the line must hold node, x, y, z");
+      lines_.fail("found \"", lines_.text(), "\"; the line must hold node, x, y, z");
     std::array<double, 3> point{};
     for (std::size_t i = 1; i < words.size(); ++i) point[i - 1] = lines_.finite(words[i]);
     const int node = lines_.number<int>(words[0], "the node");
     if (!found_.points.emplace(node, point).second)
-      lines_.fail("node " + std::to_string(node) + " is there twice; each must be there once");
+      lines_.fail("node ", node, " is there twice; each must be there once");
   }
 
   /// A line that opens an element, or goes on with it.
@@ -147,17 +147,15 @@ class MeshReader {
     for (const std::string& word : words) pending_.push_back(lines_.number<int>(word, "the node"));
     const std::size_t whole = static_cast<std::size_t>(shape_->nodes) + 1;
     if (pending_.size() > whole)
-      lines_.fail("the element has " + std::to_string(pending_.size() - 1) + " nodes; it must have " +
-                  std::to_string(shape_->nodes));
+      lines_.fail("the element has ", pending_.size() - 1, " nodes; it must have ", shape_->nodes);
     if (pending_.size() == whole) end_element();
   }
 
   void end_element() {
     if (pending_.empty()) return;
     if (pending_.size() != static_cast<std::size_t>(shape_->nodes) + 1)
-      lines_.fail("element " + std::to_string(pending_[0]) + " ends with " +
-                  std::to_string(pending_.size() - 1) + " nodes; it must have " +
-                  std::to_string(shape_->nodes));
+      lines_.fail("element ", pending_[0], " ends with ", pending_.size() - 1, " nodes; it must have ",
+                  shape_->nodes);
     constexpr int quadratic_edge = 21;  // of VTK, which has the ends first
     if (shape_->vtk == quadratic_edge) std::swap(pending_[2], pending_[3]);
     found_.cells.push_back({shape_->vtk, {pending_.begin() + 1, pending_.end()}});

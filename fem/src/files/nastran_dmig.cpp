@@ -53,11 +53,9 @@ class DmigReader {
   }
 
   int integer(std::string_view field, const char* what, int least) const {
-    if (field.empty()) lines_.fail(std::string(what) + " is missing");
+    if (field.empty()) lines_.fail(what, " is missing");
     const int value = lines_.number<int>(field, what);
-    if (value < least)
-      lines_.fail(std::string(what) + " is " + std::to_string(value) + "; it must be at least " +
-                  std::to_string(least));
+    if (value < least) lines_.fail(what, " is ", value, "; it must be at least ", least);
     return value;
   }
 
@@ -69,7 +67,7 @@ class DmigReader {
     if (header_) return begin_matrix(fields);
     matrix_ = find(fields[0]);
     if (matrix_ == nullptr)
-      lines_.fail("a column of " + std::string(fields[0]) +
+      lines_.fail("a column of ", fields[0],
                   " comes before the header of that matrix, which must have 0 in its third field");
     if (!matrix_->wanted) return;
     const NodeDof dof = label(fields[1], fields[2]);
@@ -77,8 +75,7 @@ class DmigReader {
   }
 
   void begin_matrix(Group fields) {
-    if (find(fields[0]) != nullptr)
-      lines_.fail(std::string(fields[0]) + " has a second header; it must have one");
+    if (find(fields[0]) != nullptr) lines_.fail(fields[0], " has a second header; it must have one");
     matrices_.emplace_back();
     matrix_ = &matrices_.back();
     matrix_->name = fields[0];
@@ -86,11 +83,11 @@ class DmigReader {
     const int form = integer(fields[2], "the form", 0), type = integer(fields[3], "the type", 0);
     if (!matrix_->wanted) return;
     if (form != 1 && form != 2 && form != 6 && form != 9)
-      lines_.fail("the form of " + matrix_->name + " is " + std::to_string(form) +
+      lines_.fail("the form of ", matrix_->name, " is ", form,
                   "; it must be 1 (square), 6 (symmetric), 2 or 9 (rectangular)");
     if (type != 1 && type != 2)
-      lines_.fail("the type of " + matrix_->name + " is " + std::to_string(type) +
-                  (type == 3 || type == 4 ? ", complex" : "") + "; it must be 1 or 2, real");
+      lines_.fail("the type of ", matrix_->name, " is ", type, (type == 3 || type == 4 ? ", complex" : ""),
+                  "; it must be 1 or 2, real");
     matrix_->symmetric = form == 6;
     matrix_->rectangular = form == 2 || form == 9;
   }
@@ -110,8 +107,7 @@ class DmigReader {
     constexpr int most = 6, scalar = 7;
     const int node = integer(grid, "the grid point", 1);
     const int direction = component.empty() ? 0 : integer(component, "the component", 0);
-    if (direction > most)
-      lines_.fail("the component is " + std::to_string(direction) + "; it must be in 0..6");
+    if (direction > most) lines_.fail("the component is ", direction, "; it must be in 0..6");
     return {node, direction == 0 ? scalar : direction};
   }
 
@@ -122,8 +118,7 @@ class DmigReader {
     int place = grid - 1;
     if (direction > 0)
       place = matrix_->column_places.emplace(std::pair{grid, direction}, matrix_->columns).first->second;
-    if (place >= most)
-      lines_.fail("the column is " + std::to_string(grid) + "; it must be in 1.." + std::to_string(most));
+    if (place >= most) lines_.fail("the column is ", grid, "; it must be in 1..", most);
     matrix_->columns = std::max(matrix_->columns, place + 1);
     return place;
   }
@@ -133,13 +128,11 @@ class DmigReader {
     const auto real = [&](std::string_view field) {
       const auto value = detail::fortran_real(field, {.letter = 'e', .width = 16});
       if (!value)
-        lines_.fail("a value of " + matrix_->name + " is \"" + std::string(field) +
-                    "\"; it must be a finite number");
+        lines_.fail("a value of ", matrix_->name, " is \"", field, "\"; it must be a finite number");
       return *value;
     };
     if (!fields[3].empty() && real(fields[3]) != 0.0)
-      lines_.fail("a value of " + matrix_->name + " has the imaginary part " + std::string(fields[3]) +
-                  "; it must be real");
+      lines_.fail("a value of ", matrix_->name, " has the imaginary part ", fields[3], "; it must be real");
     matrix_->entries.add(row, column_, real(fields[2]));
   }
 

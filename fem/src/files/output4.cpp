@@ -34,7 +34,7 @@ class Output4Reader {
 
  private:
   [[noreturn]] void fail(const std::string& what, long long found, const std::string& allowed) const {
-    source_.fail(what + " of " + header_.name + " is " + std::to_string(found) + "; it must be " + allowed);
+    source_.fail(what, " of ", header_.name, " is ", found, "; it must be ", allowed);
   }
 
   void check_header() const {
@@ -46,14 +46,12 @@ class Output4Reader {
     if (header_.type < 1 || header_.type > 4) fail("the type", header_.type, "1 or 2, real");
     if (!wants_) return;
     if (header_.is_complex())
-      source_.fail("the type of " + header_.name + " is " + std::to_string(header_.type) +
-                   ", complex; it must be 1 or 2, real");
+      source_.fail("the type of ", header_.name, " is ", header_.type, ", complex; it must be 1 or 2, real");
     const long long form = header_.form;
     if (form != 1 && form != 2 && form != 6 && form != 9)
       fail("the form", form, "1 (square), 6 (symmetric), 2 or 9 (rectangular)");
     if ((form == 1 || form == 6) && header_.rows != header_.columns)
-      source_.fail(header_.name + " is " + std::to_string(header_.rows) + " x " +
-                   std::to_string(header_.columns) + "; the form " + std::to_string(form) +
+      source_.fail(header_.name, " is ", header_.rows, " x ", header_.columns, "; the form ", form,
                    " must be square");
   }
 
@@ -97,7 +95,7 @@ class Output4Reader {
       const double value = source_.value();
       if (header_.is_complex()) source_.value();
       if (!wants_ || value == 0.0) continue;
-      if (!std::isfinite(value)) source_.fail("a value of " + header_.name + " is not finite");
+      if (!std::isfinite(value)) source_.fail("a value of ", header_.name, " is not finite");
       entries_.emplace_back(static_cast<int>(row + i - 1), static_cast<int>(column - 1), value);
     }
   }

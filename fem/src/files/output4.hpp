@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fortran_format.hpp"
+#include "require.hpp"
 #include "wavebalance/fem/named_matrix.hpp"
 
 namespace wavebalance::fem::detail {
@@ -43,7 +44,10 @@ class Output4Source {
   /// Words of a value of this type, in a dense column or in a string.
   virtual int words(long long type, bool dense) const = 0;
   /// Throws MatrixFileError with the place.
-  [[noreturn]] void fail(const std::string& what) const { throw MatrixFileError(place() + ": " + what); }
+  template <class... Parts>
+  [[noreturn]] void fail(const Parts&... parts) const {
+    throw MatrixFileError(joined(place(), ": ", parts...));
+  }
   /// The file, and the line or record.
   virtual std::string place() const = 0;
 };

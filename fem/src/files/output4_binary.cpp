@@ -58,8 +58,7 @@ class BinarySource final : public Output4Source {
     next_record();
     const std::size_t expected = layout_.word == 4 ? short_header : long_header;
     if (record_.size() != expected)
-      fail("the record has " + std::to_string(record_.size()) + " bytes; a header must have " +
-           std::to_string(expected));
+      fail("the record has ", record_.size(), " bytes; a header must have ", expected);
     Output4Header header;
     header.columns = integer();
     header.rows = integer();
@@ -78,8 +77,7 @@ class BinarySource final : public Output4Source {
     Output4Column column{integer(), integer(), integer()};
     const auto bytes = static_cast<long long>(record_.size() - next_);
     if (column.words * layout_.word != bytes)
-      fail("a column says that it has " + std::to_string(column.words) + " words; its record has " +
-           std::to_string(bytes / layout_.word));
+      fail("a column says that it has ", column.words, " words; its record has ", bytes / layout_.word);
     return column;
   }
 
@@ -117,14 +115,13 @@ class BinarySource final : public Output4Source {
     ++number_;
     if (left_ == 0) fail("the file ends before this record");
     const std::int32_t size = marker();
-    if (size < 0) fail("its length is " + std::to_string(size) + "; it must not be negative");
+    if (size < 0) fail("its length is ", size, "; it must not be negative");
     if (size > left_) fail("the file ends within this record");
     record_.resize(static_cast<std::size_t>(size));
     input_.read(record_.data(), size);
     left_ -= size;
     if (const std::int32_t again = marker(); again != size)
-      fail("its length is " + std::to_string(size) + " before it and " + std::to_string(again) +
-           " after it; they must agree");
+      fail("its length is ", size, " before it and ", again, " after it; they must agree");
     next_ = 0;
   }
 

@@ -26,7 +26,7 @@ class TextSource final : public Output4Source {
     } while (lines_.words().empty());
     const std::string_view text = lines_.text();
     if (!is_output4_header(text))
-      fail("found \"" + std::string(text.substr(0, 60)) +
+      fail("found \"", text.substr(0, 60),
            "\"; the line must be a header, four integers in fields of 8 characters, a name and a format");
     Output4Header header;
     long long* const numbers[] = {&header.columns, &header.rows, &header.form, &header.type};
@@ -66,8 +66,8 @@ class TextSource final : public Output4Source {
     const std::string_view field = start < text.size() ? text.substr(start, width) : std::string_view();
     const auto found = fortran_real(field, format_);
     if (!found)
-      fail("a value is \"" + std::string(field) + "\"; it must be a finite number in a field of " +
-           std::to_string(format_.width) + " characters");
+      fail("a value is \"", field, "\"; it must be a finite number in a field of ", format_.width,
+           " characters");
     return *found;
   }
 
@@ -84,13 +84,13 @@ class TextSource final : public Output4Source {
   void read_format(std::string_view text) {
     const auto format = fortran_format("(" + std::string(text) + ")");
     if (!format || !format->real())
-      fail("the format is \"" + std::string(text) + "\"; it must be one of Fortran such as 1P,3E23.16");
+      fail("the format is \"", text, "\"; it must be one of Fortran such as 1P,3E23.16");
     format_ = *format;
   }
 
   /// The values of the line before, if any, end with it.
   void next_line(std::size_t words, const char* layout) {
-    if (!lines_.next()) fail("the file ends before " + std::string(layout));
+    if (!lines_.next()) fail("the file ends before ", layout);
     lines_.require_words(words, layout);
     field_ = format_.repeat;
   }

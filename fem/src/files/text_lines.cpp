@@ -67,20 +67,18 @@ void Lines::fail(const std::string& what) const {
 
 void Lines::require_words(std::size_t count, const char* layout) const {
   constexpr std::size_t most = 120;  // of a file that is no text at all
-  if (words_.size() != count)
-    fail("found \"" + text_.substr(0, most) + "\"; the line must hold " + std::string(layout));
+  if (words_.size() != count) fail("found \"", text_.substr(0, most), "\"; the line must hold ", layout);
 }
 
 int Lines::index(std::string_view text, const char* what, int size) const {
   const int value = number<int>(text, what);
-  if (value < 1 || value > size)
-    fail(std::string(what) + " is " + std::to_string(value) + "; it must be in 1.." + std::to_string(size));
+  if (value < 1 || value > size) fail(what, " is ", value, "; it must be in 1..", size);
   return value - 1;
 }
 
 double Lines::finite(std::string_view text) const {
   const double value = number<double>(text, "the value");
-  if (!std::isfinite(value)) fail("the value is \"" + std::string(text) + "\"; it must be finite");
+  if (!std::isfinite(value)) fail("the value is \"", text, "\"; it must be finite");
   return value;
 }
 

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "require.hpp"
 #include "wavebalance/fem/matrix_file.hpp"
 
 namespace wavebalance::fem::detail {
@@ -51,6 +52,10 @@ class Lines {
   int number_of_line() const { return number_; }
 
   [[noreturn]] void fail(const std::string& what) const;
+  template <class... Parts>
+  [[noreturn]] void fail(const Parts&... parts) const {
+    fail(joined(parts...));
+  }
   void require_words(std::size_t count, const char* layout) const;
   /// The number that a text of this line is.
   template <typename Number>
@@ -60,8 +65,8 @@ class Lines {
     Number value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc() || end != digits.data() + digits.size())
-      fail(std::string(what) + " is \"" + std::string(text) + "\"; it must be a " +
-           (std::is_integral_v<Number> ? "whole number" : "number") + " in range");
+      fail(what, " is \"", text, "\"; it must be a ",
+           (std::is_integral_v<Number> ? "whole number" : "number"), " in range");
     return value;
   }
   template <typename Number>

@@ -1,7 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -10,18 +9,12 @@
 
 namespace wavebalance::fem {
 
-/// What is wrong with a Matrix Market file.
-using MatrixMarketError = MatrixFileError;
-
-/// Largest file that is read, in bytes.
-constexpr std::uintmax_t largest_matrix_market_file = largest_matrix_file;
-
 /// Reads `matrix coordinate|array real|integer general|symmetric|skew-symmetric` [BPR96]. In the coordinate
 /// format indices count from 1 and zeros are kept; the array format lists the values column by column and its
 /// zeros are left out. A symmetric file holds one triangle, on or below the diagonal, and a skew-symmetric
 /// one what is below it; the result has both triangles. The result is compressed. O(nnz log nnz). Throws
-/// MatrixMarketError for: a path that is not a regular file (a device or a pipe), a file that cannot be
-/// opened or is larger than largest_matrix_market_file, another header, sizes that are not whole numbers,
+/// MatrixFileError for: a path that is not a regular file (a device or a pipe), a file that cannot be
+/// opened or is larger than largest_matrix_file, another header, sizes that are not whole numbers,
 /// above 10^8 or not square where they must be, an index out of range, an entry above the diagonal of a
 /// symmetric file or also on that of a skew-symmetric one, an entry given twice, a value that is not a finite
 /// number, too few entries, text after the last one.
@@ -29,23 +22,12 @@ Eigen::SparseMatrix<double> read_matrix_market(const std::filesystem::path& file
 /// The same from a stream; errors call it `name`.
 Eigen::SparseMatrix<double> read_matrix_market(std::istream& input, const std::string& name);
 
-/// Which entries of a matrix are written.
-enum class MatrixMarketSymmetry {
-  general,   ///< every stored entry
-  symmetric  ///< the lower triangle; the matrix must be symmetric to the last bit
-};
+/// `matrix coordinate real`, the lower triangle alone of a matrix that is symmetric to the last bit, with the
+/// fewest digits that give the same doubles. Throws std::invalid_argument for an entry that is not finite.
+std::string matrix_market_text(const Eigen::SparseMatrix<double>& matrix);
 
-/// Writes with 17 digits, so that reading gives the same matrix. Throws std::invalid_argument for an entry
-/// that is not finite or a matrix that is not symmetric as asked, MatrixMarketError if writing fails.
-void write_matrix_market(const std::filesystem::path& file, const Eigen::SparseMatrix<double>& matrix,
-                         MatrixMarketSymmetry symmetry = MatrixMarketSymmetry::general);
-void write_matrix_market(std::ostream& output, const Eigen::SparseMatrix<double>& matrix,
-                         MatrixMarketSymmetry symmetry = MatrixMarketSymmetry::general);
-
-/// Writes a dense matrix as `matrix array real general`, column by column, with the fewest digits that give
-/// the same doubles. Each line of `comment` becomes a comment line. Values that are not finite are written as
-/// nan or inf, which read_matrix_market refuses. Throws MatrixMarketError if writing fails.
-void write_matrix_market_array(std::ostream& output, const Eigen::MatrixXd& matrix,
-                               const std::string& comment = "");
+/// `matrix array real general`, column by column, with the same digits. Each line of `comment` becomes a
+/// comment line. Values that are not finite are written as nan or inf, which read_matrix_market refuses.
+std::string matrix_market_text(const Eigen::MatrixXd& matrix, const std::string& comment);
 
 }  // namespace wavebalance::fem

@@ -1,7 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <filesystem>
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,22 +15,10 @@ struct PointField {
   Eigen::MatrixXd values;
 };
 
-/// How numbers are written.
-enum class VtuFormat {
-  ascii,           ///< 9 significant digits for the fields, 17 for the points
-  appended_base64  ///< doubles, after the XML tree; half the size and exact
-};
-
-/// Writes an unstructured grid with point data, as ParaView and VTK read it; solids have quadratic (25) or
-/// linear (12) hexahedra. O(size). Throws std::invalid_argument if the mesh is not valid, or if a field does
-/// not have one column per node and 1 to 9 rows, has an entry that is not finite or an empty name;
-/// std::runtime_error if writing fails.
-void write_vtu(std::ostream& output, const Mesh& mesh, std::span<const PointField> fields,
-               VtuFormat format = VtuFormat::appended_base64);
-void write_vtu(std::ostream& output, const SolidMesh& mesh, std::span<const PointField> fields,
-               VtuFormat format = VtuFormat::appended_base64);
-void write_vtu(const std::filesystem::path& file, const SolidMesh& mesh, std::span<const PointField> fields,
-               VtuFormat format = VtuFormat::appended_base64);
+/// An unstructured grid with point data, as ParaView and VTK read it, its numbers in base64. O(size). Throws
+/// std::invalid_argument if the mesh is not valid, or if a field does not have one column per node and 1 to 9
+/// rows, has an entry that is not finite or an empty name.
+std::string vtu_text(const Mesh& mesh, std::span<const PointField> fields);
 
 /// A file of a series and its time (s, or any other abscissa).
 struct PvdEntry {
@@ -40,8 +26,7 @@ struct PvdEntry {
   std::string file;  ///< relative to the .pvd file
 };
 
-/// Writes a ParaView collection. Throws std::invalid_argument if a time is not finite, std::runtime_error if
-/// writing fails.
-void write_pvd(std::ostream& output, std::span<const PvdEntry> entries);
+/// A ParaView collection. Throws std::invalid_argument if a time is not finite.
+std::string pvd_text(std::span<const PvdEntry> entries);
 
 }  // namespace wavebalance::fem
