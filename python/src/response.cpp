@@ -4,12 +4,11 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
-
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "laws.hpp"
 #include "unlocked.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::python {
 
@@ -36,14 +35,13 @@ Response solve(const std::shared_ptr<Problem>& problem, solvers::ContactLaws law
                const Eigen::VectorXd& guess_force) {
   solvers::PeriodicResponse found;
   const std::lock_guard alone(problem->alone);
-  const auto start = std::chrono::steady_clock::now();
+  const app::WallClock clock;
   try {
     found = problem->with(laws).respond(frequency, options, {guess, guess_force});
   } catch (const solvers::SingularSystem&) {
     found = singular_response(problem->condensed().samples(), frequency);
   }
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return {problem, std::move(laws), std::move(found), elapsed.count()};
+  return {problem, std::move(laws), std::move(found), clock.seconds()};
 }
 
 namespace {

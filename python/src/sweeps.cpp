@@ -1,7 +1,6 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "response.hpp"
 #include "sweeps.hpp"
 #include "unlocked.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::python {
 
@@ -52,14 +52,14 @@ std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::
   solvers::FrequencySweepOptions options = options_of(from, to, steps);
   return unlocked([&](const solvers::Observer& observer) {
     const std::lock_guard alone(problem->alone);
-    const auto start = std::chrono::steady_clock::now();
+    const app::WallClock clock;
     options.observer = observer;
     options.start.observer = observer;
     solvers::ContactProblem& with = problem->with(one->laws);
     one->curve = std::isfinite(frequency) ? with.amplitude_sweep(frequency, options) : with.sweep(options);
     if (steps.stability && one->curve.status != solvers::SweepStatus::cancelled)
       one->stability = with.stability(one->curve, steps.output_points, observer);
-    one->wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    one->wall_seconds = clock.seconds();
     return one;
   });
 }

@@ -1,10 +1,10 @@
-#include <chrono>
 #include <cmath>
 
 #include "analysis/phases_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -27,7 +27,7 @@ void copy_structure(const solvers::CondensedProblem& problem, const FlowMotion& 
 }  // namespace
 
 Response flow_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   Response result;
   result.status = "no_modes";
   result.residual = solvers::missing;
@@ -60,7 +60,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   if (found.motion.parts != nullptr && options.structure_points > 0)
     copy_structure(problem, found, options.structure_points, result);
   result.flow = std::move(found);
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall_seconds = clock.seconds();
   return result;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
@@ -7,6 +6,7 @@
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -60,13 +60,13 @@ solvers::Motion contacts_of(const solvers::PhaseMotion& motion, int points) {
 }
 
 Response impacts_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   Response result;
   result.solved_by = "impacts";
   result.status = "no_modes";
   result.residual = solvers::missing;
   if (model.contact_dynamics() != nullptr) solve(scene, model, options, result);
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall_seconds = clock.seconds();
   return result;
 }
 

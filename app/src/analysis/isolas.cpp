@@ -1,7 +1,6 @@
 #include "wavebalance/solvers/problem/isolated_curves.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
@@ -9,6 +8,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -149,11 +149,10 @@ void add_balance_isolas(const Scene& scene, const StructureModel& model, Sweep& 
 
 void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer) {
   if (!scene.analysis.isolas || sweep.curve.points.empty() || sweep.stopped()) return;
-  const auto begin = std::chrono::steady_clock::now();
+  const WallClock clock;
   const auto add = scene.analysis.exact ? add_exact_isolas : add_balance_isolas;
   add(scene, model, sweep, observer);
-  sweep.isola_search.wall_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  sweep.isola_search.wall_seconds = clock.seconds();
 }
 
 }  // namespace wavebalance::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -11,6 +10,7 @@
 
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -207,7 +207,7 @@ Backbone ModeStudy::backbone(const solvers::Observer& observer) const {
 }
 
 Backbone ModeStudy::backbone(double largest_energy, const solvers::Observer& observer) const {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   const Analysis& analysis = scene_.analysis;
   Backbone curve;
   if (elastic_) {
@@ -222,7 +222,7 @@ Backbone ModeStudy::backbone(double largest_energy, const solvers::Observer& obs
     set_rigid_end(curve, mode_.linear_omega(), largest_energy, analysis);
   }
   curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
-  curve.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  curve.wall_seconds = clock.seconds();
   for (const ModePoint& point : curve.points)
     curve.residuals.push_back(is_solution(point) ? residual(point) : missing);
   return curve;

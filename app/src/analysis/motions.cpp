@@ -1,6 +1,5 @@
 #include "wavebalance/app/analysis/motions.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +7,7 @@
 #include "analysis/phases_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -33,7 +33,7 @@ FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& pr
 
 Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                            const solvers::Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   const bool events = seeks_by_events(scene);
   const bool none = events && model.contact_dynamics() == nullptr;
   if (none) return {.status = "no_modes"};
@@ -56,7 +56,7 @@ Motions coexisting_motions(const Scene& scene, const StructureModel& model,
   for (const auto& [status, count] : all.none_by) result.none_by_status.emplace(to_string(status), count);
   for (solvers::CoexistingMotion& one : all.motions)
     result.motions.push_back(sampled(std::move(one), problem, scene, model));
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.wall_seconds = clock.seconds();
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "analysis/phases_response.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -11,6 +10,7 @@
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 
 namespace wavebalance::app {
@@ -55,7 +55,7 @@ void note(PhasesFound& found, solvers::PhaseMotion motion, const char* strategy,
 /// From one balance after the other, as long as these do not take too long.
 PhasesFound from_balances(const Scene& scene, const StructureModel& model, const Observer& observer) {
   constexpr double most_seconds = 60.0;  // after which no further balance is begun
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   PhasesFound found;
   if (model.contact_dynamics() == nullptr) {
     found.status = "no_modes";
@@ -63,7 +63,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
   }
   for (const int functions : phases_starts) {
     if (functions < least_start_functions(scene)) continue;
-    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > most_seconds) break;
+    if (clock.seconds() > most_seconds) break;
     solvers::ContactProblem problem = compose_problem(balance_of(scene, functions), model);
     solvers::ForcedResponseOptions options;
     options.observer = observer;
@@ -184,7 +184,7 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
 
 Response timed_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                         bool settling) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   Response result;
   result.solved_by = name_of(TimeMethod::exact);
   try {
@@ -194,8 +194,7 @@ Response timed_response(const Scene& scene, const StructureModel& model, const R
     result.status = std::string("singular: ") + error.what();
     result.residual = solvers::missing;
   }
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
-                        (result.stability ? result.stability->wall_seconds : 0.0);
+  result.wall_seconds = clock.seconds() - (result.stability ? result.stability->wall_seconds : 0.0);
   return result;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -11,6 +10,7 @@
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/period/settling.hpp"
 #include "wavebalance/solvers/problem/phases_along.hpp"
@@ -20,24 +20,18 @@
 namespace wavebalance::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The motion of the structure near the response, and how long that took. One farther away is another motion.
 void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
                  const ResponseOptions& options, Response& result) {
-  const auto start = Clock::now();
+  const WallClock clock;
   solvers::ContactPhasesOptions phases;
   phases.max_operations = most_operations_of_phases(problem.contacts());
   phases.max_cut_panels = most_panels_cut;
   phases.observer = options.observer;
   result.phases = solvers::near_phases(problem, found, {.phases = phases});
-  result.phases_seconds = seconds_since(start);
+  result.phases_seconds = clock.seconds();
 }
 
 /// Sets the contacts' motion, the contact with the largest force, and the motion of the whole structure if
@@ -189,7 +183,7 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options) {
   if (auto phases = phases_to_tolerance(scene, model, options)) return *std::move(phases);
-  const auto start = Clock::now();
+  const WallClock clock;
   Response result;
   result.solved_by = name_of(TimeMethod::balance);
   result.unknowns = model.contacts() * scene.time.functions;
@@ -205,8 +199,8 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
     result.condition = std::numeric_limits<double>::infinity();
   }
   require_digits(result);
-  result.wall_seconds = seconds_since(start) - result.phases_seconds -
-                        (result.stability ? result.stability->wall_seconds : 0.0);
+  result.wall_seconds =
+      clock.seconds() - result.phases_seconds - (result.stability ? result.stability->wall_seconds : 0.0);
   return result;
 }
 

@@ -1,11 +1,11 @@
 #include "wavebalance/app/analysis/sweep.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "analysis/response_parts.hpp"
 #include "analysis/sweep_options.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
@@ -48,7 +48,7 @@ void follow_amplitude_from(const Scene& scene, solvers::ContactProblem& problem,
 Sweep balance_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                     const StartMotion& start, bool over_amplitude) {
   require_start_fits(start, scene);
-  const auto begin = std::chrono::steady_clock::now();
+  const WallClock clock;
   solvers::FrequencySweepOptions options = sweep_options(scene);
   options.observer = observer;
   options.keep_unknowns = keeps_unknowns(scene);
@@ -65,7 +65,7 @@ Sweep balance_sweep(const Scene& scene, const StructureModel& model, const Obser
   else
     follow_from(scene, problem, options, start, sweep);
   if (has_friction(scene)) sweep.friction = {friction_along(scene, sweep.curve)};
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  sweep.wall_seconds = clock.seconds();
   return sweep;
 }
 

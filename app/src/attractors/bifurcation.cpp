@@ -1,12 +1,12 @@
 #include "wavebalance/app/attractors/bifurcation.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
 
 #include "attractors/flow_rows.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/attractors/long_motion.hpp"
 
 namespace wavebalance::app {
@@ -188,7 +188,7 @@ int points_shown(const DiagramValue& value) {
 }
 
 Diagram bifurcation_diagram(const Scene& scene, const StructureModel& model, const Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   Diagram diagram{.axis = sweep_axis(scene), .exact_status = "not_sought", .status = "no_modes"};
   FlowRows rows(scene, model);
   diagram.places = rows.places();
@@ -199,7 +199,7 @@ Diagram bifurcation_diagram(const Scene& scene, const StructureModel& model, con
   if (diagram.status != "interrupted") add_exact_curve(scene, model, observer, diagram);
   if (diagram.exact_status == "interrupted" || diagram.exact_status_back == "interrupted")
     diagram.status = "interrupted";
-  diagram.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  diagram.wall_seconds = clock.seconds();
   return diagram;
 }
 

@@ -1,12 +1,12 @@
 #include "attractors/limit_cycle.hpp"
 
-#include <chrono>
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
 #include "analysis/phases_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -46,7 +46,7 @@ void copy_solution(const Scene& scene, const StructureModel& model, const Respon
 LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel& model,
                                         const StartMotion& start, const ResponseOptions& options) {
   constexpr double any = 0.618034;  // Hz, of the static loads
-  const auto begin = std::chrono::steady_clock::now();
+  const WallClock clock;
   LimitCycleResponse result;
   Response& response = result.response;
   response.solved_by = name_of(TimeMethod::exact);
@@ -60,7 +60,7 @@ LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel
   response.converged = result.found.status == solvers::LimitCycleStatus::converged;
   response.status = to_string(result.found.status);
   copy_solution(scene, model, options, result);
-  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  response.wall_seconds = clock.seconds();
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "compose/reduction.hpp"
@@ -13,6 +12,7 @@
 #include "matrices/structure_files.hpp"
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/app/compose/massless_contacts.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
@@ -251,7 +251,7 @@ void set_gaps(StructureModel& model, const Scene& scene) {
 }
 
 StructureModel make_model(const Scene& scene, const solvers::Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   StructureModel model = model_of_type(scene, observer);
   const bool free = scene.structure.type == StructureType::matrices && scene.structure.matrices.free;
   add_modal_damping(model.structure, scene.structure.modal_damping, free);
@@ -268,8 +268,7 @@ StructureModel make_model(const Scene& scene, const solvers::Observer& observer)
   model.turning = model.structure.turning;
   if (!turns_along_curve(scene)) model.structure.turning = {};
   set_gaps(model, scene);
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  if (scene.structure.type != StructureType::bar) model.reduction_seconds = elapsed.count();
+  if (scene.structure.type != StructureType::bar) model.reduction_seconds = clock.seconds();
   return model;
 }
 

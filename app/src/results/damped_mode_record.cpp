@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <numbers>
 
 #include "drawing/mode_figure.hpp"
@@ -18,16 +17,11 @@
 #include "wavebalance/app/analysis/damped_modes.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string status_of(const DampedStudy& study, const solvers::DampedBackbone& curve, double largest) {
   using solvers::DampedBackboneStatus;
@@ -66,10 +60,10 @@ Record solution_record(const DampedStudy& study, const solvers::DampedBackbone& 
 }
 
 Record curve_record(const DampedStudy& study, const StructureModel& model, const Observer& observer) {
-  const auto start = Clock::now();
+  const WallClock clock;
   const double asked = study.scene().analysis.largest_amplitude;
   const solvers::DampedBackbone curve = study.curve(asked, observer);
-  Record record = solution_record(study, curve, asked, seconds_since(start));
+  Record record = solution_record(study, curve, asked, clock.seconds());
   record.add(quantities::max_displacement,
              largest_of(curve.points, [](const auto& point) { return point.displacement.maxCoeff(); }));
   append_setting(record.summary, study, model);
@@ -89,11 +83,11 @@ Record curve_record(const DampedStudy& study, const StructureModel& model, const
 }
 
 Record motion_record(const DampedStudy& study, const StructureModel& model, const Observer& observer) {
-  const auto start = Clock::now();
+  const WallClock clock;
   const Scene& scene = study.scene();
   const double asked = scene.analysis.amplitude_ratio;
   const solvers::DampedBackbone curve = study.curve(asked, observer);
-  Record record = solution_record(study, curve, asked, seconds_since(start));
+  Record record = solution_record(study, curve, asked, clock.seconds());
   Response response;
   response.converged = response.moves = record.converged;
   const solvers::DampedPoint* point = record.converged ? &curve.points.back() : nullptr;

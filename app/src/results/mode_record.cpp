@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "drawing/mode_figure.hpp"
@@ -19,6 +18,7 @@
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
@@ -260,12 +260,12 @@ bool is_motion_of(const ModePoint& point, double energy_ratio) {
 
 Record motion_record(const ModeStudy& study) {
   const Scene& scene = study.scene();
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   const ModePoint point = study.at_energy(scene.analysis.energy_ratio);
   Response response;
   response.contacts = study.contact_motion(point, scene.analysis.output_points);
   response.contact = leading_contact(response.contacts, study.model().gaps);
-  response.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  response.wall_seconds = clock.seconds();
   const bool found = is_motion_of(point, scene.analysis.energy_ratio);
   const bool moves = found && !response.contacts.empty();
   const bool resonant = point.status == ModeStatus::internal_resonance;

@@ -1,7 +1,6 @@
 #include "wavebalance/app/results/record.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "files/number_text.hpp"
 #include "results/analyses.hpp"
@@ -11,6 +10,7 @@
 #include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -110,13 +110,12 @@ Record analyse(const Scene& scene, const Observer& observer) {
 }
 
 Record analyse(const Scene& scene, const AnalysisOptions& how) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   require_start_fits(how.start, scene);
   Record record = how.model != nullptr ? part_of(scene.analysis.type).record(scene, *how.model, how)
                                        : composed_record(scene, how);
   set_warnings(record);
-  insert_wall_seconds(record.summary,
-                      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  insert_wall_seconds(record.summary, clock.seconds());
   return record;
 }
 

@@ -1,7 +1,6 @@
 #include "wavebalance/app/study/study_row.hpp"
 
 #include <array>
-#include <chrono>
 #include <exception>
 #include <new>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
@@ -58,7 +58,7 @@ StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run,
 
 StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, LastStructure& last,
                    const solvers::Observer& observer) {
-  const auto start = std::chrono::steady_clock::now();
+  const WallClock clock;
   StudyRow row;
   row.run = run;
   row.status = "refused";
@@ -75,7 +75,7 @@ StudyRow solve_run(const Study& study, const StudyRuns& runs, std::int64_t run, 
     row.status = "failed";
     row.message = error.what();
   }
-  row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  row.seconds = clock.seconds();
   return row;
 }
 

@@ -1,22 +1,13 @@
 #pragma once
-#include <chrono>
 #include <functional>
+
+#include "wavebalance/app/files/wall_clock.hpp"
 
 namespace wavebalance::app {
 
 /// Processor seconds that this thread has used. What is measured runs in one thread, and load of other
 /// programs and threads then hardly shows.
 double processor_seconds();
-
-/// Wall time since it was made, s.
-class WallClock {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 struct Repetition {
   double budget = 0.02;      ///< s, no further call is started after it
