@@ -32,9 +32,7 @@ Series least_errors(const BasisPair& pair, const std::vector<SolvePoint>& points
 Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure measure) {
   figure.panel_width = 900;
   figure.panel_height = 460;
-  Panel& panel = figure.add_panel();
-  panel.x.label = abscissa;
-  panel.y.label = "Relative rms error of " + subject_of(measure);
+  Panel& panel = figure.add_panel("", abscissa, "Relative rms error of " + subject_of(measure));
   panel.x.logarithmic = panel.y.logarithmic = true;
   return panel;
 }
@@ -42,9 +40,8 @@ Panel& add_error_panel(Figure& figure, const std::string& abscissa, ErrorMeasure
 /// How fast the curves of each pair come to the exact one, or to the finest one where there is none.
 void add_distances(Figure& figure, const SweepComparison& comparison) {
   const bool exact = comparison.exact.has_value();
-  Panel& panel = figure.add_panel(fmt::format("Distance from the {} curve", exact ? "exact" : "finest"));
-  panel.x.label = "Functions";
-  panel.y.label = "Distance (-)";
+  Panel& panel = figure.add_panel(fmt::format("Distance from the {} curve", exact ? "exact" : "finest"),
+                                  "Functions", "Distance (-)");
   panel.x.logarithmic = panel.y.logarithmic = true;
   std::map<std::string, Series> pairs;
   for (const ComparedCurve& curve : comparison.curves) {
@@ -69,8 +66,7 @@ void mark_reference(Panel& panel, const Comparison& comparison) {
 }  // namespace
 
 Series pareto_front(const std::vector<SolvePoint>& points) {
-  Series one = time_series("Pareto front", envelope(points), SeriesStyle::steps);
-  one.colour = Colour::grey;
+  Series one = time_series("Pareto front", envelope(points), SeriesStyle::steps).in(Colour::grey);
   one.width = 5.0;
   return one;
 }
@@ -126,9 +122,7 @@ Figure curves_figure(const SweepComparison& comparison) {
   figure.title = "Responses over the " + comparison.quantity + ", the most functions of each pair";
   figure.panel_width = 900;
   figure.panel_height = 460;
-  Panel& panel = figure.add_panel("Responses");
-  panel.x.label = comparison.axis;
-  panel.y.label = "Largest displacement (mm)";
+  Panel& panel = figure.add_panel("Responses", comparison.axis, "Largest displacement (mm)");
   std::set<std::string> drawn;
   for (auto curve = comparison.curves.rbegin(); curve != comparison.curves.rend(); ++curve) {
     if (!curve->converged() || !drawn.insert(name_of(curve->pair)).second) continue;

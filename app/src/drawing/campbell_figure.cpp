@@ -23,8 +23,7 @@ double in_hertz(double speed) { return speed / (2.0 * std::numbers::pi); }
 
 /// The places of a line with one direction, each joined to the next place; a missing value elsewhere.
 Series part_of(const CampbellDiagram& diagram, const std::vector<WhirlMode>& line, const Look& look) {
-  Series series(look.label, SeriesStyle::line);
-  series.colour = look.colour;
+  Series series = Series(look.label, SeriesStyle::line).in(look.colour);
   const auto is_part = [&](std::size_t i) { return line[i].direction() == look.direction; };
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool shown = is_part(i) || (i > 0 && is_part(i - 1)) || (i == 0 && line.size() > 1 && is_part(1));
@@ -53,22 +52,16 @@ Figure campbell_figure(const CampbellDiagram& diagram) {
   figure.title = "Campbell diagram";
   figure.panel_width = 600;
   figure.panel_height = 380;
-  Panel& panel = figure.add_panel();
-  panel.x.label = "Speed (Hz)";
-  panel.y.label = "Whirl frequency (Hz)";
+  Panel& panel = figure.add_panel("", "Speed (Hz)", "Whirl frequency (Hz)");
   panel.x.lower = panel.y.lower = 0.0;
   panel.x.upper = in_hertz(diagram.speeds.back());
   panel.y.upper = highest_shown(diagram);
   for (const Look& look : looks)
     for (const auto& line : diagram.lines)
       if (has_any(line, look)) panel.add(part_of(diagram, line, look));
-  Series equal("frequency = speed", std::vector<double>{0.0, *panel.x.upper},
-               std::vector<double>{0.0, *panel.x.upper});
-  equal.colour = Colour::grey;
-  equal.dash = Dash::dashed;
-  panel.add(std::move(equal));
-  Series critical("critical speed", SeriesStyle::points);
-  critical.colour = Colour::vermillion;
+  const std::vector<double> ends{0.0, *panel.x.upper};
+  panel.add(Series("frequency = speed", ends, ends).in(Colour::grey, Dash::dashed));
+  Series critical = Series("critical speed", SeriesStyle::points).in(Colour::vermillion);
   critical.marker = 1;
   for (const CriticalSpeed& one : diagram.critical) critical.append(in_hertz(one.speed), in_hertz(one.speed));
   if (!critical.x.empty()) panel.add(std::move(critical));

@@ -12,8 +12,7 @@ namespace {
 constexpr double dot_size = 0.25;
 
 Series dots(const std::string& label, Colour colour) {
-  Series series(label, SeriesStyle::points);
-  series.colour = colour;
+  Series series = Series(label, SeriesStyle::points).in(colour);
   series.marker = 1;
   series.marker_size = dot_size;
   return series;
@@ -29,10 +28,9 @@ double reach_of(const Diagram& diagram) {
 
 /// A line of the exact curve, its unstable or its other parts.
 Series exact_series(const ExactLine& line, bool unstable, double factor) {
-  Series series(unstable ? "exact, unstable" : "exact, stable", SeriesStyle::line);
-  series.colour = Colour::black;
+  Series series = Series(unstable ? "exact, unstable" : "exact, stable", SeriesStyle::line)
+                      .in(Colour::black, unstable ? Dash::dashed : Dash::solid);
   series.width = 1.2;
-  if (unstable) series.dash = Dash::dashed;
   const auto is_unstable = [&](std::size_t i) { return line.unstable[i] > 0; };
   for (std::size_t i = 0; i < line.value.size(); ++i) {
     const bool before = i > 0 && is_unstable(i - 1), after = i + 1 < line.value.size() && is_unstable(i + 1);
@@ -42,13 +40,11 @@ Series exact_series(const ExactLine& line, bool unstable, double factor) {
   return series;
 }
 
-Panel section_panel(const Diagram& diagram) {
+void add_section(Figure& figure, const Diagram& diagram) {
   const Scale scale = axis_scale(reach_of(diagram));
   const MotionPlace& place = diagram.places[std::size_t(diagram.place)];
-  Panel panel;
-  panel.title = "Poincaré section of " + plain(place.name);
-  panel.x.label = diagram.axis.label();
-  panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
+  Panel& panel = figure.add_panel("Poincaré section of " + plain(place.name), diagram.axis.label(),
+                                  "Displacement (" + scale.prefix + place.unit + ")");
   Series there = dots("forward", Colour::blue), back = dots("backward", Colour::orange);
   for (const DiagramValue& one : diagram.values)
     for (int k = 0; k < points_shown(one); ++k)
@@ -57,14 +53,11 @@ Panel section_panel(const Diagram& diagram) {
   panel.add(std::move(there));
   for (const ExactLine& line : diagram.exact)
     for (const bool unstable : {false, true}) panel.add(exact_series(line, unstable, scale.factor));
-  return panel;
 }
 
-Panel period_panel(const Diagram& diagram) {
-  Panel panel;
-  panel.title = "Period of the motion in forcing periods (0: none)";
-  panel.x.label = diagram.axis.label();
-  panel.y.label = "Periods";
+void add_periods(Figure& figure, const Diagram& diagram) {
+  Panel& panel =
+      figure.add_panel("Period of the motion in forcing periods (0: none)", diagram.axis.label(), "Periods");
   panel.y.lower = -0.5;
   Series there = dots("forward", Colour::blue), back = dots("backward", Colour::orange);
   int most = 1;
@@ -76,14 +69,12 @@ Panel period_panel(const Diagram& diagram) {
   panel.y.upper = most + 0.5;
   panel.add(std::move(back));
   panel.add(std::move(there));
-  return panel;
 }
 
 /// The invariant curve in the section of the leading place.
 Series curve_series(const RecordedMotion& motion, double length, double speed) {
   constexpr int parts = 400;
-  Series series("invariant curve", SeriesStyle::line);
-  series.colour = Colour::orange;
+  Series series = Series("invariant curve", SeriesStyle::line).in(Colour::orange);
   for (int k = 0; k <= parts; ++k) {
     const Eigen::VectorXd point = motion.curve.at(double(k) / parts);
     series.append(length * point[motion.leading],
@@ -93,17 +84,15 @@ Series curve_series(const RecordedMotion& motion, double length, double speed) {
 }
 
 /// The largest and the least displacement over all recorded periods.
-Panel envelope_panel(const Diagram& diagram) {
+void add_envelope(Figure& figure, const Diagram& diagram) {
   const MotionPlace& place = diagram.places[std::size_t(diagram.place)];
   double reach = 0.0;
   for (const DiagramValue& one : diagram.values)
     if (one.failure.empty())
       reach = std::max({reach, std::abs(one.highest[diagram.place]), std::abs(one.lowest[diagram.place])});
   const Scale scale = axis_scale(reach);
-  Panel panel;
-  panel.title = "Largest and least displacement of " + plain(place.name);
-  panel.x.label = diagram.axis.label();
-  panel.y.label = "Displacement (" + scale.prefix + place.unit + ")";
+  Panel& panel = figure.add_panel("Largest and least displacement of " + plain(place.name),
+                                  diagram.axis.label(), "Displacement (" + scale.prefix + place.unit + ")");
   Series repeats = dots("repeats", Colour::black), turns = dots("quasi-periodic", Colour::green),
          others = dots("neither", Colour::vermillion);
   for (const DiagramValue& one : diagram.values) {
@@ -117,7 +106,6 @@ Panel envelope_panel(const Diagram& diagram) {
       series->marker_size = 2.0 * dot_size;
       panel.add(std::move(*series));
     }
-  return panel;
 }
 
 }  // namespace
@@ -130,7 +118,9 @@ Figure diagram_figure(const Diagram& diagram) {
     figure.title += " (INCOMPLETE: " + diagram.status + ")";
   figure.panel_width = 660;
   figure.panel_height = 380;
-  figure.panels = {section_panel(diagram), envelope_panel(diagram), period_panel(diagram)};
+  add_section(figure, diagram);
+  add_envelope(figure, diagram);
+  add_periods(figure, diagram);
   return figure;
 }
 
@@ -139,10 +129,10 @@ std::vector<Panel> recorded_panels(const RecordedMotion& motion) {
   const Eigen::RowVectorXd u = motion.displacement.row(motion.leading),
                            v = motion.velocity.row(motion.leading);
   const Scale length = axis_scale(u.cwiseAbs().maxCoeff()), speed = axis_scale(v.cwiseAbs().maxCoeff());
-  Panel section;
-  section.title = "Poincaré section of " + plain(place.name);
-  section.x.label = "Displacement (" + length.prefix + place.unit + ")";
-  section.y.label = "Velocity (" + speed.prefix + place.unit + "/s)";
+  Figure figure;
+  Panel& section = figure.add_panel("Poincaré section of " + plain(place.name),
+                                    "Displacement (" + length.prefix + place.unit + ")",
+                                    "Velocity (" + speed.prefix + place.unit + "/s)");
   Series points = dots("", Colour::blue);
   for (Eigen::Index k = 0; k < u.size(); ++k) points.append(length.factor * u[k], speed.factor * v[k]);
   if (motion.kind == MotionKind::quasi_periodic) {
@@ -150,15 +140,13 @@ std::vector<Panel> recorded_panels(const RecordedMotion& motion) {
     section.add(curve_series(motion, length.factor, speed.factor));
   }
   section.add(std::move(points));
-  Panel spectrum;
-  spectrum.title = "Power spectral density of " + plain(place.name);
-  spectrum.x.label = "Frequency (Hz)";
-  spectrum.y.label = "Density (" + place.unit + "^2/Hz)";
+  Panel& spectrum = figure.add_panel("Power spectral density of " + plain(place.name), "Frequency (Hz)",
+                                     "Density (" + place.unit + "^2/Hz)");
   spectrum.y.logarithmic = true;
   if (motion.leading < motion.spectrum.density.rows())
     spectrum.add({"", motion.spectrum.frequency,
                   Eigen::VectorXd(motion.spectrum.density.row(motion.leading).transpose())});
-  return {std::move(section), std::move(spectrum)};
+  return std::move(figure.panels);
 }
 
 }  // namespace wavebalance::app

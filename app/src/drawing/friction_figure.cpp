@@ -44,9 +44,8 @@ void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, co
     most = std::max(most, motion.force.row(loop.row).cwiseAbs().maxCoeff());
   }
   const Scale length = axis_scale(reach), force = axis_scale(most);
-  Panel& panel = figure.add_panel("Friction loops");
-  panel.x.label = "Tangential displacement (" + length.prefix + "m)";
-  panel.y.label = "Friction force (" + force.prefix + "N)";
+  Panel& panel = figure.add_panel("Friction loops", "Tangential displacement (" + length.prefix + "m)",
+                                  "Friction force (" + force.prefix + "N)");
   for (const Loop& loop : loops)
     panel.add({loops.size() > 1 ? loop.label : "", once_around(motion.displacement, loop.row, length.factor),
                once_around(motion.force, loop.row, force.factor)});
@@ -54,8 +53,7 @@ void add_loops(Figure& figure, const std::vector<FrictionMeasures>& contacts, co
 
 /// An entry of the legend for rectangles of this colour.
 Series swatch(const std::string& label, Colour colour, double at) {
-  Series series(label, std::vector<double>{at}, std::vector<double>{std::nan("")});
-  series.colour = colour;
+  Series series = Series(label, std::vector<double>{at}, std::vector<double>{std::nan("")}).in(colour);
   series.width = 8.0;
   series.area = true;
   return series;

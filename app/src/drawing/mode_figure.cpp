@@ -45,8 +45,9 @@ bool is_damped(const Table& backbone) { return backbone.has_column("damping_rati
 void add_frequencies(Panel& panel, const Table& backbone, const std::vector<double>& x,
                      std::string_view column) {
   panel.add({"ω", x, motions_in(backbone, column), SeriesStyle::points});
-  Series resonances("on an internal resonance", x, motions_in(backbone, column, true), SeriesStyle::points);
-  resonances.colour = Colour::grey;
+  Series resonances =
+      Series("on an internal resonance", x, motions_in(backbone, column, true), SeriesStyle::points)
+          .in(Colour::grey);
   resonances.marker = 3;
   panel.add(std::move(resonances));
 }
@@ -90,9 +91,8 @@ std::vector<Panel> panels_over(const Scene& scene, const Table& backbone, const 
   panels.back().y.label = "Damping ratio";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     panels[i].title.insert(0, i == 0 ? "Frequency" : "Damping");
-    Series series("", x, backbone.numbers(i == 0 ? "frequency_Hz" : "damping_ratio"));
-    series.colour = Colour::blue;
-    panels[i].add(std::move(series));
+    panels[i].add(
+        Series("", x, backbone.numbers(i == 0 ? "frequency_Hz" : "damping_ratio")).in(Colour::blue));
   }
   return panels;
 }
@@ -155,9 +155,7 @@ void draw_stability_in(Panel& panel, const Table& backbone, const solvers::Backb
     any_unknown = any_unknown || is_unknown[i];
   }
   const auto part = [&](const char* more, const std::vector<bool>& shown, bool beside) {
-    Series series(drawn.label + more, drawn.x, selected(drawn.y, shown, beside));
-    series.colour = Colour::blue;
-    return series;
+    return Series(drawn.label + more, drawn.x, selected(drawn.y, shown, beside)).in(Colour::blue);
   };
   panel.series.front() = part("", is_stable, false);
   auto next = panel.series.begin() + 1;
@@ -182,13 +180,13 @@ Figure backbone_figure(const Scene& scene, const Table& backbone, const ModeOutp
     figure.panel_height = single_height;
   else
     figure.panels = panels_over(scene, backbone, *leading);
-  Panel& panel = figure.add_panel();
-  panel.x.label = scene.analysis.reference_length > 0.0
-                      ? "Energy / energy of the linear mode at the reference length"
-                      : "Energy / grazing energy of the linear mode";
+  Panel& panel = figure.add_panel("",
+                                  scene.analysis.reference_length > 0.0
+                                      ? "Energy / energy of the linear mode at the reference length"
+                                      : "Energy / grazing energy of the linear mode",
+                                  "Frequency / linear frequency");
   panel.x.lower = 0.0;
   panel.x.upper = shown_energy(motions_in(backbone, "energy_ratio"), scene.analysis.largest_energy);
-  panel.y.label = "Frequency / linear frequency";
   const std::vector<double> energy = backbone.numbers("energy_ratio");
   if (leading != nullptr) panel.title = "Frequency over the energy";
   add_frequencies(panel, backbone, energy, "frequency_ratio");
@@ -207,14 +205,11 @@ Figure damped_figure(const Scene& scene, const Table& backbone, const ModeOutput
   }
   for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
                                              {"Damping", "damping_ratio", "Damping ratio"}}) {
-    Panel& panel = figure.add_panel(title);
-    panel.x.label =
-        slip_alone(scene) ? "Amplitude / amplitude of slip onset" : "Amplitude / largest linear amplitude";
+    Panel& panel = figure.add_panel(
+        title, slip_alone(scene) ? "Amplitude / amplitude of slip onset" : "Amplitude / largest linear amplitude",
+        label);
     panel.x.logarithmic = true;
-    panel.y.label = label;
-    Series series("", backbone, "amplitude_ratio", column);
-    series.colour = Colour::blue;
-    panel.add(std::move(series)).mark_x(1.0);
+    panel.add(Series("", backbone, "amplitude_ratio", column).in(Colour::blue)).mark_x(1.0);
   }
   return figure;
 }

@@ -40,21 +40,17 @@ Figure motions_figure(const Scene& scene, const Motions& all) {
   figure.title = all.motions.size() > count ? "The first " + std::to_string(count) + " motions" : "";
   figure.panel_width = 600;
   figure.panel_height = 320;
-  Panel over_time, portrait;
-  over_time.title = "Displacement" + name;
-  over_time.x.label = "Time (forcing periods)";
-  over_time.y.label = portrait.x.label = "Displacement (" + length.prefix + unit + ")";
-  portrait.title = "Velocity over displacement";
-  portrait.y.label = "Velocity (" + speed.prefix + unit + "/s)";
+  const std::string displacement = "Displacement (" + length.prefix + unit + ")";
+  figure.add_panel("Displacement" + name, "Time (forcing periods)", displacement);
+  figure.add_panel("Velocity over displacement", displacement, "Velocity (" + speed.prefix + unit + "/s)");
   for (std::size_t i = 0; i < count; ++i) {
     const FoundMotion& motion = all.motions[i];
     const Eigen::VectorXd u = once_around(motion.contacts.displacement, row, length.factor),
                           v = once_around(motion.contacts.velocity, row, speed.factor);
     const Eigen::VectorXd periods = Eigen::VectorXd::LinSpaced(u.size(), 0.0, motion.found.periods);
-    over_time.add(look(Series("", periods, u), motion, i));
-    portrait.add(look(Series("", u, v), motion, i));
+    figure.panels[0].add(look(Series("", periods, u), motion, i));
+    figure.panels[1].add(look(Series("", u, v), motion, i));
   }
-  figure.panels = {std::move(over_time), std::move(portrait)};
   return figure;
 }
 

@@ -18,13 +18,11 @@ double extent_of(const OrbitPlane& plane) {
 
 Series circle(double radius) {
   constexpr int corners = 180;
-  Series series("clearance", SeriesStyle::line);
+  Series series = Series("clearance", SeriesStyle::line).in(Colour::grey, Dash::dashed);
   for (int i = 0; i <= corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
     series.append(radius * std::cos(angle), radius * std::sin(angle));
   }
-  series.colour = Colour::grey;
-  series.dash = Dash::dashed;
   return series;
 }
 
@@ -44,15 +42,13 @@ void add_orbit(Panel& panel, const Orbit& orbit, double factor, Colour colour) {
     const Eigen::Index at = i % orbit.x.size();
     path.append(factor * orbit.x[at], factor * orbit.y[at]);
   }
-  path.colour = colour;
-  panel.add(std::move(path));
+  panel.add(std::move(path).in(colour));
   panel.segments.push_back(arrow_along(orbit, factor, colour));
 }
 
 Series beginnings(const OrbitPlane& plane, double factor) {
-  Series begin("t = 0", SeriesStyle::points);
+  Series begin = Series("t = 0", SeriesStyle::points).in(Colour::black);
   for (const Orbit& orbit : plane.orbits) begin.append(factor * orbit.x[0], factor * orbit.y[0]);
-  begin.colour = Colour::black;
   begin.marker = 1;
   return begin;
 }
@@ -71,9 +67,8 @@ Figure orbits_figure(const std::vector<OrbitPlane>& planes) {
   for (const OrbitPlane& plane : planes) {
     const double extent = extent_of(plane);
     const Scale scale = axis_scale(extent);
-    Panel& panel = figure.add_panel(plain(plane.title));
-    panel.x.label = "x (" + scale.prefix + "m)";
-    panel.y.label = "y (" + scale.prefix + "m)";
+    Panel& panel =
+        figure.add_panel(plain(plane.title), "x (" + scale.prefix + "m)", "y (" + scale.prefix + "m)");
     panel.x.upper = panel.y.upper = margin * scale.factor * (extent > 0.0 ? extent : 1.0);
     panel.x.lower = panel.y.lower = -*panel.x.upper;
     if (std::isfinite(plane.clearance)) panel.add(circle(scale.factor * plane.clearance));

@@ -145,9 +145,7 @@ void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::
   for (const auto& along : sweep.impacts)
     for (const PointImpacts& point : along) largest = std::max(largest, point.*value);
   const Scale scale = axis_scale(largest);
-  Panel& panel = figure.add_panel(title);
-  panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = "Largest (" + scale.prefix + unit + ")";
+  Panel& panel = figure.add_panel(title, sweep_axis(sweep).label(), "Largest (" + scale.prefix + unit + ")");
   panel.y.lower = 0.0;
   const std::vector<SweepLine> lines = lines_of(sweep);
   for (std::size_t i = 0; i < std::min(lines.size(), sweep.impacts.size()); ++i) {
@@ -277,10 +275,9 @@ void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sw
   const double largest = *std::max_element(values.begin(), values.end());
   const double top = shown_top(sweep, values);
   const Scale scale = axis_scale(top);
-  Panel& panel = figure.add_panel("Displacement of the contacts");
-  panel.x.label = sweep_axis(sweep).label();
   const std::string unit = displacement_unit(scene);
-  panel.y.label = "Displacement (" + scale.prefix + unit + ")";
+  Panel& panel = figure.add_panel("Displacement of the contacts", sweep_axis(sweep).label(),
+                                  "Displacement (" + scale.prefix + unit + ")");
   std::vector<PlacedPoint> marks;
   for (const SweepLine& line : lines) {
     const std::vector<PlacedPoint> special =

@@ -148,11 +148,10 @@ void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solv
 
 void draw_special_points(Panel& panel, const std::vector<PlacedPoint>& points) {
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    Series series(kinds[kind].second, SeriesStyle::points);
+    Series series = Series(kinds[kind].second, SeriesStyle::points).in(Colour::black);
     for (const PlacedPoint& point : points)
       if (point.type == kinds[kind].first) series.append(point.x, point.y);
     if (series.x.empty()) continue;
-    series.colour = Colour::black;
     series.marker = static_cast<int>(kind) + 1;
     panel.add(std::move(series));
   }

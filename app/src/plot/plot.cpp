@@ -69,9 +69,12 @@ Panel& Panel::mark_level(double y_value, const std::string& label, const std::st
   return mark_y(y_value, label);
 }
 
-Panel& Figure::add_panel(std::string panel_title) {
-  panels.emplace_back().title = std::move(panel_title);
-  return panels.back();
+Panel& Figure::add_panel(std::string panel_title, std::string x_label, std::string y_label) {
+  Panel& panel = panels.emplace_back();
+  panel.title = std::move(panel_title);
+  panel.x.label = std::move(x_label);
+  panel.y.label = std::move(y_label);
+  return panel;
 }
 
 std::string render(const Figure& figure, PictureFormat format) {

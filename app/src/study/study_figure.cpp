@@ -259,10 +259,8 @@ void add_curves(Figure& figure, const Study& study, const Table& table, const st
   };
   const Varying& x = *std::max_element(varying.begin(), varying.end(), most);
   if (!x.numeric) return;
-  Panel& panel = figure.add_panel();
-  panel.x.label = x.label;
+  Panel& panel = figure.add_panel("", x.label, shown.label);
   panel.x.logarithmic = x.logarithmic && x.distinct.front() > 0.0;
-  panel.y.label = shown.label;
   panel.legend = varying.size() > 1;
   std::set<std::string> keys;
   for (const Varying& one : varying) keys.insert(one.key);
@@ -286,9 +284,7 @@ void add_distribution(Figure& figure, std::vector<double> values, const Shown& s
   std::vector<double> shares;
   for (std::size_t i = 0; i < values.size(); ++i)
     shares.push_back(100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
-  Panel& panel = figure.add_panel("Distribution");
-  panel.x.label = shown.label;
-  panel.y.label = "Runs with at most this value (%)";
+  Panel& panel = figure.add_panel("Distribution", shown.label, "Runs with at most this value (%)");
   panel.y.lower = 0.0;
   panel.add({"", values, shares, SeriesStyle::steps});
 }
@@ -331,15 +327,12 @@ void add_scatters(Figure& figure, const std::vector<Varying>& varying, const std
   const std::vector<double> solved = values_of(values, outcomes, Outcome::solved);
   for (const Varying& one : varying) {
     if (!one.numeric || drawn++ == most_scatters) continue;
-    Series series("", SeriesStyle::points);
+    Series series = Series("", SeriesStyle::points).in(Colour::blue);
     for (std::size_t i = 0; i < values.size(); i += step) series.append(one.numbers[i], solved[i]);
     series.marker = 1;
-    series.colour = Colour::blue;
-    Panel& panel = figure.add_panel("Over " + plain(one.key));
-    panel.x.label = one.label;
+    Panel& panel = figure.add_panel("Over " + plain(one.key), one.label, shown.label);
     panel.x.logarithmic = one.logarithmic && one.distinct.front() > 0.0;
     set_limits(panel.x, one.distinct.front(), one.distinct.back());
-    panel.y.label = shown.label;
     panel.add(std::move(series));
     for (const Outcome outcome : {Outcome::unstable, Outcome::not_converged})
       add_marks(panel, one.numbers, values_of(values, outcomes, outcome), outcomes, outcome);

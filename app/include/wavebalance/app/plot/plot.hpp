@@ -3,6 +3,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wavebalance/app/files/output.hpp"
@@ -50,6 +51,12 @@ struct Series {
   void append(double x_value, double y_value) {
     x.push_back(x_value);
     y.push_back(y_value);
+  }
+  /// The same in a colour.
+  Series in(Colour its_colour, Dash its_dash = Dash::solid) && {
+    colour = its_colour;
+    dash = its_dash;
+    return std::move(*this);
   }
 
   std::string label;  ///< in the legend; none when empty
@@ -163,7 +170,7 @@ struct Figure {
   int panel_height = 320;  ///< pixels, with the numbers and labels of the axes
   bool letters = true;     ///< letter the panels when there are several
 
-  Panel& add_panel(std::string panel_title = "");
+  Panel& add_panel(std::string panel_title = "", std::string x_label = "", std::string y_label = "");
 };
 
 /// Gives all diagrams logarithmic ordinates, over six decades at most. Those without a positive ordinate stay
