@@ -66,16 +66,16 @@ Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curv
                 {"frequency_ratio", point.omega / study.mode().linear_omega()},
                 {"damping_ratio", point.damping_ratio()}};
     const solvers::Motion contacts{point.displacement, {}, point.force};
-    if (has_friction(study.scene()))
-      append_shares(row, friction_shares(friction_measures(study.scene(), contacts)));
+    if (has_friction(study.scene())) {
+      const std::vector<FrictionMeasures> each = friction_measures(study.scene(), contacts);
+      append_shares(row, FrictionShares({each.begin(), each.end()}));
+    }
     row.emplace_back("status", "converged");
     row.emplace_back("residual", point.residual);
     append_amplitudes(row, point.displacement);
     return row;
   };
-  Table table(columns_of(row_at({})));
-  for (const solvers::DampedPoint& point : curve.points) table.append_row(cells_of(row_at(point)));
-  return table;
+  return tabulated(curve.points, row_at);
 }
 
 }  // namespace wavebalance::app

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "analysis/exact_parts.hpp"
@@ -8,6 +7,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 
 namespace wavebalance::app {
@@ -66,15 +66,11 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
   return stability;
 }
 
-/// The means over contacts and the work of all of them.
 FrictionShares friction_of(const PhaseMotion& motion, const std::vector<SceneContact>& places) {
-  FrictionShares shares;
-  using enum solvers::ContactState;
-  for (const solvers::FrictionCycle& cycle : motion.cycles) {
-    shares.each.push_back(contact_work(places[std::size_t(cycle.row)], cycle.work, cycle.wear));
-    shares.add({cycle.work, cycle.share(stick), cycle.share(slip), cycle.share(open)}, motion.cycles.size());
-  }
-  return shares;
+  std::vector<ContactFriction> each;
+  for (const solvers::FrictionCycle& cycle : motion.cycles)
+    each.push_back(friction_at(places[std::size_t(cycle.row)], cycle));
+  return FrictionShares(std::move(each));
 }
 
 SweepPhases::Point phases_of(const PhaseMotion& motion) {
@@ -220,7 +216,7 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer,
                   const StartMotion& start) {
   require_start_fits(start, scene);
-  const auto begin = std::chrono::steady_clock::now();
+  const WallClock clock;
   const bool over_frequency = parameter_of(scene) == solvers::SweepParameter::frequency;
   const solvers::ExactCurveOptions options = exact_options(scene, observer);
   solvers::ContactProblem problem = exact_problem(scene, model);
@@ -238,7 +234,7 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
   if (scene.analysis.branches && curve.status != solvers::SweepStatus::cancelled && !sweep.impacts.empty())
     add_doubled_curves(problem.doubled_curves(curve, parameter_of(scene), frequency, options),
                        measure_of(curve, scene, problem.laws()), sweep);
-  sweep.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  sweep.wall_seconds = clock.seconds();
   return sweep;
 }
 

@@ -40,40 +40,36 @@ contact::FrictionPeriod period_of(const contact::CoulombLaw& law, int row, const
   return law.resolvent(springs).over_period(contacts.points(), values(), false);
 }
 
-/// `normal_work`: J, the normal force times the distance of slip.
-void set_wear(FrictionMeasures& measures, const SceneContact& contact, double normal_work) {
-  const ContactWork found = contact_work(contact, measures.work, normal_work);
-  measures.wears = found.wears;
-  measures.wear = found.wear;
+/// Sets its wear, of the normal force times the distance of slip, J.
+ContactFriction with_wear(ContactFriction friction, const SceneContact& contact, double normal_work) {
+  friction.wears = contact.values.contains("wear_coefficient");
+  if (friction.wears) friction.wear = contact::number_of(contact.values, "wear_coefficient") * normal_work;
+  return friction;
+}
+
+ContactFriction friction_at(const SceneContact& contact, const contact::FrictionPeriod& period) {
+  using enum contact::FrictionState;
+  return with_wear(
+      {contact.number, period.work, share_of(period, stick), share_of(period, slip), share_of(period, open)},
+      contact, period.normal_work);
 }
 
 FrictionMeasures measures_of(const SceneContact& contact, int row, const solvers::Motion& contacts) {
-  FrictionMeasures measures{
-      .row = row, .number = contact.number, .law = law_of(contact), .name = whole_name_of(contact)};
-  const contact::FrictionPeriod period = period_of(measures.law, row, contacts);
-  measures.state = period.state;
-  measures.stick_fraction = share_of(period, contact::FrictionState::stick);
-  measures.slip_fraction = share_of(period, contact::FrictionState::slip);
-  measures.open_fraction = share_of(period, contact::FrictionState::open);
-  measures.work = period.work;
-  measures.slip = std::accumulate(period.slip.begin(), period.slip.end(), 0.0);
-  measures.history_dependent = period.history_dependent;
-  set_wear(measures, contact, period.normal_work);
-  return measures;
+  const contact::CoulombLaw law = law_of(contact);
+  const contact::FrictionPeriod period = period_of(law, row, contacts);
+  return {friction_at(contact, period),
+          row,
+          law,
+          whole_name_of(contact),
+          period.state,
+          std::accumulate(period.slip.begin(), period.slip.end(), 0.0),
+          period.history_dependent};
 }
 
 FrictionMeasures measures_of(const SceneContact& contact, const solvers::FrictionCycle& cycle) {
-  using enum solvers::ContactState;
-  FrictionMeasures measures{
-      .row = cycle.row, .number = contact.number, .law = law_of(contact), .name = whole_name_of(contact)};
-  measures.stick_fraction = cycle.share(stick);
-  measures.slip_fraction = cycle.share(slip);
-  measures.open_fraction = cycle.share(open);
-  measures.work = cycle.work;
-  measures.slip = cycle.slip;
-  measures.history_dependent = cycle.share(slip) == 0.0 && cycle.share(open) == 0.0;
-  set_wear(measures, contact, cycle.wear);
-  return measures;
+  const ContactFriction friction = friction_at(contact, cycle);
+  const bool sticks = friction.slip_fraction == 0.0 && friction.open_fraction == 0.0;
+  return {friction, cycle.row, law_of(contact), whole_name_of(contact), {}, cycle.slip, sticks};
 }
 
 template <class State>
@@ -145,27 +141,26 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Respon
   return friction_measures(scene, response.contacts, response.load_frequency);
 }
 
-FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts) {
-  FrictionShares shares;
-  for (const FrictionMeasures& one : contacts)
-    shares.add({one.work, one.stick_fraction, one.slip_fraction, one.open_fraction}, contacts.size());
-  return shares;
+ContactFriction friction_at(const SceneContact& contact, const solvers::FrictionCycle& cycle) {
+  using enum solvers::ContactState;
+  return with_wear({contact.number, cycle.work, cycle.share(stick), cycle.share(slip), cycle.share(open)},
+                   contact, cycle.wear);
 }
 
-ContactWork contact_work(const SceneContact& contact, double work, double normal_work) {
-  ContactWork found{.number = contact.number, .work = work};
-  if (const auto wears = contact.values.find("wear_coefficient"); wears != contact.values.end()) {
-    found.wears = true;
-    found.wear = std::get<double>(wears->second) * normal_work;
+FrictionShares::FrictionShares(std::vector<ContactFriction> contacts) : each(std::move(contacts)) {
+  for (const ContactFriction& one : each) {
+    work += one.work;
+    stick_fraction += one.stick_fraction / double(each.size());
+    slip_fraction += one.slip_fraction / double(each.size());
+    open_fraction += one.open_fraction / double(each.size());
   }
-  return found;
 }
 
 void append_shares(Summary& row, const FrictionShares& shares) {
   row.emplace_back("friction_work_J", shares.work);
-  row.emplace_back("stick_fraction", shares.stick);
-  row.emplace_back("slip_fraction", shares.slip);
-  row.emplace_back("open_fraction", shares.open);
+  row.emplace_back("stick_fraction", shares.stick_fraction);
+  row.emplace_back("slip_fraction", shares.slip_fraction);
+  row.emplace_back("open_fraction", shares.open_fraction);
 }
 
 std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::FrequencySweep& curve) {
@@ -180,18 +175,13 @@ std::vector<FrictionShares> friction_along(const Scene& scene, const solvers::Fr
       laws = laws_of_rows(contacts_of(read, point.frequency), curve.series_flexibility);
     const std::size_t points =
         static_cast<std::size_t>(point.unknown.size()) / std::size_t(contact_count(scene));
-    FrictionShares shares;
+    std::vector<ContactFriction> each;
     for (const auto& [row, law] : laws) {
       const std::span<const double> rows(point.unknown.data() + row * points,
                                          static_cast<std::size_t>(law.rows()) * points);
-      const contact::FrictionPeriod period = law.over_period(static_cast<int>(points), rows, false);
-      shares.each.push_back(contact_work(places[row], period.work, period.normal_work));
-      shares.add(
-          {period.work, share_of(period, contact::FrictionState::stick),
-           share_of(period, contact::FrictionState::slip), share_of(period, contact::FrictionState::open)},
-          laws.size());
+      each.push_back(friction_at(places[row], law.over_period(static_cast<int>(points), rows, false)));
     }
-    along.push_back(shares);
+    along.emplace_back(std::move(each));
   }
   return along;
 }

@@ -181,43 +181,35 @@ Table pairs_table(const Comparison& comparison) {
 }
 
 Table recommendations_table(const std::vector<Recommendation>& recommendations) {
-  using Cells = std::vector<std::pair<std::string, Cell>>;
-  const auto cells_of = [](const Recommendation& one) -> Cells {
+  return tabulated(recommendations, [](const Recommendation& one) -> Summary {
     const SolvePoint none, &choice = one.choice ? *one.choice : none,
                            &fourier = one.fourier ? *one.fourier : none,
                            &phases = one.phases ? *one.phases : none;
     // A number of what was not chosen is missing.
-    const auto count = [](int number) { return number > 0 ? Cell(std::int64_t{number}) : solvers::missing; };
+    const auto count = [](const char* name, int number) {
+      return number > 0 ? Entry(name, number) : Entry(name, solvers::missing);
+    };
     return {{"error", one.error},
-            {"error_of", std::string(to_string(one.measure))},
+            {"error_of", to_string(one.measure)},
             {"trial", choice.pair.trial},
             {"weight", choice.pair.weight},
-            {"functions", count(choice.functions)},
-            {"quadrature_points", count(choice.points)},
+            count("functions", choice.functions),
+            count("quadrature_points", choice.points),
             {"seconds", choice.seconds},
             {"displacement_error", choice.displacement_error},
             {"force_error", choice.force_error},
-            {"fourier_functions", count(fourier.functions)},
+            count("fourier_functions", fourier.functions),
             {"fourier_seconds", fourier.seconds},
             {"fourier_time_ratio", one.fourier_time_ratio()},
-            {"basis_matters", std::string(to_string(one.matters))},
-            {"phases_functions", count(phases.functions)},
-            {"phases_points", count(phases.points)},
+            {"basis_matters", to_string(one.matters)},
+            count("phases_functions", phases.functions),
+            count("phases_points", phases.points),
             {"phases_seconds", phases.seconds},
             {"phases_error", phases.error},
             {"stability", one.stability},
             {"sentences", one.sentences},
             {"time_table", one.time_table}};
-  };
-  std::vector<std::string> names;
-  for (const auto& [name, cell] : cells_of({})) names.push_back(name);
-  Table table(names);
-  for (const Recommendation& one : recommendations) {
-    std::vector<Cell> row;
-    for (const auto& [name, cell] : cells_of(one)) row.push_back(cell);
-    table.append_row(std::move(row));
-  }
-  return table;
+  });
 }
 
 Table curves_table(const SweepComparison& comparison) {

@@ -114,9 +114,8 @@ void add_harmonics(Figure& figure, const Sweep& sweep, const SweepLine& line, co
   }
   if (amplitudes.size() < 3) return;  // the last is none, or the most
   const Scale scale = axis_scale(largest, output.unit);
-  Panel& panel = figure.add_panel("Harmonics of " + plain(output.title));
-  panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = ordinate(output, scale, "Amplitude");
+  Panel& panel = figure.add_panel("Harmonics of " + plain(output.title), sweep_axis(sweep).label(),
+                                  ordinate(output, scale, "Amplitude"));
   panel.y.lower = 0.0;
   for (std::size_t n = 0; n < amplitudes.size(); ++n)
     if (Series series = line.series("harmonic " + std::to_string(n + 1), amplitudes[n], scale.factor);
@@ -160,9 +159,8 @@ void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<Sce
   const std::size_t all = drawn.size();
   drawn = largest_series(std::move(drawn), most);
   Panel& panel = figure.add_panel(
-      all > drawn.size() ? fmt::format("{}, the {} largest of {}", title, drawn.size(), all) : title);
-  panel.x.label = sweep_axis(sweep).label();
-  panel.y.label = quantity + " (" + scale.prefix + unit + ")";
+      all > drawn.size() ? fmt::format("{}, the {} largest of {}", title, drawn.size(), all) : title,
+      sweep_axis(sweep).label(), quantity + " (" + scale.prefix + unit + ")");
   panel.y.lower = 0.0;
   for (Series& series : drawn) {
     for (double& y : series.y) y *= scale.factor;
@@ -173,19 +171,19 @@ void add_contact_panel(Figure& figure, const Sweep& sweep, const std::vector<Sce
 /// Work and wear of friction, or speeds of impacts, of each contact along the main curve.
 void add_each_contact(Figure& figure, const Sweep& sweep, const std::vector<SceneContact>& contacts) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto friction = [&](std::size_t i, std::size_t k) -> const ContactWork* {
+  const auto friction = [&](std::size_t i, std::size_t k) -> const ContactFriction* {
     if (sweep.friction.empty() || i >= sweep.friction.front().size()) return nullptr;
-    const std::vector<ContactWork>& each = sweep.friction.front()[i].each;
-    const auto found = std::ranges::find(each, contacts[k].number, &ContactWork::number);
+    const std::vector<ContactFriction>& each = sweep.friction.front()[i].each;
+    const auto found = std::ranges::find(each, contacts[k].number, &ContactFriction::number);
     return found == each.end() ? nullptr : &*found;
   };
   add_contact_panel(figure, sweep, contacts, "Energy dissipated by friction per period", "Work", "J",
                     [&](std::size_t i, std::size_t k) {
-                      const ContactWork* one = friction(i, k);
+                      const ContactFriction* one = friction(i, k);
                       return one == nullptr ? none : one->work;
                     });
   add_contact_panel(figure, sweep, contacts, "Wear", "Wear", "m^3/s", [&](std::size_t i, std::size_t k) {
-    const ContactWork* one = friction(i, k);
+    const ContactFriction* one = friction(i, k);
     return one == nullptr || !one->wears ? none : one->wear * sweep.curve.points[i].frequency / sweep.periods;
   });
   add_contact_panel(figure, sweep, contacts, "Speed of impacts", "Largest speed", "m/s",
@@ -238,9 +236,8 @@ Figure outputs_figure(const Sweep& sweep, const SweepOutputs& outputs,
   const std::vector<SweepLine> lines = lines_of(sweep, outputs);
   for (std::size_t i = 0; i < std::min(outputs.outputs.size(), most_drawn_outputs); ++i) {
     const Scale scale = scale_of(lines, i, outputs.outputs[i].unit);
-    Panel& panel = figure.add_panel(plain(outputs.outputs[i].title));
-    panel.x.label = sweep_axis(sweep).label();
-    panel.y.label = ordinate(outputs.outputs[i], scale, "Vibration");
+    Panel& panel = figure.add_panel(plain(outputs.outputs[i].title), sweep_axis(sweep).label(),
+                                    ordinate(outputs.outputs[i], scale, "Vibration"));
     panel.y.lower = 0.0;
     for (const SweepLine& line : lines) add_line(panel, line, i, scale.factor);
   }
@@ -257,12 +254,9 @@ Figure outputs_figure(const std::vector<Output>& outputs, const Eigen::MatrixXd&
   for (std::size_t i = 0; i < std::min(outputs.size(), most_drawn_outputs); ++i) {
     const auto row = motion.row(Eigen::Index(i));
     const Scale scale = axis_scale(row.cwiseAbs().maxCoeff(), outputs[i].unit);
-    Panel& panel = figure.add_panel(plain(outputs[i].title));
+    Panel& panel = figure.add_panel(plain(outputs[i].title), "", ordinate(outputs[i], scale, "Displacement"));
     panel.x = window.axis();
-    panel.y.label = ordinate(outputs[i], scale, "Displacement");
-    Series series = window.curve(scale.factor * row.transpose());
-    series.colour = Colour::blue;
-    panel.add(std::move(series));
+    panel.add(window.curve(scale.factor * row.transpose()).in(Colour::blue));
   }
   return figure;
 }

@@ -73,19 +73,21 @@ std::vector<ModeOutput> append_outputs(Record& record, const Scene& scene, const
   std::vector<ModeOutput> drawn;
   if (outputs.empty()) return drawn;
   const bool damped = record.backbone.has_column("damping_ratio");
-  std::vector<std::string> columns{"output", "unit", "half_peak_to_peak", "max",
-                                   "min",    "mean", "at_frequency_Hz",   "at_onset"};
-  if (damped) columns.emplace_back("at_largest_damping");
-  Table table(columns);
+  std::vector<Summary> table;
   Summary entries;
   for (std::size_t k = 0; k < outputs.outputs.size(); ++k) {
     const Output& output = outputs.outputs[k];
     const AlongMode found = along_mode(outputs, k, record);
     const double vibration = found.most.half_peak_to_peak();
-    std::vector<Cell> row{output.name,    output.unit,     vibration,       found.most.max,
-                          found.most.min, found.most.mean, found.frequency, found.at_onset};
-    if (damped) row.emplace_back(found.at_largest_damping);
-    table.append_row(std::move(row));
+    Summary& row = table.emplace_back(Summary{{"output", output.name},
+                                              {"unit", output.unit},
+                                              {"half_peak_to_peak", vibration},
+                                              {"max", found.most.max},
+                                              {"min", found.most.min},
+                                              {"mean", found.most.mean},
+                                              {"at_frequency_Hz", found.frequency},
+                                              {"at_onset", found.at_onset}});
+    if (damped) row.emplace_back("at_largest_damping", found.at_largest_damping);
     drawn.push_back({output, found.at_onset});
     if (k >= scene.analysis.outputs.size()) continue;
     entries.emplace_back(output.column_of("half_peak_to_peak"), vibration);
@@ -97,7 +99,7 @@ std::vector<ModeOutput> append_outputs(Record& record, const Scene& scene, const
   for (const MeasuredPoint& point : outputs.points) rows.push_back(&point);
   record.backbone = with_outputs(record.backbone, outputs.outputs, rows, scene.analysis.output_harmonics);
   insert_outputs(record.summary, scene, outputs.outputs, std::move(entries));
-  record.add(quantities::outputs, table);
+  record.add(quantities::outputs, table_of(table));
   record.interrupted = record.interrupted || outputs.cancelled;
   return drawn;
 }

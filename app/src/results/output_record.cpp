@@ -75,19 +75,7 @@ double digits_of_error(double error) {
 /// are solved for, where its modulus is largest, and how many digits of it are true.
 Table peaks_table(const Sweep& sweep, const SweepOutputs& outputs) {
   const std::string place = sweep_axis(sweep).column();
-  std::vector<std::string> columns{"output",
-                                   "unit",
-                                   place,
-                                   "half_peak_to_peak",
-                                   "max",
-                                   "min",
-                                   "mean",
-                                   quantities::peak_value_resolution.column(),
-                                   quantities::peak_place_resolution.column(),
-                                   "error_at_peak"};
-  const bool solved = !outputs.peaks.empty();
-  if (solved) columns.insert(columns.end(), {"digits", "largest", "largest_" + place});
-  Table table(columns);
+  std::vector<Summary> rows;
   std::vector<double> places;
   for (const solvers::SweepPoint& point : sweep.curve.points)
     places.push_back(parameter_of(point, sweep.curve.parameter));
@@ -101,25 +89,23 @@ Table peaks_table(const Sweep& sweep, const SweepOutputs& outputs) {
     const double error =
         exact ? relative_error(at_peak[i].half_peak_to_peak(), outputs.exact_at_peak[i].half_peak_to_peak())
               : missing;
-    std::vector<Cell> cells{output.name,
-                            output.unit,
-                            row.place,
-                            height,
-                            row.measures.max,
-                            row.measures.min,
-                            row.measures.mean,
-                            row.resolution.value,
-                            row.resolution.place,
-                            error};
-    if (solved) {
-      const bool also = i < outputs.largest.size();
-      cells.insert(cells.end(), {here ? digits_of_error(std::fmax(row.resolution.value, error)) : missing,
-                                 also ? outputs.largest[i].at.height : missing,
-                                 also ? outputs.largest[i].at.value : missing});
-    }
-    table.append_row(std::move(cells));
+    Summary& cells = rows.emplace_back(Summary{{"output", output.name},
+                                               {"unit", output.unit},
+                                               {place, row.place},
+                                               {"half_peak_to_peak", height},
+                                               {"max", row.measures.max},
+                                               {"min", row.measures.min},
+                                               {"mean", row.measures.mean},
+                                               {quantities::peak_value_resolution, row.resolution.value},
+                                               {quantities::peak_place_resolution, row.resolution.place},
+                                               {"error_at_peak", error}});
+    if (outputs.peaks.empty()) continue;
+    const bool also = i < outputs.largest.size();
+    cells.emplace_back("digits", here ? digits_of_error(std::fmax(row.resolution.value, error)) : missing);
+    cells.emplace_back("largest", also ? outputs.largest[i].at.height : missing);
+    cells.emplace_back("largest_" + place, also ? outputs.largest[i].at.value : missing);
   }
-  return table;
+  return table_of(rows);
 }
 
 /// One row for each output, with the names of columns that columns_of() has, but for the output's own name,

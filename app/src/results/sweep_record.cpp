@@ -110,8 +110,8 @@ void append_vibration(Record& record, const Scene& scene, const Sweep& sweep) {
 void append_friction_along(Record& record, const Sweep& sweep) {
   if (sweep.friction.empty()) return;
   const std::vector<FrictionShares>& along = sweep.friction.front();
-  record.add(quantities::max_slip_fraction, largest_of(along, &FrictionShares::slip));
-  record.add(quantities::max_open_fraction, largest_of(along, &FrictionShares::open));
+  record.add(quantities::max_slip_fraction, largest_of(along, &FrictionShares::slip_fraction));
+  record.add(quantities::max_open_fraction, largest_of(along, &FrictionShares::open_fraction));
 }
 
 void append_impacts(Record& record, const Sweep& sweep) {

@@ -71,7 +71,7 @@ std::string contact_column(const SceneContact& contact) { return column_of(whole
 /// The work and wear of friction at each contact.
 void append_works(Summary& row, const FrictionShares& shares, const std::vector<SceneContact>& contacts,
                   double frequency) {
-  for (const ContactWork& one : shares.each) {
+  for (const ContactFriction& one : shares.each) {
     const std::string column =
         contact_column(*std::ranges::find(contacts, one.number, &SceneContact::number));
     row.emplace_back(column + "_work_J", one.work);
@@ -141,10 +141,8 @@ void append_curve(Table& table, const CurveRows& rows) {
 
 Table sweep_table(const solvers::FrequencySweep& curve) {
   const std::string place = quantities::frequency.column();
-  Table table(columns_of(point_row({}, curve.parameter, place)));
-  for (const SweepPoint& point : curve.points)
-    table.append_row(cells_of(point_row(point, curve.parameter, place)));
-  return table;
+  return tabulated(curve.points,
+                   [&](const SweepPoint& point) { return point_row(point, curve.parameter, place); });
 }
 
 Table sweep_table(const Sweep& sweep, bool with_branches, const std::vector<SceneContact>& contacts) {

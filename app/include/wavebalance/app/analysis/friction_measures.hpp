@@ -12,18 +12,25 @@
 
 namespace wavebalance::app {
 
-/// States and energy of a contact with friction over a period.
-struct FrictionMeasures {
-  int row = 0;     ///< the first of its directions of contact, from 0
-  int number = 1;  ///< SceneContact::number
-  contact::CoulombLaw law;
-  std::string name = {};                                                  ///< whole_name_of(), "contact 2"
-  std::vector<contact::FrictionState> state = {};                         ///< at the instants of the motion
-  double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
+/// Friction at one contact over a period.
+struct ContactFriction {
+  int number = 1;                                                         ///< SceneContact::number
   double work = 0.0;                                                      ///< J, dissipated in the period
+  double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
+  double wear = 0.0;   ///< m^3 per period [Archard]; 0 without a coefficient and where it sticks
+  bool wears = false;  ///< whether its law has a coefficient of wear
+};
+
+/// The same of an exact motion.
+ContactFriction friction_at(const SceneContact& contact, const solvers::FrictionCycle& cycle);
+
+/// With its states along the motion.
+struct FrictionMeasures : ContactFriction {
+  int row = 0;  ///< the first of its directions of contact, from 0
+  contact::CoulombLaw law;
+  std::string name = {};                           ///< whole_name_of(), "contact 2"
+  std::vector<contact::FrictionState> state = {};  ///< at the instants of the motion
   double slip = 0.0;               ///< m, the distance that the slider moves over its surface in the period
-  double wear = 0.0;               ///< m^3 per period [Archard]; 0 without a coefficient and where it sticks
-  bool wears = false;              ///< whether its law has a coefficient of wear
   bool history_dependent = false;  ///< whether it neither slips nor opens, so that the past decides its force
 };
 
@@ -35,33 +42,15 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 /// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
-/// Friction at one contact over a period.
-struct ContactWork {
-  int number = 1;      ///< SceneContact::number
-  double work = 0.0;   ///< J
-  double wear = 0.0;   ///< m^3 [Archard]
-  bool wears = false;  ///< whether its law has a coefficient of wear
-};
-
 /// What all contacts with friction do in a period: their work, and the means of their shares of it.
 struct FrictionShares {
-  double work = 0.0;                           ///< J
-  double stick = 0.0, slip = 0.0, open = 0.0;  ///< of the period
-  std::vector<ContactWork> each = {};          ///< along curves
+  FrictionShares() = default;
+  explicit FrictionShares(std::vector<ContactFriction> contacts);
 
-  /// One contact of so many.
-  void add(const FrictionShares& contact, std::size_t count) {
-    work += contact.work;
-    stick += contact.stick / double(count);
-    slip += contact.slip / double(count);
-    open += contact.open / double(count);
-  }
+  double work = 0.0;                                                      ///< J
+  double stick_fraction = 0.0, slip_fraction = 0.0, open_fraction = 0.0;  ///< of the period
+  std::vector<ContactFriction> each = {};
 };
-
-FrictionShares friction_shares(const std::vector<FrictionMeasures>& contacts);
-
-/// Normal force times slip distance of a contact, J.
-ContactWork contact_work(const SceneContact& contact, double work, double normal_work);
 
 /// As columns of a table.
 void append_shares(Summary& row, const FrictionShares& shares);

@@ -77,6 +77,13 @@ std::vector<std::string> columns_of(const Summary& row);
 std::vector<Cell> cells_of(const Summary& row);
 /// Rows with the same names; without columns if there are none.
 Table table_of(const std::vector<Summary>& rows);
+/// The rows of items, one for each; without items the columns are those of one without values.
+template <class Items, class RowOf>
+Table tabulated(const Items& items, RowOf row_of) {
+  std::vector<Summary> rows;
+  for (const auto& item : items) rows.push_back(row_of(item));
+  return rows.empty() ? Table(columns_of(row_of(typename Items::value_type{}))) : table_of(rows);
+}
 /// A scalar as a cell.
 Cell cell_of(const SummaryValue& value);
 
