@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "support/bar_scene.hpp"
-#include "support/curve_record.hpp"
+#include "support/scene_texts.hpp"
+#include "support/stop_scene.hpp"
+#include "wavebalance/app/results/record.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -19,9 +21,13 @@ std::string_view unit_in(std::string_view name) {
 }
 
 TEST(Quantities, EntriesOfRecordsCarryTheUnitThatTheirNamesSay) {
-  const std::vector<Record> records{analyse(scene_of()), analyse(stop_with({"analysis.stability=true"})),
-                                    analyse(load_with({})),
-                                    analyse(scene_of({"analysis.type=time_stepping"}))};
+  const std::string over_amplitude =
+      with(stop_scene, "frequency_sweep\"\nfrequency_from = 0.13\nfrequency_to = 0.25",
+           "amplitude_sweep\"\namplitude_from = 0.05\namplitude_to = 0.5");
+  const std::vector<Record> records{
+      analyse(scene_of()),
+      analyse(parse_scene(stop_scene, "stop.toml", std::vector<std::string>{"analysis.stability=true"})),
+      analyse(parse_scene(over_amplitude, "load.toml")), analyse(scene_of({"analysis.type=time_stepping"}))};
   for (const Record& record : records)
     for (const Entry& one : record.summary) {
       if (!one.scalar()) continue;

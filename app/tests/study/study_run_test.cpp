@@ -17,13 +17,14 @@ namespace {
 using namespace wavebalance::app;
 using namespace std::chrono_literals;
 
-/// The bar at `count` frequencies, with few functions.
+/// The bar at `count` frequencies, with few elements and functions.
 struct BarStudy {
   explicit BarStudy(int count)
-      : study(parse_study("set = [\"time.functions=15\", \"time.quadrature_points=64\"]\n"
-                          "[[parameters]]\nkey = \"forcing.frequency\"\nfrom = 120\nto = 160\ncount = " +
-                              std::to_string(count) + "\n",
-                          "study.toml", bar_scene)),
+      : study(parse_study(
+            "set = [\"structure.elements=4\", \"time.functions=15\", \"time.quadrature_points=64\", \"analysis.phases=false\"]\n"
+            "[[parameters]]\nkey = \"forcing.frequency\"\nfrom = 120\nto = 160\ncount = " +
+                std::to_string(count) + "\n",
+            "study.toml", bar_scene)),
         runs(study) {}
   Study study;
   StudyRuns runs;

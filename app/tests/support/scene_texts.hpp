@@ -28,30 +28,6 @@ quadrature_points = 256         # 21
 type = "forced_response"        # 23
 )";
 
-/// A nonlinear mode, of which every test changes one thing.
-inline const std::string rod_scene = R"([structure]
-type = "bar"                    # 2
-youngs_modulus = 2.1e11         # 3
-density = 7800.0                # 4
-area = 9e-4                     # 5
-length = 1.0                    # 6
-elements = 20                   # 7
-lumped_mass_fraction = 0.5      # 8
-[contact]
-law = "rigid"                   # 10
-gap = 1e-3                      # 11
-[analysis]
-type = "nonlinear_mode"         # 13
-points = 200                    # 14
-)";
-
-/// bar_scene with a tolerance in place of pair, functions and points.
-inline std::string tolerance_scene(const std::string& tolerance) {
-  const auto begin = bar_scene.find("trial = ");
-  std::string text = bar_scene;
-  return text.replace(begin, text.find("[analysis]") - begin, "tolerance = " + tolerance + "\n");
-}
-
 /// `text` with its one occurrence of `from` replaced.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
   const auto place = text.find(from);

@@ -220,45 +220,5 @@ TEST(VelocityLaw, TheWorkOfTheLoadIsWhatStructureAndContactDissipate) {
   EXPECT_NEAR(work, lost + in_contact, 1e-9 * work);
 }
 
-TEST(VelocityLaw, ASweepFollowsTheResonanceAcrossTheFirstContact) {
-  const LinearStructure oscillator = testing::unit_oscillator(0.1, 0.1);
-  const contact::HuntCrossleyLaw law(10.0, 1.5, 1.0, 0.3);
-  CondensedProblem problem = testing::fourier_problem(oscillator, 31, 128);
-  const FrequencySweep sweep = testing::complete_sweep(problem, law, testing::between(0.1, 0.3));
-  ContactSystem system(problem, law);
-  double peak = 0.0;
-  for (const SweepPoint& point : sweep.points) {
-    problem.set_frequency(point.frequency);
-    EXPECT_LE(system.evaluate(point.unknown), 1e-9) << point.frequency;
-    peak = std::max(peak, point.max_displacement);
-  }
-  EXPECT_GT(peak, 0.45);  // in contact
-  EXPECT_LT(peak, 1.0);   // which holds it: 1 without
-}
-
-// Two masses that meet each other and a wall: two contacts, one with a law of the displacement alone.
-TEST(VelocityLaw, ActsBesideLawsOfTheDisplacement) {
-  LinearStructure masses;
-  masses.mass = Eigen::Matrix2d::Identity().sparseView();
-  masses.stiffness = Eigen::Matrix2d{{2.0, -1.0}, {-1.0, 2.0}}.sparseView();
-  masses.damping = 0.1 * masses.stiffness;
-  masses.load = Eigen::Vector2d(0.0, 0.6);
-  masses.contact_directions.resize(2, 2);
-  masses.contact_directions.insert(0, 0) = 1.0;
-  masses.contact_directions.insert(0, 1) = -1.0;
-  masses.contact_directions.insert(1, 1) = 1.0;
-  const ContactLaws laws(std::vector<AnyContactLaw>{contact::HuntCrossleyLaw(8.0, 1.5, 1.0, 0.2),
-                                                    testing::LinearContact{10.0, 0.3}});
-  const double frequency = 0.17;
-  CondensedProblem problem = testing::fourier_problem(masses, 95, 512, frequency);
-  const PeriodicResponse response = testing::solved_response(problem, laws);
-  const TimeSteppingResult reference = testing::stepped_motion(masses, laws, frequency, 512);
-  EXPECT_GT(reference.contacts.force.row(0).maxCoeff(), 0.05);
-  EXPECT_GT(reference.contacts.force.row(1).maxCoeff(), 0.05);
-  const double size = reference.contacts.displacement.cwiseAbs().maxCoeff();
-  EXPECT_LE((by_contact(response.displacement, 2) - reference.contacts.displacement).cwiseAbs().maxCoeff(),
-            2e-3 * size);
-}
-
 }  // namespace
 }  // namespace wavebalance::solvers

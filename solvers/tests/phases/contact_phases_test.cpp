@@ -84,40 +84,23 @@ TEST(ContactPhases, HaveNoPanelsForLayersThatAreNotThere) {
 TEST(ContactPhases, OfRandomStructuresSatisfyTheirLawsAndAreNearTheBalance) {
   std::mt19937 generator(28);
   int found = 0, solved = 0;
-  for (int trial = 0; trial < 24; ++trial) {
+  for (int trial = 0; trial < 32; ++trial) {
     const RandomCase random(generator, 1 + trial % 4);
-    CondensedProblem problem = testing::fourier_problem(random.structure, 255, 1024, random.frequency);
-    const PeriodicResponse response = forced_response(problem, random.laws, {});
-    if (!response.converged()) continue;
-    ++solved;
-    const ResponsePhases phases = response_phases(problem, random.laws, response,
-                                                  ContactDynamics(random.structure), {.tolerance = 1e-10});
-    if (!phases.motion.converged()) continue;
-    ++found;
-    expect_motion(phases.motion, random.laws, 1e-6);
-    EXPECT_LT(phases.displacement_error, 2e-3);
-  }
-  EXPECT_GE(solved, 20);
-  EXPECT_GE(found, 0.95 * solved);
-}
-
-TEST(ContactPhases, OfForcesOfTheVelocitySatisfyTheirLaws) {
-  std::mt19937 generator(5);
-  int found = 0;
-  for (int trial = 0; trial < 8; ++trial) {
-    const RandomCase random(generator, 1 + trial % 3);
-    const ContactLaws laws = testing::with_dashpots(random, 0.1 / two_pi);
+    const bool damped = trial >= 24;  // forces of the velocity
+    const ContactLaws laws = damped ? testing::with_dashpots(random, 0.1 / two_pi) : ContactLaws(random.laws);
     CondensedProblem problem = testing::fourier_problem(random.structure, 255, 1024, random.frequency);
     const PeriodicResponse response = forced_response(problem, laws, {});
     if (!response.converged()) continue;
+    ++solved;
     const ResponsePhases phases =
         response_phases(problem, laws, response, ContactDynamics(random.structure), {.tolerance = 1e-10});
     if (!phases.motion.converged()) continue;
     ++found;
     expect_motion(phases.motion, laws, 1e-6);
-    EXPECT_LT(phases.displacement_error, 1e-2);
+    EXPECT_LT(phases.displacement_error, damped ? 1e-2 : 2e-3);
   }
-  EXPECT_GE(found, 7);
+  EXPECT_GE(solved, 27);
+  EXPECT_GE(found, 0.95 * solved);
 }
 
 TEST(ContactPhases, OfAMotionWithoutContactAreNone) {

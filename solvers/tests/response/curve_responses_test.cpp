@@ -48,39 +48,6 @@ double amplitude_of(const PeriodicResponse& response) {
   return response.displacement.norm() * std::sqrt(2.0 / double(response.displacement.size()));
 }
 
-TEST(CurveResponses, AreAllMotionsAtAFrequencyThatTheCurvePassesThreeTimes) {
-  CondensedProblem problem = duffing();
-  const FrequencySweep curve = traced(problem, testing::DuffingSpring{}, 0.05, 0.5);
-  ASSERT_EQ(curve.status, SweepStatus::reached_end);
-  for (const double frequency : {0.1, 0.26, 0.3, 0.42}) {
-    const std::vector<double> expected = amplitudes(frequency);
-    const auto found = responses_at(problem, testing::DuffingSpring{}, curve, frequency);
-    ASSERT_EQ(found.size(), expected.size()) << frequency;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_TRUE(found[i].converged());
-      EXPECT_EQ(found[i].frequency, frequency);
-      EXPECT_NEAR(amplitude_of(found[i]), expected[i], 1e-9 * expected[i]);
-    }
-  }
-  EXPECT_EQ(responses_at(problem, testing::DuffingSpring{}, curve, 0.3).size(), 3u);
-}
-
-// Over the load the curve of a frequency above resonance passes a load three times, too.
-TEST(CurveResponses, AreAllMotionsOfALoadThatTheCurvePassesThreeTimes) {
-  CondensedProblem problem = duffing();
-  constexpr double frequency = 0.3;
-  problem.set_frequency(frequency);
-  FrequencySweepOptions options = testing::between(0.1, 8.0);  // beyond the fold of the lower motions
-  options.keep_unknowns = true;
-  const FrequencySweep curve = amplitude_sweep(problem, testing::DuffingSpring{}, options);
-  ASSERT_EQ(curve.status, SweepStatus::reached_end);
-  const std::vector<double> expected = amplitudes(frequency);  // of the whole load
-  const auto found = responses_at(problem, testing::DuffingSpring{}, curve, 1.0);
-  ASSERT_EQ(found.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(amplitude_of(found[i]), expected[2 - i], 1e-9);
-  EXPECT_EQ(problem.frequency(), frequency);
-}
-
 // As results in another unit leave them.
 TEST(CurveResponses, AreThoseOfTheEndsAndOfPointsOfACurveThatWasRounded) {
   CondensedProblem problem = duffing();

@@ -124,25 +124,6 @@ TEST(FreeStructure, PressedAgainstAStopHasTheClosedFormForEveryPair) {
   EXPECT_LT((problem.displacement(response.force_on_held_structure) - response.displacement).norm(), 1e-9);
 }
 
-void expect_time_stepping(const LinearStructure& structure, const ContactLaws& laws, double omega,
-                          bool opens) {
-  CondensedProblem problem = problem_of(structure, omega, testing::fourier_pair(255, 2048));
-  const PeriodicResponse response = testing::solved_response(problem, laws);
-  EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
-  EXPECT_EQ(response.contact_force.minCoeff() == 0.0, opens);
-  const auto stepped = testing::stepped_motion(structure, laws, problem.frequency(), 2048);
-  const Eigen::VectorXd expected = stepped.contacts.displacement.transpose().reshaped();
-  EXPECT_LT((response.displacement - expected).norm(), 2e-3 * expected.norm());
-  const SettledMotion settled = settle(problem, laws);
-  EXPECT_EQ(settled.attractor_periods, 1);
-  const Eigen::VectorXd last = resample(settled.last.displacement, 2048, settled.start);
-  EXPECT_LT((last - expected).norm(), 1e-4 * expected.norm());
-}
-
-TEST(FreeStructure, ThatLeavesItsStopMovesAsTimeSteppingSays) {
-  expect_time_stepping(pressed_mass(0.8, 1.0, 2.0), AnyContactLaw(LinearContact{4.0, 0.2}), 1.1, true);
-}
-
 TEST(FreeStructure, KeepsAZeroMeanWhereNothingTouches) {
   const LinearStructure rod = free_rod(5, 1.0);
   CondensedProblem problem = problem_of(rod, 0.8, testing::fourier_pair(15, 64));

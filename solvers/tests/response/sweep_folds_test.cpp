@@ -6,6 +6,7 @@
 #include "support/small_problems.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"
+#include "wavebalance/contact/cubic_law.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -43,19 +44,31 @@ FrequencySweep duffing_sweep(double from, double to) {
   return frequency_sweep(problem, testing::DuffingSpring{}, options);
 }
 
+void expect_closed_form(const FrequencySweep& sweep, double cubic, double damping, double load) {
+  EXPECT_EQ(sweep.turning_points.size(), 2u);
+  for (const SweepPoint& point : sweep.points) {
+    const double a = std::sqrt(2.0) * point.rms_displacement, w = two_pi * point.frequency;
+    const double k = 1.0 + 0.75 * cubic * a * a - w * w;
+    EXPECT_NEAR(a * std::hypot(k, damping * w), load, 1e-8) << point.frequency;
+    EXPECT_NEAR(point.max_displacement, a, 1e-5 * a);  // 1024 points miss the top by less than (pi/1024)^2/2
+    EXPECT_FALSE(point.grazing);
+  }
+}
+
 TEST(FrequencySweep, PointsLieOnTheClosedFormOfTheDuffingCurve) {
   const FrequencySweep sweep = duffing_sweep(0.05, 0.5);
   ASSERT_EQ(sweep.status, SweepStatus::reached_end) << to_string(sweep.status);
   ASSERT_GT(sweep.points.size(), 30u);
-  for (const SweepPoint& point : sweep.points) {
-    const double a = std::sqrt(2.0) * point.rms_displacement, w = two_pi * point.frequency;
-    const double k = 1.0 + 0.75 * a * a - w * w;
-    EXPECT_NEAR(a * std::hypot(k, duffing_damping * w), duffing_load, 1e-8) << point.frequency;
-    EXPECT_NEAR(point.max_displacement, a, 1e-5 * a);  // 1024 points miss the top by less than (pi/1024)^2/2
-    EXPECT_FALSE(point.grazing);
-  }
+  expect_closed_form(sweep, 1.0, duffing_damping, duffing_load);
   EXPECT_EQ(sweep.points.front().frequency, 0.05);
   EXPECT_NEAR(sweep.points.back().frequency, 0.5, 1e-9);
+}
+
+TEST(FrequencySweep, PointsLieOnTheClosedFormOfASofteningDuffingCurve) {
+  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(0.04, 0.035), 3, 16);
+  for (const auto& [from, to] : {std::pair{0.08, 0.22}, std::pair{0.22, 0.08}})
+    expect_closed_form(testing::complete_sweep(problem, contact::CubicLaw(-0.2), testing::between(from, to)),
+                       -0.2, 0.04, 0.035);
 }
 
 TEST(FrequencySweep, FindsTheFoldsOfTheDuffingCurveInBothDirections) {
@@ -71,43 +84,6 @@ TEST(FrequencySweep, FindsTheFoldsOfTheDuffingCurveInBothDirections) {
     ASSERT_EQ(sweep.turning_points.size(), 2u);
     EXPECT_NEAR(sweep.turning_points[rising ? 0 : 1].frequency, upper, 1e-7);
     EXPECT_NEAR(sweep.turning_points[rising ? 1 : 0].frequency, lower, 1e-7);
-  }
-}
-
-// A linear stop at a gap, one harmonic and the mean, in the limit of many points: with u = a0 + A cos(x) in
-// contact for |x| < b, the mean and the first harmonic of the force are A k_c / pi (sin b - b cos b) and
-// A k_c / pi (b - sin b cos b), a0 = gap - A cos b, and balance gives A and the frequencies for each b.
-struct LinearStop : testing::LinearContact {
-  // Hz on the branch of the higher frequency; NaN where the load does not reach that far.
-  double frequency(double b, double load, double damping) const {
-    const double share = stiffness / std::numbers::pi;
-    const double amplitude = start / (std::cos(b) - share * (std::sin(b) - b * std::cos(b)));
-    const double k = 1.0 + share * (b - std::sin(b) * std::cos(b));
-    const double half = k - 0.5 * damping * damping, ratio = load / amplitude;
-    if (amplitude < 0.0) return std::nan("");
-    return std::sqrt(half + std::sqrt(half * half - k * k + ratio * ratio)) / two_pi;
-  }
-};
-
-TEST(FrequencySweep, FindsTheFoldsOfALinearStopInBothDirections) {
-  const LinearStop stop{{.stiffness = 2.0, .start = 1.0}};
-  const double load = 0.1, damping = 0.05;
-  double lower = 1.0, upper = 0.0;
-  for (double b = 0.0; b < std::numbers::pi; b += 1e-5) {
-    const double f = stop.frequency(b, load, damping);
-    if (std::isnan(f)) break;
-    upper = std::max(upper, f);
-    lower = std::min(lower, f);
-  }
-  EXPECT_LT(lower, stop.frequency(0.0, load, damping));  // the fold lies beyond grazing
-  CondensedProblem problem = testing::fourier_problem(testing::unit_oscillator(damping, load), 3, 512);
-  for (const bool rising : {true, false}) {
-    const FrequencySweep sweep =
-        testing::complete_sweep(problem, stop, testing::between(rising ? 0.1 : 0.3, rising ? 0.3 : 0.1));
-    ASSERT_GE(sweep.turning_points.size(), 2u);
-    const auto& [first, last] = std::pair{sweep.turning_points.front(), sweep.turning_points.back()};
-    EXPECT_NEAR((rising ? first : last).frequency, upper, 1e-5);  // 512 points find b to about (2 pi / 512)^2
-    EXPECT_NEAR((rising ? last : first).frequency, lower, 1e-5);
   }
 }
 

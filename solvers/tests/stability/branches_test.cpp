@@ -74,58 +74,6 @@ void expect_motions_of_the_period(const Branch& branch, const BranchProblems& pr
 const LinearStructure impacting_oscillator = testing::unit_oscillator(0.1, 0.8);
 const testing::LinearContact elastic_stop{10.0, 0.1};
 
-// Stable but where it is doubled, and between its folds.
-void expect_counts_of_doubled(const Branch& branch) {
-  ASSERT_EQ(branch.stability.points.size(), branch.curve.points.size());
-  const auto peak = std::max_element(branch.curve.points.begin(), branch.curve.points.end(),
-                                     [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
-  for (auto point = branch.curve.points.begin(); point != peak; ++point) {
-    const double omega = two_pi * point->frequency;
-    if (std::abs(omega - 2.36300) < 1e-3 || std::abs(omega - 2.44572) < 1e-3 || omega > 3.024) continue;
-    const bool doubled = omega > 2.36300 && omega < 2.44572;
-    EXPECT_EQ(branch.stability.points[std::size_t(point - branch.curve.points.begin())].unstable,
-              int{doubled})
-        << omega;
-  }
-}
-
-// Where the motion of one period is unstable, 2.2062 to 2.9737 rad/s. The branch turns back at 3.024
-// and 2.927 rad/s, and between 2.363 and 2.446 rad/s it is itself doubled.
-TEST(Branches, OfAnOscillatorLeaveAtOnePeriodDoublingAndArriveAtTheOther) {
-  const auto problems = problems_of(impacting_oscillator, 63, 512);
-  const TracedBranches traced =
-      trace_branches(problems, impacting_oscillator, elastic_stop, 2.1 / two_pi, 3.1 / two_pi, 4);
-  ASSERT_EQ(traced.branches.size(), 2u);
-  const Branch& doubled = traced.branches[0];
-  EXPECT_EQ(doubled.parent, 0);
-  EXPECT_EQ(doubled.periods, 2);
-  EXPECT_EQ(doubled.end, BranchEnd::special_point);
-  const auto at = [&](int index) { return traced.stability.special_points[std::size_t(index)]; };
-  EXPECT_EQ(at(doubled.end_point).type, SpecialPointType::period_doubling);
-  EXPECT_NEAR(two_pi * at(doubled.special_point).frequency, 2.206199894019, 1e-4);
-  EXPECT_NEAR(two_pi * at(doubled.end_point).frequency, 2.973736781998, 1e-4);
-  for (const int index : {doubled.special_point, doubled.end_point})
-    EXPECT_LE(std::abs(at(index).multiplier + 1.0), 1e-4);
-  EXPECT_EQ(doubled.curve.points.front().frequency, at(doubled.special_point).frequency);
-  EXPECT_EQ(doubled.curve.points.back().frequency, at(doubled.end_point).frequency);
-  const auto further = frequencies(doubled.stability, SpecialPointType::period_doubling, two_pi);
-  ASSERT_EQ(further.size(), 2u);
-  EXPECT_NEAR(further[0], 2.36300, 2e-4);
-  EXPECT_NEAR(further[1], 2.44572, 2e-4);
-  const auto folds = frequencies(doubled.stability, SpecialPointType::fold, two_pi);
-  ASSERT_EQ(folds.size(), 2u);
-  EXPECT_NEAR(folds[0], 3.02430, 2e-4);
-  EXPECT_NEAR(folds[1], 2.92686, 2e-4);
-  EXPECT_TRUE(frequencies(doubled.stability, SpecialPointType::branch, 1.0).empty());
-  expect_counts_of_doubled(doubled);
-  expect_motions_of_the_period(doubled, problems, elastic_stop);
-  const Branch& again = traced.branches[1];
-  EXPECT_EQ(again.parent, 1);
-  EXPECT_EQ(again.periods, 4);
-  EXPECT_EQ(again.end, BranchEnd::special_point);
-  EXPECT_EQ(again.end_point, again.special_point + 1);
-}
-
 // Subcritical at both ends: the motion of one period is stable between the doublings, that of two unstable.
 TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);

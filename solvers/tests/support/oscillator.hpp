@@ -9,13 +9,11 @@ namespace wavebalance::solvers::testing {
 
 /// m u'' + c u' + k u = F cos(2 pi f t), with its closed form.
 struct Oscillator {
-  double mass = 2.0;          ///< kg
-  double damping = 30.0;      ///< N s/m
-  double stiffness = 8e4;     ///< N/m
-  double load = 50.0;         ///< N
-  double frequency = 25.0;    ///< Hz
-  double displacement = 0.0;  ///< m, at t = 0
-  double velocity = 0.0;      ///< m/s, at t = 0
+  double mass = 2.0;        ///< kg
+  double damping = 30.0;    ///< N s/m
+  double stiffness = 8e4;   ///< N/m
+  double load = 50.0;       ///< N
+  double frequency = 25.0;  ///< Hz
 
   LinearStructure structure() const {
     LinearStructure one;
@@ -34,19 +32,6 @@ struct Oscillator {
   }
   double steady_displacement(double t) const {
     return std::real(amplitude() * std::polar(1.0, 2.0 * std::numbers::pi * frequency * t));
-  }
-  double steady_velocity(double t) const {
-    const double omega = 2.0 * std::numbers::pi * frequency;
-    return -omega * std::imag(amplitude() * std::polar(1.0, omega * t));
-  }
-  /// From the initial state, the damping below the critical one.
-  double transient_displacement(double t) const {
-    const double decay = 0.5 * damping / mass;
-    const double natural = std::sqrt(stiffness / mass - decay * decay);
-    const double a = displacement - steady_displacement(0.0);
-    const double b = (velocity - steady_velocity(0.0) + decay * a) / natural;
-    return steady_displacement(t) +
-           std::exp(-decay * t) * (a * std::cos(natural * t) + b * std::sin(natural * t));
   }
 };
 
