@@ -84,8 +84,9 @@ struct CoexistingMotions {
 /// static deflection, of half sides twice the largest displacements and velocities of the settled motion,
 /// of that without contact, enlarged until it reaches a gap, and of the resonant vibrations that the laws
 /// move to this frequency. Motions are solved for by contact phases, so that two are the same where their
-/// displacements agree to 1e-6, also by whole periods of the load later. One that contact phases do not solve
-/// for is told by its integration.
+/// displacements agree to 1e-6, also by whole periods of the load later. A start whose integration comes to a
+/// stable one of them within 1e-4 of what vibrates counts there. One that contact phases do not solve for is
+/// told by its integration.
 ///
 /// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
 /// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that settle to different motions
