@@ -9,7 +9,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// Of a law whose force is proportional to the displacement beyond its gap.
+// The slope of a law whose force is proportional to the displacement beyond its gap; nothing for another law.
 std::optional<double> spring_beyond_gap(const AnyContactLaw& law) {
   constexpr double rounding = 1e-9;
   const bool of_displacement = !law.acts_over_period() && !law.depends_on_velocity() && law.rows() == 1;
@@ -25,7 +25,7 @@ std::optional<double> spring_beyond_gap(const AnyContactLaw& law) {
   return stiffness;
 }
 
-// Complex weights of the same rows.
+// The weights by which complex states make what `rows` make of real ones, RealStates::row_of().
 Eigen::MatrixXcd weights_of(const Eigen::MatrixXd& rows, const RealStates& states, Index count) {
   Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(rows.rows(), count);
   for (Index l = 0; l < count; ++l) {

@@ -23,7 +23,7 @@ class StopMotions {
   static std::optional<StopMotions> of(const CondensedProblem& problem, const ContactLaws& laws,
                                        const ContactDynamics& dynamics, const StabilityOptions& options);
 
-  /// Whether the harmonics of the options do not do, of a damped structure.
+  /// Whether harmonics do not represent perturbations, harmonics_resolve(), and the structure is damped.
   bool are_needed(const PeriodicStiffness& stiffness, double frequency,
                   const StabilityOptions& options) const;
 
