@@ -16,6 +16,7 @@ double quiet_instant(const std::vector<ContactInterval>& intervals);
 struct Truncation {
   int harmonics = 0;        ///< H; 0 for none
   Eigen::VectorXd at_once;  ///< C, m/N; empty for zero
+  double omitted = 0.0;     ///< StabilityOptions::max_omitted without these
 };
 
 /// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative. Where
@@ -109,7 +110,7 @@ std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& d
                                                         const PeriodicStiffness& stiffness, double frequency,
                                                         int harmonics, int most, double max_omitted);
 
-/// Whether such a determinant takes these harmonics, without compliances at once.
+/// Whether such a determinant takes these harmonics, and compliances at once for little beside them.
 bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
                        int harmonics, double max_omitted);
 
