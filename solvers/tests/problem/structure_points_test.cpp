@@ -130,9 +130,7 @@ TEST(StructurePoints, BeyondTheLimitsAreNotSought) {
   EXPECT_GT(left, 0);
   const StructurePoints few = swept.points(curve, stability, {.max_operations = 1e3});
   EXPECT_TRUE(few.events.empty());
-  for (std::size_t i = 0; i < few.of_balance.size(); ++i)
-    EXPECT_EQ(few.of_balance[i].status,
-              stability.special_points[i].type == Type::grazing ? Status::not_sought : Status::not_known);
+  for (const NearStructurePoint& near : few.of_balance) EXPECT_EQ(near.status, Status::not_known);
 }
 
 TEST(StructurePoints, StopWhereTheObserverSaysSo) {
