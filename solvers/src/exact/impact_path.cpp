@@ -84,16 +84,6 @@ ImpactPoint impact_point(Eigen::VectorXd unknowns, double value) {
 ImpactPath::ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
     : CurveCorrector(ImpactCurveEquations(family, scales, std::move(contacts))), scales_(scales) {}
 
-Eigen::VectorXd ImpactPath::unknowns_of(const std::vector<Impact>& impacts) const {
-  const auto count = Index(impacts.size());
-  Eigen::VectorXd unknowns(2 * count);
-  for (Index i = 0; i < count; ++i) {
-    unknowns[i] = impacts[static_cast<std::size_t>(i)].time;
-    unknowns[count + i] = impacts[static_cast<std::size_t>(i)].impulse / scales_.impulse;
-  }
-  return unknowns;
-}
-
 Eigen::VectorXd ImpactPath::lengths(const Eigen::VectorXd& unknowns) const {
   Eigen::VectorXd result = unknowns;
   result.head(curve().impacts()) /= instant_scale;

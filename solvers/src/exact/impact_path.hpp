@@ -73,7 +73,9 @@ class ImpactPath : private CurveCorrector<ImpactCurveEquations> {
 
   const std::vector<int>& contacts() const { return curve().contacts(); }
   /// The unknowns of impacts in ascending order.
-  Eigen::VectorXd unknowns_of(const std::vector<Impact>& impacts) const;
+  Eigen::VectorXd unknowns_of(const std::vector<Impact>& impacts) const {
+    return values_of(impacts, scales_.impulse);
+  }
   /// Unknowns by their arc lengths.
   Eigen::VectorXd lengths(const Eigen::VectorXd& unknowns) const;
   using CurveCorrector::chord;

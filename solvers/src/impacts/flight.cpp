@@ -110,7 +110,7 @@ Flight::Peak Flight::peak_after(const Touch& touch) const {
   const double step = (length_ - touch.time) / samples;
   const double low = std::max(touch.time, best.time - step), high = std::min(length_, best.time + step);
   const auto velocity = [&](double time) { return motion_at(time).velocity[touch.contact]; };
-  const auto top = root(velocity, {low, velocity(low)}, {high, velocity(high)}, 1e-15);
+  const auto top = root(velocity, {low, velocity(low)}, {high, velocity(high)}, 1e-12);
   if (!top) return best;
   const double height = motion_at(*top).displacement[touch.contact] - gap;
   return height > best.height ? Peak{height, *top} : best;

@@ -21,16 +21,13 @@ Eigen::VectorXcd pressed(const ImpactModel& model, const Eigen::VectorXd& shift)
 
 }  // namespace
 
-ImpactFlow::ImpactFlow(const ImpactModel& model)
-    : model_(model), state_(Eigen::VectorXcd::Zero(model.poles())) {}
+ImpactFlow::ImpactFlow(const ImpactModel& model) : model_(model) {}
 
-void ImpactFlow::start(const Eigen::VectorXcd& state, double time) {
-  state_ = state;
-  time_ = time;
-}
-
-void ImpactFlow::start_clear() {
+void ImpactFlow::start(const Eigen::VectorXcd& state) {
   constexpr int instants = 64;
+  time_ = 0.0;
+  state_ = state;
+  if (state.size() > 0) return;
   double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd above;
   for (int k = 0; k < instants; ++k) {
@@ -40,7 +37,7 @@ void ImpactFlow::start_clear() {
     above = now;
     time_ = double(k) / instants;
   }
-  state_.setZero();
+  state_.setZero(model_.poles());
   if (least > 0.0) state_ = pressed(model_, above.cwiseMax(0.0) * (1.0 + 1e-6));
 }
 

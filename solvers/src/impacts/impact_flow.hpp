@@ -13,11 +13,9 @@ class ImpactFlow {
  public:
   explicit ImpactFlow(const ImpactModel& model);
 
-  /// Begins where the motion without contact is farthest from the obstacles, pressed away from those it
-  /// passes.
-  void start_clear();
-  /// Begins in a state at a time.
-  void start(const Eigen::VectorXcd& state, double time);
+  /// Begins in a state at time 0; without one where the motion without contact is farthest from the
+  /// obstacles, pressed away from those it passes.
+  void start(const Eigen::VectorXcd& state);
 
   struct Event {
     int contact = 0;

@@ -156,12 +156,7 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
   ImpactUnknowns unknowns;
   for (const ImpactGuess& guess : sorted) unknowns.contacts.push_back(guess.contact);
   unknowns.impulse_scale = impulse_scale_of(model);
-  const auto count = Index(sorted.size());
-  unknowns.values.resize(2 * count);
-  for (Index i = 0; i < count; ++i) {
-    unknowns.values[i] = sorted[static_cast<std::size_t>(i)].time;
-    unknowns.values[count + i] = sorted[static_cast<std::size_t>(i)].impulse / unknowns.impulse_scale;
-  }
+  unknowns.values = values_of(sorted, unknowns.impulse_scale);
   return unknowns;
 }
 
@@ -204,15 +199,11 @@ ImpactSolution solution_of(std::shared_ptr<const ImpactModel> model, const Impac
     check_flights(found);
   // The first impact of the period is the first of the list.
   for (Impact& impact : found.impacts) impact.time = within_period(impact.time);
-  std::vector<std::size_t> order(found.impacts.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return found.impacts[i].time; });
-  const std::vector<Impact> impacts = found.impacts;
-  const Eigen::MatrixXcd states = found.states;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    found.impacts[i] = impacts[order[i]];
-    found.states.col(Index(i)) = states.col(Index(order[i]));
-  }
+  std::vector<Index> order(found.impacts.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, {}, [&](Index i) { return found.impacts[std::size_t(i)].time; });
+  found.states = found.states(Eigen::all, order).eval();
+  std::ranges::stable_sort(found.impacts, {}, &Impact::time);
   return found;
 }
 

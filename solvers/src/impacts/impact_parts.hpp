@@ -57,6 +57,18 @@ struct ImpactUnknowns {
   double impulse_scale = 1.0;  ///< N s
 };
 
+/// The values of impacts with a time and an impulse.
+template <class SomeImpact>
+Eigen::VectorXd values_of(const std::vector<SomeImpact>& impacts, double impulse_scale) {
+  const auto count = Eigen::Index(impacts.size());
+  Eigen::VectorXd values(2 * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    values[i] = impacts[std::size_t(i)].time;
+    values[count + i] = impacts[std::size_t(i)].impulse / impulse_scale;
+  }
+  return values;
+}
+
 /// The states of all poles right after each impact, poles x impacts, which ascend within a period.
 Eigen::MatrixXcd states_after(const ImpactModel& model, const std::vector<Impact>& impacts);
 

@@ -28,10 +28,7 @@ ImpactSearch::ImpactSearch(const PhasesProblem& problem, const ImpactResponseOpt
       tried_(static_cast<std::size_t>(options.longest), std::numeric_limits<double>::infinity()) {}
 
 ImpactResponse ImpactSearch::run() {
-  if (options_.start.size() == 0)
-    flow_.start_clear();
-  else
-    flow_.start(options_.start, 0.0);
+  flow_.start(options_.start);
   states_.push_front(flow_.state());
   for (period_ = 1; period_ <= options_.max_periods; ++period_) {
     if (!goes_on(options_.observer, progress())) return ended(PhasesStatus::cancelled);
@@ -118,10 +115,7 @@ ImpactResponse ImpactSearch::resting(PhasesStatus status) const {
   stepping.longest = options_.longest;
   stepping.observer = options_.observer;
   ImpactFlow clear(model_);
-  if (options_.start.size() == 0)
-    clear.start_clear();
-  else
-    clear.start(options_.start, 0.0);
+  clear.start(options_.start);
   SettledExact settled = settled_motion(problem_, stepping, {.observer = options_.observer},
                                         PoleStart{clear.time(), clear.state()});
   ImpactResponse response = none(status);
