@@ -118,17 +118,10 @@ std::vector<Impact> impacts_of(const ContactFlow& flow, double begin) {
 
 namespace {
 
-int boundary_near(const CellGrid& grid, double time) {
-  const auto away = [&](double boundary) { return std::abs(boundary - time - std::round(boundary - time)); };
-  const auto nearest = std::min_element(grid.boundaries.begin(), grid.boundaries.end(),
-                                        [&](double a, double b) { return away(a) < away(b); });
-  return int(nearest - grid.boundaries.begin());
-}
-
 // Each impact is where two panels meet.
 void set_impulses(CellGrid& grid, const std::vector<Impact>& impacts, double frequency) {
   for (const Impact& one : impacts)
-    grid.impulses.push_back({one.contact, boundary_near(grid, one.time), one.impulse * frequency});
+    grid.impulses.push_back({one.contact, grid.boundary_near(one.time), one.impulse * frequency});
 }
 
 PanelForces forces_of(const CellGrid& grid, const LegendreNodes& nodes,
@@ -167,7 +160,7 @@ PhaseMotion motion_of(const PhasesProblem& problem, const ContactFlow& flow, con
   set_impulses(grid, motion.impacts, problem.frequency);
   const LegendreNodes nodes(panel_nodes);
   PhaseMotion::Parts parts{PhaseModel(problem, 1.0), {}, nodes, {}, {}};
-  grid.begin = {boundary_near(grid, begin),
+  grid.begin = {grid.boundary_near(begin),
                 parts.model.response.states(states_by_pole(problem.dynamics, start.state))};
   parts.iterate.forces = forces_of(grid, nodes, values);
   parts.start = start;

@@ -209,19 +209,6 @@ std::vector<double> boundaries_among(std::vector<double> times) {
   return times;
 }
 
-int boundary_near(const std::vector<double>& boundaries, double time) {
-  const auto count = static_cast<int>(boundaries.size());
-  const double within = time - std::floor(time);
-  const auto above =
-      static_cast<int>(std::lower_bound(boundaries.begin(), boundaries.end(), within) - boundaries.begin());
-  const int after = above == count ? 0 : above, before = above == 0 ? count - 1 : above - 1;
-  const auto distance = [&](int j) {
-    const double d = boundaries[static_cast<std::size_t>(j)] - within;
-    return std::abs(d - std::round(d));
-  };
-  return distance(before) < distance(after) ? before : after;
-}
-
 }  // namespace
 
 double Layout::begin(const Phase& phase) const {
@@ -244,12 +231,12 @@ CellGrid Layout::grid() const {
   for (std::size_t p = 0; p < phases.size(); ++p) {
     const Phase& phase = phases[p];
     double time = begin(phase);
-    int cell = boundary_near(grid.boundaries, time);
-    const int last = boundary_near(grid.boundaries, end(phase));
+    int cell = grid.boundary_near(time);
+    const int last = grid.boundary_near(end(phase));
     if (cell == last && end(phase) - time < 0.5) continue;  // without length
     std::vector<int> own_cuts{0};
     for (const double cut : phase.cuts)
-      own_cuts.push_back(boundary_near(grid.boundaries, begin(phase) + cut * (end(phase) - begin(phase))));
+      own_cuts.push_back(grid.boundary_near(begin(phase) + cut * (end(phase) - begin(phase))));
     bool meets = true;  // the panel before
     do {
       const double length = grid.length(cell);
@@ -270,8 +257,7 @@ CellGrid Layout::grid() const {
                    std::any_of(phases.begin(), phases.end(), [&](const Phase&p) { return p.end == number; }),
                begins = std::any_of(phases.begin(), phases.end(),
                                     [&](const Phase&p) { return p.begin == number; });
-    grid.marks.push_back(
-        {passages[i].contact, boundary_near(grid.boundaries, passages[i].time), ends, begins});
+    grid.marks.push_back({passages[i].contact, grid.boundary_near(passages[i].time), ends, begins});
   }
   return grid;
 }

@@ -15,6 +15,18 @@ double CellGrid::length(int cell) const {
   return cell + 1 == cells() ? boundaries[0] + 1.0 - boundaries[j] : boundaries[j + 1] - boundaries[j];
 }
 
+int CellGrid::boundary_near(double time) const {
+  const double within = time - std::floor(time);
+  const auto above =
+      static_cast<int>(std::lower_bound(boundaries.begin(), boundaries.end(), within) - boundaries.begin());
+  const int after = above == cells() ? 0 : above, before = above == 0 ? cells() - 1 : above - 1;
+  const auto distance = [&](int j) {
+    const double d = boundaries[static_cast<std::size_t>(j)] - within;
+    return std::abs(d - std::round(d));
+  };
+  return distance(before) < distance(after) ? before : after;
+}
+
 PoleResponse::PoleResponse(const ContactDynamics& dynamics, double period)
     : order_(dynamics.poles().size()), period_(period), constant_(dynamics.constant()) {
   const std::vector<ContactPole>& poles = dynamics.poles();

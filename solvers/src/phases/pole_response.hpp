@@ -52,6 +52,8 @@ struct CellGrid {
 
   int cells() const { return static_cast<int>(boundaries.size()); }
   double length(int cell) const;
+  /// The boundary nearest to a time in periods.
+  int boundary_near(double time) const;
   int next(int cell) const { return cell + 1 == cells() ? 0 : cell + 1; }
   int before(int cell) const { return cell == 0 ? cells() - 1 : cell - 1; }
 };
