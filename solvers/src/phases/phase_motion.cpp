@@ -99,8 +99,6 @@ double PhaseMotion::energy_lost() const {
   return sum;
 }
 
-bool PhaseMotion::depends_on_velocity() const { return parts != nullptr && parts->model.velocity; }
-
 Eigen::VectorXcd PhaseMotion::multipliers(int max_states) const {
   if (parts->multipliers) return parts->multipliers();
   Eigen::VectorXcd values = parts->model.response.free_multipliers();
@@ -122,17 +120,6 @@ int PhaseMotion::count_unstable(int max_evaluations) const {
   const auto map = map_of(*parts);
   return map && map->unknowns_by.allFinite() ? detail::count_unstable(*map, max_evaluations) : -1;
 }
-
-bool PhaseMotion::is_rigid() const {
-  return parts != nullptr && std::any_of(parts->model.laws.begin(), parts->model.laws.end(),
-                                         [](const detail::LawPieces& law) { return law.rigid(); });
-}
-
-double PhaseMotion::tangent(int contact, double time) const {
-  return parts->tangent.at(contact, time) + parts->model.holding;
-}
-
-double PhaseMotion::damping(int contact, double time) const { return parts->damping.at(contact, time); }
 
 namespace detail {
 

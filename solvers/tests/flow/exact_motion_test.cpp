@@ -5,6 +5,7 @@
 #include "support/friction_motions.hpp"
 #include "support/friction_table.hpp"
 #include "support/phase_cases.hpp"
+#include "support/phase_stiffness.hpp"
 #include "testing.hpp"
 
 namespace wavebalance::solvers {

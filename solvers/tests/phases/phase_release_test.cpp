@@ -1,4 +1,5 @@
 #include "support/phase_cases.hpp"
+#include "support/phase_stiffness.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"

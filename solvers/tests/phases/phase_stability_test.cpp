@@ -1,6 +1,7 @@
 #include "linalg/dense.hpp"
 #include "phases/phase_count.hpp"
 #include "support/phase_cases.hpp"
+#include "support/phase_stiffness.hpp"
 #include "support/rigid_law.hpp"
 #include "testing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"

@@ -2,6 +2,7 @@
 #include "phases/phase_refinement.hpp"
 #include "phases/pole_response.hpp"
 #include "support/phase_cases.hpp"
+#include "support/phase_stiffness.hpp"
 #include "support/rigid_law.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"

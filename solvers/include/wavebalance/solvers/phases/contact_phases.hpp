@@ -122,10 +122,6 @@ class PhaseMotion {
   double frequency() const;
   /// J per period, of all impacts.
   double energy_lost() const;
-  /// Whether a force depends on the velocity.
-  bool depends_on_velocity() const;
-  /// Whether a law is rigid, so that it has no slopes.
-  bool is_rigid() const;
   /// C x K displacements (m) and velocities (m/s) of the contacts at K times in periods. O(K panels poles).
   Eigen::MatrixXd displacement(const Eigen::VectorXd& times) const;
   Eigen::MatrixXd velocity(const Eigen::VectorXd& times) const;
@@ -137,12 +133,6 @@ class PhaseMotion {
   /// springs ContactDynamics::holding() at all contacts, with which it is held. Throws std::invalid_argument
   /// without a motion and for a count below 1. O(panels nodes count).
   Eigen::MatrixXcd force_harmonics(int count) const;
-
-  /// The slopes of the law of a contact along the motion, by displacement (N/m) and by velocity (N s/m), at a
-  /// time within one of its phases: the limits from inside at its ends, zero outside all phases, and of
-  /// motions of flow_motion(), which keep none. O(panels + nodes).
-  double tangent(int contact, double time) const;
-  double damping(int contact, double time) const;
 
   /// The Floquet multipliers of the motion, by falling modulus; those below rounding are left out.
   /// Perturbations satisfy the linearized equations, on panels cut to what they need. Rigid contact has them,

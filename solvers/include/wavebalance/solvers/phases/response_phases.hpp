@@ -2,7 +2,6 @@
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
-#include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
 namespace wavebalance::solvers {
 
@@ -34,10 +33,5 @@ ResponsePhases response_phases(const CondensedProblem& problem, const ContactLaw
 ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicResponse& response,
                                const PhasesProblem& phases, const ContactPhasesOptions& options = {},
                                PhaseFinder find = contact_phases);
-
-/// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
-/// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not
-/// converged, and unsupported_law for one of flow_motion(), which has its multipliers alone.
-PeriodicStiffness contact_stiffness(const PhaseMotion& motion);
 
 }  // namespace wavebalance::solvers
