@@ -32,13 +32,6 @@ RIGID = {"law": 'law = "rigid"\nrestitution = 0.8', "side": 'side = "both"', "ex
 TIME = "[time]\ntrial = 'fourier'\nweight = 'fourier'\nfunctions = 127\nquadrature_points = 2048\n"
 
 
-def changes_of_count(record):
-    """The neighbours between which the number of unstable multipliers changes, as pairs of frequencies."""
-    with open(record.folder / "sweep.csv") as file:
-        rows = [(float(row["frequency_Hz"]), row["unstable"]) for row in csv.DictReader(file)]
-    return [(a[0], b[0]) for a, b in zip(rows, rows[1:]) if a[1] != b[1] and a[1] and b[1]]
-
-
 @pytest.mark.parametrize("start", [0.05, 0.051])
 def test_every_change_of_stability_of_an_exact_curve_has_its_point(run, matrix, start):
     # A mass between two equal elastic stops: pitchforks of the symmetric motion at w = 0.43098, 0.78457, 0.89242.

@@ -2,23 +2,17 @@
 
 import numpy as np
 import pytest
-from overhung_disk import DAMPING, FILES, MASS, ROTOR, STIFFNESS, STOP, UNBALANCE, plane, whirl
+from overhung_disk import DAMPING, MASS, ROTOR, STIFFNESS, STOP, UNBALANCE, plane, whirl
 from structure_scenes import modal_damping, refused
 
 import wavebalance as wb
+
+pytestmark = pytest.mark.usefixtures("rotor_files")
 
 SWEEP = {"analysis.type": "frequency_sweep", "analysis.frequency_from": 30.0, "analysis.frequency_to": 60.0}
 STIFFENED = {"structure.spin_stiffness": "s.mtx"}
 PLAIN = {"analysis.stability": False, "analysis.phases": False}
 BASES = ["time.trial", "time.weight", "time.functions"]
-
-
-@pytest.fixture(autouse=True)
-def matrices(matrix, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    for name, rows in FILES:
-        matrix(f"{name}.mtx", rows.tolist())
-    return matrix
 
 
 def solved(overrides=None, unset=(), scene=ROTOR, **how):
@@ -81,7 +75,7 @@ HARD = {**STOP, "contact.gap": 2e-3}
 
 
 @pytest.fixture
-def special_points(matrices):
+def special_points(rotor_files):
     """Frequencies of the special points of an exact curve that bends, by their type."""
     points = solved({**SWEEP, **HARD, "analysis.exact": True}).summary["special_points"]
     return {kind: points["frequency_Hz"][np.array(points["type"]) == kind] for kind in set(points["type"])}

@@ -2,17 +2,12 @@
 
 import numpy as np
 import pytest
-from overhung_disk import FILES, ROTOR, STOP, UNBALANCE, whirl
+from overhung_disk import ROTOR, STOP, UNBALANCE, whirl
 from structure_scenes import displacements, distance, refused
 
 import wavebalance as wb
 
-@pytest.fixture(autouse=True)
-def matrices(matrix, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    for name, rows in FILES:
-        matrix(f"{name}.mtx", rows.tolist())
-    return matrix
+pytestmark = pytest.mark.usefixtures("rotor_files")
 
 
 def solved(overrides=None, unset=()):
@@ -75,8 +70,8 @@ def test_the_motions_of_a_rotor_are_its_exact_motion_with_its_multipliers():
     ("g", np.zeros((3, 3)) + np.diag([1.0, 1.0], 1) - np.diag([1.0, 1.0], -1), "structure.gyroscopic", ""),
     ("s", np.diag([1.0, 1.0, 1.0], 1), "structure.spin_stiffness", "symmetric"),
 ])
-def test_a_part_that_is_not_what_it_says_is_refused_by_key(matrices, name, rows, key, part):
-    matrices(f"{name}.mtx", rows.tolist())
+def test_a_part_that_is_not_what_it_says_is_refused_by_key(rotor_files, name, rows, key, part):
+    rotor_files(f"{name}.mtx", rows.tolist())
     error = refused(ROTOR, key, overrides={"structure.spin_stiffness": "s.mtx"})
     assert part in str(error)
 

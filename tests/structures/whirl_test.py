@@ -7,21 +7,15 @@ import numpy as np
 import pytest
 import scipy.linalg
 import scipy.optimize
-from overhung_disk import DAMPING, FILES, GYROSCOPIC, MASS, ROTOR, STIFFNESS, plane, whirl
+from overhung_disk import DAMPING, GYROSCOPIC, MASS, ROTOR, STIFFNESS, plane, whirl
 
 import wavebalance as wb
+
+pytestmark = pytest.mark.usefixtures("rotor_files")
 
 SWEEP = {"analysis.type": "frequency_sweep", "analysis.frequency_from": 30.0, "analysis.frequency_to": 80.0,
          "analysis.stability": False, "analysis.phases": False}
 TWO_PI = 2.0 * np.pi
-
-
-@pytest.fixture(autouse=True)
-def matrices(matrix, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    for name, rows in FILES:
-        matrix(f"{name}.mtx", rows.tolist())
-    return matrix
 
 
 def written(tmp_path, overrides=None, scene=ROTOR, name="out"):
@@ -103,10 +97,10 @@ def test_an_unbalance_that_turns_the_other_way_exchanges_the_directions(tmp_path
     assert "turns against structure.gyroscopic" in wb.check(ROTOR.replace("[1, 2]", "[1, -2]"))
 
 
-def test_bearings_of_two_stiffnesses_make_ellipses_of_their_circularity(tmp_path, matrices):
+def test_bearings_of_two_stiffnesses_make_ellipses_of_their_circularity(tmp_path, rotor_files):
     stiffness = STIFFNESS.copy()
     stiffness[1, 1] *= 1.3
-    matrices("k.mtx", stiffness.tolist())
+    rotor_files("k.mtx", stiffness.tolist())
     table = written(tmp_path, SWEEP)[1]("campbell.csv")
     for row in (10, 40):
         values, shapes = quadratic(stiffness, DAMPING + TWO_PI * table["speed_Hz"][row] * GYROSCOPIC, MASS)
