@@ -7,7 +7,7 @@ Two levels. A scene is a file, a text or a dictionary with the keys of ``wavebal
 - :func:`study` solves it for many values of its keys, on all cores or with any executor.
 - :func:`progress` shows what long work does.
 
-A structure of one's own is made of SciPy's sparse matrices:
+A custom structure is made of SciPy's sparse matrices:
 
 - :class:`Structure`, the contact laws (:class:`Penalty`, :class:`Rigid`, ...) and the :class:`Pair` of bases;
 - :func:`read_matrices` reads those of other codes;

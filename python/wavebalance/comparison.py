@@ -7,12 +7,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from . import _core
+from ._solved import Solved
 from ._source import Overrides, SceneLike, scene_source
 
 __all__ = ["Comparison", "compare"]
 
 
-class Comparison:
+class Comparison(Solved):
     """What each pair of bases did in a scene.
 
     Attributes
@@ -33,20 +34,14 @@ class Comparison:
     """
 
     def __init__(self, run: _core.ComparisonRun) -> None:
-        self._run: _core.ComparisonRun | None = run
-        self.converged: bool = run.converged
-        self.status: str = run.status
-        self.warnings: list[str] = run.warnings
-        self.summary: dict[str, Any] = run.summary
+        super().__init__(run)
         self.table: dict[str, Any] = run.table
         self.text: str = run.text
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_run": None}
-
     def svgs(self) -> dict[str, str]:
         """The pictures by their names, SVG; none in a copy from a pickle. Needs gnuplot, else OSError."""
-        return {} if self._run is None else self._run.svgs()
+        pictures: dict[str, str] = {} if self._run is None else self._run.svgs()
+        return pictures
 
     def __repr__(self) -> str:
         return f"<wavebalance.Comparison: {self.status}>\n{self.text}"
@@ -68,7 +63,7 @@ def compare(
     Parameters
     ----------
     scene, overrides, unset:
-        As for :func:`wavebalance.run`. A structure of one's own is a scene by :meth:`wavebalance.Structure.scene`.
+        As for :func:`wavebalance.run`. A custom structure is a scene by :meth:`wavebalance.Structure.scene`.
     pairs:
         Pairs such as ``["fourier:fourier", "haar:fourier"]``; all admissible ones of the common bases by default.
     error:

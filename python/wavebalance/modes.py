@@ -1,4 +1,4 @@
-"""Nonlinear modes of one's own structures."""
+"""Nonlinear modes of custom structures."""
 
 from __future__ import annotations
 
@@ -18,22 +18,7 @@ __all__ = ["Backbone", "DampedMode", "backbone", "damped_mode"]
 Numbers = npt.NDArray[np.float64]
 
 
-class _Points:
-    """A curve whose points are told by their index, from 0; negative ones count from the end."""
-
-    frequency: Numbers
-
-    def __len__(self) -> int:
-        return len(self.frequency)
-
-    def _place(self, index: int) -> int:
-        count = len(self)
-        if not -count <= index < count:
-            raise IndexError(f"point {index} of a curve of {count}")
-        return index % count
-
-
-class Backbone(_Points):
+class Backbone(_core.Backbone):
     """A nonlinear mode: P free periodic motions of the undamped structure over their energy.
 
     Attributes
@@ -57,30 +42,24 @@ class Backbone(_Points):
         Floquet multipliers that leave the unit circle, -1 where not known; of elastic laws with `stability`.
     """
 
-    def __init__(self, core: _core.Backbone) -> None:
-        self._core = core
-        self.status: str = core.status
-        self.linear_frequency: float = core.linear_frequency
-        self.frequency = core.omega / (2.0 * np.pi)
-        self.frequency_ratio: Numbers = self.frequency / core.linear_frequency
-        self.energy_ratio: Numbers = core.energy_ratio
-        self.contact_fraction: Numbers = core.contact_fraction
-        self.virial_residual: Numbers = core.virial_residual
-        self.point_status: list[str] = core.point_status
-        self.accepted: npt.NDArray[np.bool_] = np.array([one in ("converged", "linear") for one in self.point_status], bool)
-        known = len(core.unstable) == len(core)
-        self.unstable: npt.NDArray[np.int32] = core.unstable if known else np.full(len(core), -1, np.int32)
+    @property
+    def frequency_ratio(self) -> Numbers:
+        return self.frequency / self.linear_frequency
+
+    @property
+    def accepted(self) -> npt.NDArray[np.bool_]:
+        return np.array([one in ("converged", "linear") for one in self.point_status], bool)
 
     def amplitudes(self, index: int) -> npt.NDArray[np.complex128]:
         """Complex amplitudes of the motion at a point in the linear modes, r × (N + 1), m sqrt(kg)."""
-        return self._core.amplitudes(self._place(index))
+        return super().amplitudes(index)
 
     def structure_motion(self, index: int, points: int = 1024) -> Motion:
         """Displacements and velocities of all degrees of freedom at a point, over one period at `points` instants.
 
         Raises ValueError where no motion was found.
         """
-        return Motion(self._core.structure_motion(self._place(index), points))
+        return Motion(self._structure_motion(index, points))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the frequency over the energy with Matplotlib, and returns the axes."""
@@ -156,7 +135,7 @@ def _require_no_turning(structure: Structure) -> None:
         raise ValueError("structure has a gyroscopic matrix or a spin stiffness; expected none with a nonlinear mode")
 
 
-class DampedMode(_Points):
+class DampedMode(_core.DampedCurve):
     """A nonlinear mode of a structure that loses energy: P motions over their amplitude.
 
     Attributes
@@ -173,27 +152,17 @@ class DampedMode(_Points):
         Hz, and xi / (2 omega) of the damping -xi M that makes the motion periodic.
     """
 
-    def __init__(self, core: _core.DampedCurve) -> None:
-        self._core = core
-        self.status: str = core.status
-        self.linear_frequency: float = core.linear_frequency
-        self.linear_damping_ratio: float = core.linear_damping_ratio
-        self.slip_amplitude: float = core.linear_amplitude
-        self.amplitude: Numbers = core.amplitude
-        self.frequency = core.omega / (2.0 * np.pi)
-        self.damping_ratio: Numbers = core.damping_ratio
-
     def displacement(self, index: int) -> Numbers:
         """Displacements of the contacts over a period at a point, contacts × samples, m."""
-        return self._core.displacement(self._place(index))
+        return super().displacement(index)
 
     def force(self, index: int) -> Numbers:
         """Forces of the contacts over a period at a point, contacts × samples, N."""
-        return self._core.force(self._place(index))
+        return super().force(index)
 
     def structure_motion(self, index: int, points: int = 1024) -> Motion:
         """Displacements and velocities of all degrees of freedom at a point, over one period at `points` instants."""
-        return Motion(self._core.structure_motion(self._place(index), points))
+        return Motion(self._structure_motion(index, points))
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the damping ratio over the amplitude with Matplotlib, and returns the axes."""

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _plots
+from ._solved import Solved
 
 __all__ = ["Record"]
 
@@ -23,7 +24,7 @@ class Columns(dict[str, Any]):
         raise KeyError(f"there is no column {name!r}; the columns are {there}")
 
 
-class Record:
+class Record(Solved):
     """What came out of a scene.
 
     The tables are dictionaries of columns, NumPy arrays (lists where a column holds text) by the names that the files of
@@ -63,27 +64,17 @@ class Record:
     """
 
     def __init__(self, run: _core.Run) -> None:
-        self._run: _core.Run | None = run
-        self.converged: bool = run.converged
-        self.status: str = run.status
-        self.warnings: list[str] = run.warnings
-        self.summary: dict[str, Any] = run.summary
-        tables = run.tables
-        self.response: Columns = Columns(tables["response"])
-        self.contacts: Columns = Columns(tables["contacts"])
-        self.outputs: Columns = Columns(tables["outputs"])
-        self.sweep: Columns = Columns(tables["sweep"])
-        self.section: Columns = Columns(tables["section"])
-        self.backbone: Columns = Columns(tables["backbone"])
+        super().__init__(run)
+        tables = {name: Columns(columns) for name, columns in run.tables.items()}
+        self.response, self.contacts, self.outputs = tables["response"], tables["contacts"], tables["outputs"]
+        self.sweep, self.section, self.backbone = tables["sweep"], tables["section"], tables["backbone"]
         self.bar_motion: npt.NDArray[np.float64] = run.bar_motion
         self.scene: str = run.scene
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_run": None}
-
     def svg(self) -> str:
         """The picture that the command draws, SVG; empty where there is nothing to draw. Needs gnuplot, else OSError."""
-        return self._solved_here().svg()
+        drawn: str = self._solved_here().svg()
+        return drawn
 
     def write(self, output: str | os.PathLike[str]) -> None:
         """Writes the files of ``wavebalance run --output``. Raises OSError.
@@ -127,11 +118,6 @@ class Record:
         unit = dict(zip(table["output"], table["unit"])).get(name, "")
         return name.replace("-", "minus_").replace("#", "").replace(" ", "_"), unit
 
-    def _solved_here(self) -> _core.Run:
-        if self._run is None:
-            raise ValueError("the record was read from a pickle; only the process that solved its scene draws and writes it")
-        return self._run
-
     def __repr__(self) -> str:
         return f"<wavebalance.Record: {self.status}>"
 
@@ -143,15 +129,6 @@ class Record:
         )
         warnings = "".join(f"<p>{html.escape(one)}</p>" for one in self.warnings)
         return f"<div>{self._picture()}{warnings}<details><summary>{html.escape(self.status)}</summary><table>{rows}</table></details></div>"
-
-    def _picture(self) -> str:
-        if self._run is None:
-            return ""
-        try:
-            drawn = self._run.svg()
-        except OSError:
-            return ""
-        return drawn[drawn.find("<svg") :] if "<svg" in drawn else ""
 
 
 def _suffix(unit: str) -> str:

@@ -1,4 +1,4 @@
-"""Periodic responses of one's own structures, and their stability."""
+"""Periodic responses of custom structures, and their stability."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ class Motion:
         self.time: npt.NDArray[np.float64] = np.arange(points) / points
 
 
-class Response:
+class Response(_core.Response):
     """A periodic response at one frequency. It can be pickled, with its structure and laws, and copied.
 
     Attributes
@@ -120,72 +120,26 @@ class Response:
         Of the condensation and the solution, s.
     """
 
-    __slots__ = ("_core", "_problem", "_laws")
-
     def __init__(self, core: _core.Response, problem: Problem, laws: Any) -> None:
-        self._core = core
+        super().__init__(core)
         self._problem = problem
         self._laws = laws
 
     def __reduce__(self) -> Any:
-        return _restored_response, (self._problem, self._laws, _core.response_state(self._core))
-
-    @property
-    def converged(self) -> bool:
-        return self._core.converged
-
-    @property
-    def status(self) -> str:
-        return self._core.status
-
-    @property
-    def frequency(self) -> float:
-        return self._core.frequency
-
-    @property
-    def residual(self) -> float:
-        return self._core.residual
-
-    @property
-    def iterations(self) -> int:
-        return self._core.iterations
-
-    @property
-    def residual_history(self) -> list[float]:
-        return self._core.residual_history
-
-    @property
-    def strategy(self) -> str:
-        return self._core.strategy
-
-    @property
-    def wall_seconds(self) -> float:
-        return self._core.wall_seconds
-
-    @property
-    def displacement(self) -> npt.NDArray[np.float64]:
-        return self._core.displacement
-
-    @property
-    def contact_force(self) -> npt.NDArray[np.float64]:
-        return self._core.contact_force
-
-    @property
-    def coefficients(self) -> npt.NDArray[np.complex128]:
-        return self._core.coefficients
+        return _restored_response, (self._problem, self._laws, _core.response_state(self))
 
     @property
     def time(self) -> npt.NDArray[np.float64]:
         points = self.displacement.shape[1]
-        return np.arange(points) / points + self._core.first_sample
+        return np.arange(points) / points + self.first_sample
 
     def motion(self, points: int = 1024) -> Motion:
         """The motion of all contacts at `points` uniform times. O(C points log points)."""
-        return Motion(self._core._motion(points))
+        return Motion(self._motion(points))
 
     def structure_motion(self, points: int = 1024) -> Motion:
         """The motion of all n degrees of freedom at `points` uniform times. O(n (M + points log points))."""
-        return Motion(self._core._structure_motion(points))
+        return Motion(self._structure_motion(points))
 
     def harmonics(self, count: int = 5, points: int = 1024) -> npt.NDArray[np.complex128]:
         """Complex amplitudes of the contacts' displacements, C × (count + 1): u = Re sum_m h_m exp(2 pi i m f t).
@@ -306,7 +260,7 @@ def forced_response(
     form:
         "automatic", "displacement" or "force": the unknown that is solved for.
     tolerance, max_iterations:
-        Of Newton's method, relative to the contact-free response.
+        Of Newton's method, relative to the linear response.
 
     Returns
     -------
@@ -321,9 +275,8 @@ def forced_response(
     """
     hertz = as_number(frequency, "frequency", "one number in Hz; frequency_sweep takes an interval")
     problem = as_problem(structure, pair)
-    start = guess._core if isinstance(guess, Response) else guess
     all_laws = as_laws(laws)
-    found = _core.forced_response(problem, all_laws, hertz, start, stay_near_guess, form, tolerance, max_iterations)
+    found = _core.forced_response(problem, all_laws, hertz, guess, stay_near_guess, form, tolerance, max_iterations)
     return Response(found, problem, all_laws)
 
 
@@ -342,4 +295,4 @@ def stability(response: Response, multipliers: int = 4) -> Stability:
     ValueError
         Where the structure has no modes to compute.
     """
-    return Stability(_core.stability(response._core, multipliers))
+    return Stability(_core.stability(response, multipliers))

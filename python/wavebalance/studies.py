@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _core, _plots
+from ._solved import Solved
 from ._source import Overrides, SceneLike, scene_source
 from ._toml import toml_value
 
@@ -21,7 +22,7 @@ __all__ = ["Study", "study"]
 _TASKS = 200
 
 
-class Study:
+class Study(Solved):
     """What came of the runs of a study.
 
     Attributes
@@ -40,28 +41,22 @@ class Study:
     """
 
     def __init__(self, run: _core.StudyRun, session: _core.StudySession) -> None:
-        self._run: _core.StudyRun | None = run
-        self._session: _core.StudySession | None = session
-        self.converged: bool = run.converged
-        self.status: str = run.status
-        self.warnings: list[str] = run.warnings
-        self.summary: dict[str, Any] = run.summary
+        super().__init__(run)
+        self._session = session
         self.table: dict[str, Any] = run.table
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_run": None, "_session": None}
 
     def __len__(self) -> int:
         return len(self.table["run"]) if self.table else 0
 
     def svg(self) -> str:
         """The picture of the command, SVG; empty where there is nothing to draw. Needs gnuplot, else OSError."""
-        return self._solved_here()[0].svg()
+        drawn: str = self._solved_here().svg()
+        return drawn
 
     def write(self, output: str | os.PathLike[str]) -> None:
         """Writes the files of ``wavebalance study --output`` but its journal. Raises OSError."""
-        run, session = self._solved_here()
-        session.write(run, os.fspath(output))
+        run = self._solved_here()
+        self._session.write(run, os.fspath(output))
 
     def plot(self, x: str, y: str = "max_displacement_m", ax: Any = None) -> Any:
         """Draws a column of the runs that converged over another with Matplotlib, and returns the axes."""
@@ -72,23 +67,12 @@ class Study:
         ax.set_ylabel(y)
         return ax
 
-    def _solved_here(self) -> tuple[_core.StudyRun, _core.StudySession]:
-        if self._run is None or self._session is None:
-            raise ValueError("the study was read from a pickle; only the process that solved it draws and writes it")
-        return self._run, self._session
-
     def __repr__(self) -> str:
         runs, converged = self.summary["runs"], self.summary["runs_converged"]
         return f"<wavebalance.Study: {runs} runs, {converged} converged>"
 
     def _repr_html_(self) -> str:
-        drawn = ""
-        if self._run is not None:
-            try:
-                drawn = self._run.svg()
-            except OSError:
-                drawn = ""
-        return f"<div>{drawn[drawn.find('<svg'):] if '<svg' in drawn else ''}<p>{repr(self)[1:-1]}</p></div>"
+        return f"<div>{self._picture()}<p>{repr(self)[1:-1]}</p></div>"
 
 
 def study(

@@ -19,7 +19,7 @@ __all__ = ["Sweep", "amplitude_sweep", "frequency_sweep", "overlay"]
 Numbers = npt.NDArray[np.float64]
 
 
-class Sweep:
+class Sweep(_core.Curve):
     """A curve of P periodic responses, in its order through folds. All arrays have P values and are read-only views.
     It can be pickled, with its structure and laws, and copied.
 
@@ -59,37 +59,26 @@ class Sweep:
     """
 
     def __init__(self, core: _core.Curve, problem: Problem, laws: Any) -> None:
-        self._core = core
+        super().__init__(core)
         self._problem = problem
         self._laws = laws
-        self.status: str = core.status
-        self.wall_seconds: float = core.wall_seconds
-        self.converged: bool = core.status == "reached_end" and core.rounding_error <= 1e-3
-        self.frequency: Numbers = core.frequency
-        self.amplitude: Numbers = core.amplitude
-        self.max_displacement: Numbers = core.max_displacement
-        self.min_displacement: Numbers = core.min_displacement
-        self.max_abs_displacement: Numbers = core.max_abs_displacement
-        self.rms_displacement: Numbers = core.rms_displacement
-        self.max_force: Numbers = core.max_force
-        self.contact_fraction: Numbers = core.contact_fraction
-        self.residual: Numbers = core.residual
-        known = len(core.unstable) == len(core)
-        self.unstable: npt.NDArray[np.int32] = core.unstable if known else np.full(len(core), -1, np.int32)
-        self.contacts: npt.NDArray[np.int32] = core.contacts if known else np.full(len(core), -1, np.int32)
-        self.stable = np.ma.masked_array(self.unstable == 0, mask=self.unstable < 0)
-        self.stability_status: list[str] = core.stability_status
-        self.special_points: list[dict[str, Any]] = core.special_points
-        self.turning_points: list[dict[str, Any]] = core.turning_points
-        self.warnings: list[str] = self._warnings(known)
 
-    def _warnings(self, known: bool) -> list[str]:
+    @property
+    def converged(self) -> bool:
+        return self.status == "reached_end" and self.rounding_error <= 1e-3
+
+    @property
+    def stable(self) -> Any:
+        return np.ma.masked_array(self.unstable == 0, mask=self.unstable < 0)
+
+    @property
+    def warnings(self) -> list[str]:
         texts = []
         if self.status != "reached_end":
             texts.append(f'The curve did not reach its end: "{self.status}".')
         elif not self.converged:
             texts.append("Rounding leaves the motions less accurate than 1e-3.")
-        if not known or len(self) == 0:
+        if len(self) == 0 or len(self.stability_status) != len(self):
             return texts
         turns, folds = len(self.turning_points), len(self.special("fold"))
         if turns != folds:
@@ -104,17 +93,14 @@ class Sweep:
         return texts
 
     def __reduce__(self) -> Any:
-        return _restored_sweep, (self._problem, self._laws, _core.curve_state(self._core))
-
-    def __len__(self) -> int:
-        return len(self.frequency)
+        return _restored_sweep, (self._problem, self._laws, _core.curve_state(self))
 
     def response(self, index: int) -> Response:
         """The response at a point, from 0; negative numbers count from the end. Raises IndexError."""
-        return Response(self._core._response(index), self._problem, self._laws)
+        return Response(self._response(index), self._problem, self._laws)
 
     def special(self, kind: str) -> list[dict[str, Any]]:
-        """The special points of one type. Raises ValueError for a name of none."""
+        """The bifurcation or grazing points of one type. Raises ValueError for a name of none."""
         if kind not in _plots.MARKERS:
             raise ValueError(f"kind is {kind!r}; expected one of {', '.join(_plots.MARKERS)}")
         return [point for point in self.special_points if point["type"] == kind]
@@ -138,7 +124,7 @@ class Sweep:
 
     def to_frame(self) -> Any:
         """The points as a pandas.DataFrame with the columns of sweep.csv; needs pandas."""
-        columns: dict[str, Any] = {"amplitude" if self._core.over_amplitude else "frequency_Hz": self._place()}
+        columns: dict[str, Any] = {"amplitude" if self.over_amplitude else "frequency_Hz": self._place()}
         columns |= {
             "max_displacement_m": self.max_displacement,
             "rms_displacement_m": self.rms_displacement,
@@ -152,16 +138,16 @@ class Sweep:
         return _plots.frame(columns)
 
     def _place(self) -> Numbers:
-        return self.amplitude if self._core.over_amplitude else self.frequency
+        return self.amplitude if self.over_amplitude else self.frequency
 
     def _place_label(self) -> str:
-        return "Factor on the load" if self._core.over_amplitude else "Frequency (Hz)"
+        return "Factor on the load" if self.over_amplitude else "Frequency (Hz)"
 
     def plot(self, ax: Any = None, label: str | None = None) -> Any:
         """Draws the largest displacement with Matplotlib, dashed where unstable, with its special points, and returns the axes."""
         ax = _plots.axes(ax)
         _plots.curve(ax, self._place(), self.max_displacement, self.unstable, label)
-        _plots.special_points(ax, self.special_points, "amplitude" if self._core.over_amplitude else "frequency")
+        _plots.special_points(ax, self.special_points, "amplitude" if self.over_amplitude else "frequency")
         ax.set_xlabel(self._place_label())
         ax.set_ylabel("Largest displacement (m)")
         return ax
