@@ -179,13 +179,14 @@ class Tracker {
   // Locates each difference between two points by divisions of the distance of two neighbours on the curve.
   // Points between them are measured only as far as the difference needs.
   void examine(const CurveSample& a, const CurveSample& b, int divisions) {
-    constexpr int most = 27;
+    constexpr int most = 36, most_predicted = 9;
     const Difference between = difference(a, b);
     if (!between.any() || result_.cancelled || !tell(a.point.parameter)) return;
     const double width = motions_.path().distance(a.point, b.point) / step_;
     const bool located = width <= options_.tolerance, signs = between.fold || between.flip;
     const Measure what = between.count ? Measure::count : signs ? Measure::signs : Measure::contacts;
-    const double share = what == Measure::contacts ? share_beside_grazing(a, b, width) : 0.5;
+    const bool predicts = what == Measure::contacts && divisions < most_predicted;
+    const double share = predicts ? share_beside_grazing(a, b, width) : 0.5;
     const std::optional<CurveSample> middle =
         located || divisions >= most ? std::nullopt : sample_between(a.point, b.point, share, what);
     if (!middle) {
@@ -215,7 +216,7 @@ class Tracker {
                                             Measure what) {
     constexpr double farthest = 0.25;  // from the chord, over the distance of two neighbours on the curve
     std::optional<CurveSample> found;
-    for (const double share : {first, 0.4, 0.6, 0.3, 0.7}) {
+    for (const double share : {first, first == 0.5 ? 0.4 : 0.5, 0.6, 0.3, 0.7}) {
       CurveSample sample{{}, {}};
       if (!motions_.path().between(a, b, share, sample.point, farthest * step_)) continue;
       measure(sample, what);
