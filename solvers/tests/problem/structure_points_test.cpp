@@ -123,7 +123,7 @@ TEST(StructurePoints, BeyondTheLimitsAreNotSought) {
   const FrequencySweep curve = swept.curve();
   const CurveStability stability = swept.problem().stability(curve);
   const StructurePoints one =
-      swept.points(curve, stability, {.reach = 0.001, .max_stretches = 1, .max_operations = 5e6});
+      swept.points(curve, stability, {.reach = 0.001, .max_stretches = 1, .max_operations = 3e5});
   int sought = 0, left = 0;
   for (const NearStructurePoint& near : one.of_balance) ++(near.status == Status::not_sought ? left : sought);
   EXPECT_GT(sought, 0);
