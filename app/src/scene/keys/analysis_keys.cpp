@@ -228,8 +228,7 @@ SceneValue stability_by_default(const Scene& scene) {
   if (!sweep && !mode) return true;
   if (mode && (is_rigid(scene.contact.law) || takes_energy(scene.contact))) return true;  // not known
   constexpr int few = 6;
-  // Contacts times functions. With a loss of energy a count takes tens of points beyond.
-  const int most_unknowns = takes_energy(scene.contact) ? 400 : 2000;
+  constexpr int most_unknowns = 400;  // contacts times functions; beyond, a count may take tens of points
   const int contacts = contact_count(scene);
   return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
@@ -272,7 +271,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
       &Analysis::stability, "stability", "",
       "true counts the Floquet multipliers outside the unit circle, of a motion or at each point of a curve",
       derived("true; with more than 6 contacts false for modes, and for curves if contacts times "
-              "functions exceed 2000, with friction or dampers 400",
+              "functions exceed 400",
               stability_by_default),
       only_with(analysis_is({"forced_response", "frequency_sweep", "amplitude_sweep", "nonlinear_mode"})));
   analysis(&Analysis::special_points, "special_points", "",
