@@ -29,6 +29,17 @@ double limit_of_operations(ContactSystem& system, const ResidualHomotopyOptions&
   return options.max_operations * std::clamp(system.problem().samples() / few_samples, 1.0, most);
 }
 
+// The point of the last step that is nearest to p = 0. The corrector may fail at others.
+Eigen::VectorXd nearest_to_solution(ArcLength& curve) {
+  CurvePoint nearest = curve.point(), last;
+  const auto keep = [&nearest](const CurvePoint& at) {
+    if (std::abs(at.parameter) < std::abs(nearest.parameter)) nearest = at;
+    return at.parameter;
+  };
+  curve.locate(keep, last);
+  return std::move(nearest.displacement);
+}
+
 HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualHomotopyOptions& options) {
   system.evaluate(u);
   const ResidualParameter parameter(system.residual());
@@ -49,9 +60,7 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
     if (curve.advance() != ArcLength::Status::advanced)
       return system.operations() > limit ? HomotopyStatus::effort_limit : HomotopyStatus::lost;
     if (curve.point().parameter <= 0.0) {
-      CurvePoint end;
-      const bool found = curve.locate([](const CurvePoint& at) { return at.parameter; }, end);
-      u = found ? std::move(end.displacement) : curve.point().displacement;
+      u = nearest_to_solution(curve);
       return HomotopyStatus::arrived;
     }
     if (!goes_on(options.observer,
