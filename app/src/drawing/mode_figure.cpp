@@ -206,7 +206,8 @@ Figure damped_figure(const Scene& scene, const Table& backbone, const ModeOutput
   for (const auto& [title, column, label] : {std::tuple{"Frequency", "frequency_Hz", "Frequency (Hz)"},
                                              {"Damping", "damping_ratio", "Damping ratio"}}) {
     Panel& panel = figure.add_panel(
-        title, slip_alone(scene) ? "Amplitude / amplitude of slip onset" : "Amplitude / largest linear amplitude",
+        title,
+        slip_alone(scene) ? "Amplitude / amplitude of slip onset" : "Amplitude / largest linear amplitude",
         label);
     panel.x.logarithmic = true;
     panel.add(Series("", backbone, "amplitude_ratio", column).in(Colour::blue)).mark_x(1.0);

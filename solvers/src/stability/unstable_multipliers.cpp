@@ -323,7 +323,8 @@ StabilitySigns signs_of(Way& way, const ContactDynamics& dynamics, double freque
     return signs;
   }
   const auto multipliers = multipliers_of(way, dynamics, frequency, options);
-  return multipliers ? signs_of_multipliers(*multipliers) : StabilitySigns{StabilityStatus::too_few_harmonics};
+  return multipliers ? signs_of_multipliers(*multipliers)
+                     : StabilitySigns{StabilityStatus::too_few_harmonics};
 }
 
 }  // namespace

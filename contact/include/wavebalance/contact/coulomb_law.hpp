@@ -44,8 +44,8 @@ struct FrictionPeriod {
 };
 
 /// Elastic Coulomb friction: a spring k_t in series with a slider that moves where its force would exceed mu
-/// times the normal force N [Jenkins, Br. J. Appl. Phys. 13, 1962]. With a normal direction N = max(0, N0 + k_n
-/// (u_n - g0)), so that the contact also opens; friction then vanishes and the slider starts anew at the
+/// times the normal force N [Jenkins, Br. J. Appl. Phys. 13, 1962]. With a normal direction N = max(0, N0 +
+/// k_n (u_n - g0)), so that the contact also opens; friction then vanishes and the slider starts anew at the
 /// instant of closing. Without one N = N0. Rows are the normal direction, where there is one, then the
 /// tangents; forces oppose positive displacements.
 ///

@@ -157,9 +157,9 @@ bool is_by_phases(const Response& response);
 
 /// The exact periodic solution, to time.tolerance: of scenes with time.method =
 /// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a
-/// motion, and where there is none from the attractor. The status is that of the
-/// phases, or "no_start" where neither leads to a motion and "no_modes" where the structure has none to
-/// compute.
+/// motion, and where there is none from the attractor. The status is
+/// solvers::PhasesStatus, "no_start" where neither leads to a motion, or "no_modes" where the structure has
+/// none to compute.
 Response phases_response(const Scene& scene, const ResponseOptions& options = {});
 Response phases_response(const Scene& scene, const StructureModel& model,
                          const ResponseOptions& options = {});

@@ -155,10 +155,9 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
 /// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
 /// special points at most most_special_points_with_phases of each curve are then taken, those where
 /// multipliers pass the unit circle before grazings. With analysis.stability the special points of the
-/// structure along the main curve are solved for, as structure_points() does, if seeks_exact_points(); else
-/// those of the peak alone. Nothing where neither
-/// analysis.stability nor analysis.phases is true or the structure's modes cannot be computed. An observer
-/// that stops it leaves those found so far.
+/// structure along the main curve are solved for, as structure_points() does. Without seeks_exact_points()
+/// only the peak has an exact solution. Nothing where neither analysis.stability nor analysis.phases is true
+/// or the structure's modes cannot be computed. An observer that stops it leaves those found so far.
 void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,

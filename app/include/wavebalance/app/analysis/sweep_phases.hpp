@@ -9,8 +9,8 @@
 
 namespace wavebalance::app {
 
-/// Whether exact bifurcation points are sought along a curve of a scene. Those of many contacts take tens of
-/// times as long as the curve, and are sought only with analysis.phases.
+/// Whether exact bifurcation points are sought along a curve of a scene. With many contacts they can take a
+/// hundred times as long as the curve, and are sought only with analysis.phases.
 bool seeks_exact_points(const Scene& scene);
 
 /// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
