@@ -212,3 +212,48 @@ def test_a_slider_far_stiffer_than_the_structure_moves_as_in_closed_form(run, ma
     found = run(scene("", slider, "load_dofs = [1]\namplitude = 1.0", 0.75 / (2.0 * math.pi), "output_points = 4096"))
     assert found.code == 0, found.errors
     assert found.summary["max_displacement_m"] == pytest.approx(2.1781440, rel=1e-4)
+
+
+ESCAPE = """[structure]
+type = "matrices"
+mass = "m.mtx"
+stiffness = "m.mtx"
+stiffness_damping = 0.05
+contact_dofs = [1]
+[contact]
+law = "cubic"
+cubic_stiffness = -1.0
+[forcing]
+load_dofs = [1]
+amplitude = {load}
+frequency = 0.13
+[analysis]
+type = "{kind}"
+{more}
+"""
+
+
+def test_a_mass_that_escapes_from_its_softening_spring_is_told_to_grow(run, matrix):
+    # Its potential u^2/2 - u^4/4 holds it between -1 and 1 only.
+    matrix("m.mtx", [[1.0]])
+    found = run(ESCAPE.format(load=1.0, kind="time_stepping", more=""))
+    assert found.code == 3 and found.summary["status"] == "grows", found.errors
+    assert "grows without bound" in found.text and "softer contact" not in found.errors
+    found = run(ESCAPE.format(load=1.0, kind="motions", more="random_starts = 4"))
+    assert found.code == 3 and found.summary["status"] == "grows", found.errors
+    assert "(4 grows)" in found.errors and "longest_period" not in found.errors
+    interval = "frequency_from = 0.12\nfrequency_to = 0.13\nvalues = 2\nexact_curve = false"
+    diagram = ESCAPE.format(load=1.0, kind="bifurcation_diagram", more=interval).replace("frequency = 0.13\n[analysis]", "[analysis]")
+    found = run(diagram)
+    assert found.code == 3 and found.summary["status"] == "grows", found.errors
+    assert "same motions" not in found.text
+
+
+def test_starts_that_escape_are_told_beside_the_motion_of_those_that_do_not(run, matrix):
+    matrix("m.mtx", [[1.0]])
+    found = run(ESCAPE.format(load=0.1, kind="motions", more=""))
+    assert found.code == 0, found.errors
+    none = int(found.summary["starts_without_motion"])
+    stable = [one for one in found.summary["motions"] if one["stability"] == "stable"]
+    assert none > 0 and f"({none} grows)" in found.errors
+    assert len(stable) == 1 and stable[0]["share"] == pytest.approx((24 - none) / 24)

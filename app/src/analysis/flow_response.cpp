@@ -54,7 +54,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   result.unknowns = int(found.multipliers.size());
   result.contacts = stepping.contacts;
   result.struck = found.impacts;
-  result.moves = !result.contacts.empty() && stepping.status != solvers::TimeSteppingStatus::step_failure;
+  result.moves = !result.contacts.empty() && found.ended == solvers::FlowStatus::converged;
   result.contact = leading_contact(scene, result.contacts, model.gaps);
   if (found.multipliers.size() > 0) result.stability = solvers::stability_of_multipliers(found.multipliers);
   if (found.motion.parts != nullptr && options.structure_points > 0)

@@ -47,7 +47,8 @@ Motions coexisting_motions(const Scene& scene, const StructureModel& model,
                                   .observer = observer};
   if (!events) options.tolerance = scene.time.tolerance;
   solvers::CoexistingMotions all = solvers::coexisting_motions(problem, scene.forcing.frequency, options);
-  const bool unsettled = events && all.status == solvers::MotionsStatus::not_settled;
+  const bool unsettled =
+      all.first != solvers::PhasesStatus::converged && all.status == solvers::MotionsStatus::not_settled;
   Motions result{.status = std::string(unsettled ? to_string(all.first) : to_string(all.status)),
                  .unsolved = std::move(all.unsolved),
                  .starts = all.starts,

@@ -1,5 +1,6 @@
 #include "wavebalance/app/attractors/bifurcation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -179,6 +180,9 @@ void pass_values(const Scene& scene, FlowRows& rows, const Observer& observer, D
     if (!one->failure.empty()) diagram.status = "incomplete";
     diagram.values.push_back(*std::move(one));
   }
+  const std::string grows(to_string(solvers::FlowStatus::grows));
+  if (std::ranges::all_of(diagram.values, [&](const DiagramValue& one) { return one.failure == grows; }))
+    diagram.status = grows;
 }
 
 }  // namespace

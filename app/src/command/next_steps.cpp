@@ -106,6 +106,7 @@ const Remedies& of_integration() {
       {"subharmonic", {response_of_periods, all_motions}},
       {"tolerance_missed", {larger_step_tolerance}},
       {"step_failure", {softer_contact}},
+      {"grows", {all_motions, more_damping}},
       {"endless_events", {elastic_friction, no_rebound, stiff_law, softer_contact, more_damping}}};
   return all;
 }
@@ -113,6 +114,7 @@ const Remedies& of_integration() {
 const Remedies& of_motions() {
   static const Remedies all{{"not_settled", {longer_period, more_starts, recorded, more_damping, response}},
                             {"not_solved", {response}},
+                            {"grows", {more_damping, response}},
                             {"no_modes", {response}}};
   return all;
 }

@@ -6,6 +6,9 @@ namespace wavebalance::app {
 
 std::string phases_sentence(const std::string& status) {
   static const std::map<std::string, std::string> known{
+      {"undetermined",
+       "A body is free, and curves do not determine its position: a soft spring to ground does. A "
+       "forced_response needs none."},
       {"no_start",
        "No start was found: harmonic balance with up to 511 functions and time integration did "
        "not converge. time.method = \"balance\" with more functions may help."},
@@ -39,8 +42,8 @@ std::string phases_sentence(const std::string& status) {
        "Every start came to rest. Limit cycles may still exist: other initial states or more "
        "analysis.random_starts may lead to one."},
       {"grows",
-       "Some starts grow without bound, since nothing in the scene limits them. No start led to "
-       "a limit cycle."},
+       "The motion grows without bound, since nothing in the scene limits it. Motions from other starts may "
+       "exist."},
       {"no_return",
        "The motion did not repeat within the integrated periods: it is aperiodic or needs a "
        "larger analysis.max_periods."},

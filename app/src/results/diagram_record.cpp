@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -237,6 +238,7 @@ bool is_quasi_periodic(const DiagramValue& one) { return one.is_quasi_periodic()
 
 std::vector<std::string> sentences_of(const Diagram& diagram, int values, const Table& intervals,
                                       const Table& hysteresis) {
+  const bool any = std::ranges::any_of(diagram.values, [](const auto& one) { return one.failure.empty(); });
   std::vector<std::string> sentences{
       fmt::format("The section of {} was recorded at {} values of the {}, in {}.",
                   diagram.places[std::size_t(diagram.place)].name, values, diagram.axis.quantity,
@@ -244,7 +246,7 @@ std::vector<std::string> sentences_of(const Diagram& diagram, int values, const 
       way_sentence(intervals, "there", diagram.axis),
       way_sentence(intervals, "back", diagram.axis),
       quasi_periodic_sentence(count_of(diagram, is_aperiodic), count_of(diagram, is_quasi_periodic)),
-      hysteresis_sentence(hysteresis, !diagram.values.back().forwards, diagram.axis),
+      any ? hysteresis_sentence(hysteresis, !diagram.values.back().forwards, diagram.axis) : "",
       exact_sentence(diagram)};
   std::erase(sentences, "");
   return sentences;
@@ -274,11 +276,14 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
   record.add("exact_curve", diagram.exact_status);
   if (!diagram.exact_status_back.empty()) record.add("exact_curve_back", diagram.exact_status_back);
   const auto failed = count_of(diagram, [](const DiagramValue& one) { return !one.failure.empty(); });
+  std::set<std::string> reasons;
+  for (const DiagramValue& one : diagram.values)
+    if (!one.failure.empty()) reasons.insert(one.failure);
   if (failed > 0)
     warn(record,
-         "At {} values the integration ended before the section was complete (step_failure or "
-         "endless_events). They have no points, and the next value starts from rest.",
-         failed);
+         "At {} values the integration ended before the section was complete ({}). They have no points, and "
+         "the next value starts from rest.",
+         failed, fmt::join(reasons, ", "));
   if (diagram.exact_status != "not_sought" && diagram.exact.empty())
     warn(record, "There is no exact curve over the interval ({}).", diagram.exact_status);
 }

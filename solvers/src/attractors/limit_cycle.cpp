@@ -202,10 +202,10 @@ class CycleSearch {
 
   End settled_for(int periods) {
     for (int i = 0; i < periods; ++i) {
-      if (flow_.advance_period() != FlowStatus::converged) return End::lost;
+      const FlowStatus status = flow_.advance_period();
+      if (status == FlowStatus::grows) return End::grows;
+      if (status != FlowStatus::converged) return End::lost;
       ++result_.periods;
-      if (flow_.displacements_by_state().cwiseProduct(flow_.state()).norm() > far * length_)
-        return End::grows;
       if (!goes_on(options_.motion.observer, {"limit cycle", int(result_.periods), missing, "periods"})) {
         result_.status = LimitCycleStatus::cancelled;
         return End::goes_on;
@@ -270,8 +270,6 @@ class CycleSearch {
     };
     return std::max(vibration(moved), vibration(speed)) > alike * amplitude ? motion : PhaseMotion();
   }
-
-  static constexpr double far = 1e9;  // times the length, where motions grow without end
 
   const LimitCycleOptions& options_;
   double period_, length_;  // s, m

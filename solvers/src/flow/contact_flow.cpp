@@ -48,8 +48,11 @@ double length_of(const PhasesProblem& problem, const FlowOptions& options) {
 
 std::string_view to_string(FlowStatus status) {
   using enum FlowStatus;
-  return detail::name_in<FlowStatus>(
-      {{converged, "converged"}, {step_failure, "step_failure"}, {endless_events, "endless_events"}}, status);
+  return detail::name_in<FlowStatus>({{converged, "converged"},
+                                      {step_failure, "step_failure"},
+                                      {endless_events, "endless_events"},
+                                      {grows, "grows"}},
+                                     status);
 }
 
 void FlowOptions::validate() const {
@@ -349,7 +352,12 @@ const std::vector<FlowPanel>& ContactFlow::panels() const { return engine_->pane
 
 FlowStatus ContactFlow::advance_period(int points, const std::function<void(const FlowSample&)>& sample,
                                        double first) {
-  return engine_->advance_period(points, sample, first);
+  constexpr double far = 1e9, without_step = 1e6;
+  const FlowStatus status = engine_->advance_period(points, sample, first);
+  if (status == FlowStatus::endless_events) return status;
+  const double most = status == FlowStatus::converged ? far : without_step;
+  const bool grows = displacements_by_state().cwiseProduct(state()).norm() > most * length();
+  return grows ? FlowStatus::grows : status;
 }
 FlowStatus ContactFlow::advance_to(double time) { return engine_->advance_to(time); }
 Eigen::VectorXd ContactFlow::off_center() const { return engine_->off_center(); }

@@ -47,6 +47,7 @@ TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const Ti
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
     result.ended = sampled_period(flow, period, begin, result);
+    if (result.ended == FlowStatus::grows) return TimeSteppingStatus::grows;
     if (result.ended != FlowStatus::converged) return TimeSteppingStatus::step_failure;
     past.add(period.displacement);
     stepping.contacts = std::move(period);

@@ -128,10 +128,11 @@ void ModalMap::remember(const Step& before, Step& step, Ticks end) {
 // result of single(), if there is one.
 ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int level, double allowed,
                                  const Step* whole_step) {
+  constexpr double rounding = 1e-12;
   constexpr double event = 1e-3;  // the share of the error that is allowed where a contact opens or closes
   const Ticks length = Ticks{1} << (deepest_level - level), half = length / 2;
   Step whole = whole_step ? *whole_step : single(begin, start + length, level);
-  if (level == deepest_level || operations_ > max_operations_) return whole;
+  if (level == deepest_level || operations_ > max_operations_ || !(begin.motion.norm() <= far_)) return whole;
   if (begin.force.isZero(0.0) && whole.end.force.isZero(0.0)) {
     Eigen::VectorXd middle = free_motion(0, start + half);
     flow(level + 1).add_contact_displacement_after(begin.motion, middle);
@@ -142,7 +143,8 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
   const Eigen::VectorXd correction = (second.end.motion - whole.end.motion) / 3.0;
   const bool changes =
       opens_or_closes(begin.force, first.end.force) || opens_or_closes(first.end.force, second.end.force);
-  if (!(correction.norm() > allowed * (changes ? event : 1.0))) {
+  const double rounded = rounding * second.end.motion.norm();  // of a motion that grows far beyond its start
+  if (!(correction.norm() > std::max(rounded, allowed * (changes ? event : 1.0)))) {
     second.end.motion += correction;
     if (has_memory_) remember(first, second, start + length);
     return second;
@@ -156,6 +158,7 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   const double allowed = control.tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
   const Eigen::Index contacts = clear_below_.size();
   max_operations_ = operations_ + control.max_operations;
+  if (far_ == 0.0) far_ = 1e10 * std::max(size(begin), free_state_.norm());
   Period period;
   for (Eigen::MatrixXd* values :
        {&period.contacts.displacement, &period.contacts.velocity, &period.contacts.force})
@@ -166,7 +169,8 @@ Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
     period.contacts.velocity.col(k) = velocity(at.end, k * length);
     period.contacts.force.col(k) = at.end.force;
     at = refined(at.end, k * length, 0, allowed, nullptr);
-    if (operations_ > max_operations_) return period;
+    period.grows = !(at.end.motion.norm() <= far_);
+    if (period.grows || operations_ > max_operations_) return period;
   }
   period.complete = at.end.motion.allFinite();
   period.state = std::move(at.end);

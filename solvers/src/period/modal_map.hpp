@@ -24,7 +24,8 @@ struct StepControl {
 
 /// One period of the load.
 struct Period {
-  bool complete = false;  ///< false where the operations ran out
+  bool complete = false;  ///< false where the operations ran out, or the motion grows
+  bool grows = false;     ///< to 1e10 times its first size, or that without contact
   PeriodState state;      ///< at its end; only of a complete period
   Motion contacts;        ///< at uniform instants from its start on; only of a complete period
 };
@@ -81,7 +82,7 @@ class ModalMap {
   Eigen::VectorXd free_state_;
   Eigen::VectorXd clear_below_;  // C, m: no force at or below
   bool depends_on_velocity_, has_memory_;
-  double operations_ = 0.0, max_operations_ = 0.0;
+  double operations_ = 0.0, max_operations_ = 0.0, far_ = 0.0;
 };
 
 }  // namespace wavebalance::solvers

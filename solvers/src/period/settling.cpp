@@ -68,7 +68,7 @@ class Settling {
       tolerance = tolerance == even_steps ? options_.tolerance : std::max(finest, finer * tolerance);
     }
     const bool settles = result.attractor_periods > 0 && load_periods_ % result.attractor_periods == 0;
-    if (!result.cancelled && !settles && result.integrated()) add_returns(takes, result);
+    if (!result.cancelled && !result.grows && !settles && result.integrated()) add_returns(takes, result);
     return result;
   }
 
@@ -86,7 +86,7 @@ class Settling {
     };
     add_state();
     while (result.periods < max_periods) {
-      if (!add_period(tolerance, result)) return {{}, states_.size() - first > enough};
+      if (!add_period(tolerance, result)) return {{}, !result.grows && states_.size() - first > enough};
       add_state();
       if (const Repetition found = rule.found(); found.periods > 0) return {found};
       const Progress progress{"settling", result.periods, rule.change(), "relative change per period",
@@ -99,6 +99,7 @@ class Settling {
   bool add_period(double tolerance, SettledMotion& result) {
     constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
     Period period = map_.advance(states_.back(), {accuracy * tolerance, limit_ - map_.operations()});
+    result.grows = period.grows;
     if (!period.complete) return false;
     const Motion& contacts = period.contacts;
     if (!result.integrated())

@@ -11,6 +11,7 @@ std::string_view to_string(TimeSteppingStatus status) {
                                               {iteration_limit, "iteration_limit"},
                                               {tolerance_missed, "tolerance_missed"},
                                               {step_failure, "step_failure"},
+                                              {grows, "grows"},
                                               {cancelled, "cancelled"}},
                                              status);
 }

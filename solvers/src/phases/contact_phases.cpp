@@ -298,6 +298,7 @@ std::string_view to_string(PhasesStatus status) {
                                         {grazing, "grazing"},
                                         {chattering, "chattering"},
                                         {lasting_contact, "lasting_contact"},
+                                        {grows, "grows"},
                                         {not_settled, "not_settled"},
                                         {too_many_impacts, "too_many_impacts"},
                                         {cancelled, "cancelled"}},

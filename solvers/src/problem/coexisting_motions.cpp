@@ -137,6 +137,7 @@ class MotionsSearch {
   std::optional<std::size_t> settle(const SettlingOptions& how, MotionSource source) {
     const SettledMotion settled = problem_.settle(frequency_, how);
     unsolved_ = nullptr;
+    grows_ = settled.grows;
     if (settled.attractor_periods < 1) {
       near_returns(settled);
       return approached(settled, source);
@@ -210,6 +211,7 @@ class MotionsSearch {
     how.max_returns = SettlingOptions{}.max_returns;
     if (const auto arrived = settle(how, MotionSource::rest))
       starts_.emplace(*arrived, detail::StructureState{zero, zero});
+    if (grows_) result_.first = PhasesStatus::grows;
   }
 
   // The box of the motions without contact and at resonance, which holds twice those found, too.
@@ -241,7 +243,7 @@ class MotionsSearch {
       else if (unsolved_)
         ++unsolved_->arrivals;
       else
-        ++result_.none;
+        ++(grows_ ? result_.none_by[PhasesStatus::grows] : result_.none);
     }
   }
 
@@ -307,6 +309,7 @@ class MotionsSearch {
 
   void describe() {
     detail::set_shares(result_);
+    for (const auto& [status, count] : result_.none_by) result_.none += count;
     if (cancelled_)
       result_.status = MotionsStatus::cancelled;
     else if (!result_.motions.empty())
@@ -322,9 +325,9 @@ class MotionsSearch {
   std::vector<MotionSamples> samples_;                    // of the motions of the result
   std::map<std::size_t, detail::StructureState> starts_;  // that settle to them, the first of each
   CoexistingMotions result_;
-  std::vector<UnsolvedMotion> given_up_;  // near which no motion was found
-  UnsolvedMotion* unsolved_ = nullptr;    // of the result, where the last start settled to it
-  bool cancelled_ = false;
+  std::vector<UnsolvedMotion> given_up_;    // near which no motion was found
+  UnsolvedMotion* unsolved_ = nullptr;      // of the result, where the last start settled to it
+  bool cancelled_ = false, grows_ = false;  // the search, and the motion integrated last
 };
 
 }  // namespace

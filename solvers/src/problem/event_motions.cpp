@@ -153,7 +153,9 @@ class EventMotions {
     found.load_periods = exact.load_periods;
     found.motion = std::move(exact.motion);
     if (found.motion.parts == nullptr) {
-      if (found.motion.status != PhasesStatus::cancelled) found.motion.status = PhasesStatus::not_settled;
+      if (found.motion.status != PhasesStatus::cancelled)
+        found.motion.status =
+            exact.settled.ended == FlowStatus::grows ? PhasesStatus::grows : PhasesStatus::not_settled;
       return found;
     }
     found.multipliers = found.motion.multipliers();

@@ -14,7 +14,7 @@ struct DiagramValue {
   bool forwards = true;  ///< or on the way back
   int period = 0;        ///< periods of the load after which the motion repeats; 0: up to a quarter of the
                          ///< points it does not
-  /// Empty, or why there is no section: "step_failure" or "endless_events"; the next value begins from rest.
+  /// Empty, or why there is no section: to_string(FlowStatus); the next value begins from rest.
   std::string failure = {};
   Eigen::MatrixXd displacement = {}, velocity = {};  ///< places x points of the section
   Eigen::VectorXd highest = {}, lowest = {};         ///< of each place over all recorded periods
@@ -46,7 +46,7 @@ struct Diagram {
   /// Of the curve from the other end, which is followed where the first did not come to it; else empty.
   std::string exact_status_back = {};
   std::string exact_status;  ///< of the exact curve; "not_sought", or "refused" where the scene has none
-  std::string status;        ///< "converged", "interrupted", "no_modes" or "incomplete" with a failure
+  std::string status;  ///< "converged", "interrupted", "no_modes", "incomplete" with a failure or "grows"
   double wall_seconds = 0.0;
 };
 

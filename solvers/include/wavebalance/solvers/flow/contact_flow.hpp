@@ -16,7 +16,8 @@ enum class FlowStatus {
   /// no forces of the laws were found on a panel, the shortest does not resolve them, rounding leaves them no
   /// digits, or a period takes more than max_panels
   step_failure,
-  endless_events  ///< more and more events in a vanishing time
+  endless_events,  ///< more and more events in a vanishing time
+  grows            ///< displacements of a period end beyond 1e9 times length(), or step by step beyond 1e6
 };
 
 std::string_view to_string(FlowStatus status);

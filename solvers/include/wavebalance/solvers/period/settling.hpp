@@ -39,6 +39,7 @@ struct SettledMotion {
   int attractor_periods = unknown;
   int periods = 0;         ///< integrated
   bool cancelled = false;  ///< the observer asked to stop
+  bool grows = false;      ///< the motion leaves every bound
   double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
   /// The contacts in the last period of the problem, C x steps load_periods(); without columns where nothing
   /// could be integrated.

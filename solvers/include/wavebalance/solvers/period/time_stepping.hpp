@@ -14,6 +14,7 @@ enum class TimeSteppingStatus {
   iteration_limit,   ///< max_periods was reached
   tolerance_missed,  ///< max_periods was reached, and the last two periods differ by the errors of panels
   step_failure,      ///< the integrator found no step that meets its tolerance
+  grows,             ///< displacements leave every bound
   cancelled          ///< the observer returned false
 };
 

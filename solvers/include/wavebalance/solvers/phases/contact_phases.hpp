@@ -60,6 +60,7 @@ enum class PhasesStatus {
   grazing,               ///< it cannot be told whether the solution passes an obstacle
   chattering,            ///< infinitely many impacts in a finite time, then contact that lasts
   lasting_contact,       ///< contact lasts from an impact without rebound on, as load or motion press it
+  grows,                 ///< the motion leaves every bound
   not_settled,           ///< no periodic motion was found within the options' limits
   too_many_impacts,      ///< more than 2000 in a period of the load
   cancelled              ///< the observer returned false; the motion is that found before, if there is one

@@ -73,7 +73,7 @@ struct CoexistingMotions {
   std::vector<UnsolvedMotion> unsolved;   ///< likewise
   int starts = 0;                         ///< random ones that were taken
   int none = 0;                           ///< of these, those that settle to none of the motions
-  /// Set by event_motions(): `none` by their last status, and the status of the start from rest.
+  /// `none` by their last status, and the status of the start from rest where that has no motion.
   std::map<PhasesStatus, int> none_by;
   PhasesStatus first = PhasesStatus::converged;
   std::vector<BoxSide> box;  ///< of the random states, by mode
