@@ -199,10 +199,10 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
     if (!curve.points.empty())
       sweep.periods = sweep.motion_periods = static_cast<int>(
           std::lround(sweep.curve.points.front().frequency / curve.points.front().motion.frequency()));
-    copy_impacts(curve, sweep.periods, sweep);
   } else {
     sweep.phases.push_back(sweep_phases(curve, sweep.curve, stability));
   }
+  if (measure.impulses || has_impacts(scene.contact)) copy_impacts(curve, sweep.periods, sweep);
   if (has_friction(scene)) {
     std::vector<FrictionShares>& shares = sweep.friction.emplace_back();
     const std::vector<SceneContact> places = contacts_of(scene);
@@ -231,7 +231,7 @@ Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observe
                                           : problem.exact_amplitude_sweep(frequency, options, how, at);
   Sweep sweep = sweep_of(curve, scene, problem);
   if (model.contact_dynamics() == nullptr) sweep.start_status = "no_modes";
-  if (scene.analysis.branches && curve.status != solvers::SweepStatus::cancelled && !sweep.impacts.empty())
+  if (scene.analysis.branches && curve.status != solvers::SweepStatus::cancelled && sweep.by_impacts())
     add_doubled_curves(problem.doubled_curves(curve, parameter_of(scene), frequency, options),
                        measure_of(curve, scene, problem.laws()), sweep);
   sweep.wall_seconds = clock.seconds();

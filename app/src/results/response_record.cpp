@@ -7,6 +7,7 @@
 #include "analysis/response_parts.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
+#include "plot/unit_prefix.hpp"
 #include "results/contact_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/orbit_record.hpp"
@@ -116,13 +117,18 @@ void append_settled(Record& record, const Scene& scene, const Response& response
   const std::string others =
       std::string(" Other motions were not searched for") +
       (accepts(scene, {.analysis = "motions"}) ? "; analysis.type = \"motions\" does so." : ".");
+  constexpr double rounding = 1e-9;  // an obstacle at zero holds the displacement there
+  const double size =
+      response.contacts.empty() ? 0.0 : rounding * response.contacts.displacement.cwiseAbs().maxCoeff();
   if (beside.periods > 0)
     warn(record,
          "From rest time integration converges to {} motion, of {} and with a largest "
-         "displacement of {:.4g} m{}.{}",
+         "displacement of {}{}.{}",
          response.moves ? "another" : "a",
          beside.periods == 1 ? "one period" : fmt::format("{} periods", beside.periods),
-         beside.max_displacement, response.moves ? "" : " (no exact solution was found for it)", others);
+         quantity(std::abs(beside.max_displacement) <= size ? 0.0 : beside.max_displacement,
+                  displacement_unit(scene)),
+         response.moves ? "" : " (no exact solution was found for it)", others);
   else
     record.warnings.push_back(
         (beside.periods == 0

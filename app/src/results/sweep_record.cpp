@@ -119,7 +119,7 @@ void append_impacts(Record& record, const Sweep& sweep) {
   const std::vector<PointImpacts>& along = sweep.impacts.front();
   record.add(quantities::max_impulse, largest_of(along, &PointImpacts::largest_impulse));
   record.add(quantities::max_impact_velocity, largest_of(along, &PointImpacts::largest_speed));
-  if (sweep.periods > 1) record.add(quantities::period_of_motion, sweep.periods);
+  if (sweep.by_impacts() && sweep.periods > 1) record.add(quantities::period_of_motion, sweep.periods);
 }
 
 /// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
@@ -138,14 +138,14 @@ double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, d
 
 /// Whether a contact closes anywhere along the curve.
 bool touches(const Sweep& sweep) {
-  if (sweep.impacts.empty()) return largest_of(sweep.curve.points, &SweepPoint::max_force) > 0.0;
-  return std::any_of(sweep.impacts.front().begin(), sweep.impacts.front().end(),
-                     [](const PointImpacts& point) { return point.count > 0; });
+  const auto strikes = [](const PointImpacts& point) { return point.count > 0; };
+  return largest_of(sweep.curve.points, &SweepPoint::max_force) > 0.0 ||
+         (!sweep.impacts.empty() && std::ranges::any_of(sweep.impacts.front(), strikes));
 }
 
 /// Of each point, the most where they differ.
 int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
-  if (sweep.impacts.empty()) return model.contacts() * scene.time.functions;
+  if (!sweep.by_impacts()) return model.contacts() * scene.time.functions;
   const auto unknowns = [](const PointImpacts& point) { return 2.0 * point.count + 1.0; };
   return sweep.impacts.front().empty() ? 0 : int(largest_of(sweep.impacts.front(), unknowns));
 }
@@ -197,14 +197,12 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   Record record;
   record.interrupted = sweep.stopped();
   record.converged = sweep.converged() && !record.interrupted;
-  record.status = record.interrupted ? "interrupted" : sweep.status();
+  const bool undetermined = sweep.start_status == to_string(solvers::PhasesStatus::undetermined);
+  record.status = record.interrupted ? "interrupted" : undetermined ? sweep.start_status : sweep.status();
   record.warnings = model.warnings;
   warn_of_unbalanced_load(record, model);
-  if (!sweep.start_status.empty() && !record.interrupted)
-    warn(record, "No periodic motion was found at the start of the curve: {}.{}", sweep.start_status,
-         sweep.start_status == "undetermined"
-             ? " A body is free and its position is not determined: hold it by a soft spring to ground."
-             : "");
+  if (!sweep.start_status.empty() && !record.interrupted && !undetermined)
+    warn(record, "No periodic motion was found at the start of the curve: {}.", sweep.start_status);
   const double highest = largest_of(sweep.curve.points, &SweepPoint::max_displacement);
   const int points = static_cast<int>(sweep.curve.points.size());
   record.summary =
@@ -228,14 +226,14 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   warn_of_scene(record, scene);
   if (points > 0 && scene.contact.law != no_law && !touches(sweep))
     warn_of_open_contacts(record, common_gap(scene) - highest, common_gap(scene), displacement_unit(scene));
-  if (sweep.impacts.empty()) append_period(record, sweep.periods, sweep.motion_periods);
+  if (!sweep.by_impacts()) append_period(record, sweep.periods, sweep.motion_periods);
   append_impacts(record, sweep);
   append_stability(record, scene, sweep);
   append_phases(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_isolas(record, scene, sweep);
   append_motions(record, scene, model, sweep, motions);
-  if (!sweep.impacts.empty()) {
+  if (sweep.by_impacts()) {
     record.add(quantities::solved_by, "impacts");
   } else if (!sweep.exact_motions.empty() || scene.analysis.exact) {
     record.add(quantities::solved_by, name_of(TimeMethod::exact));

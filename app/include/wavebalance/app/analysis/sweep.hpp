@@ -64,6 +64,8 @@ struct Sweep {
   std::vector<SweepPhases> phases = {};   ///< set by add_phases(): of the curve, then of each branch
   /// Of scenes with impacts: of each point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
+  /// Whether they alone make the motions, which then have no forces and no errors of phases.
+  bool by_impacts() const { return !impacts.empty() && phases.empty(); }
   /// Of scenes with friction: of each point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
   /// The motions of the points of an exact curve, then of each branch.
