@@ -3,7 +3,9 @@
 import csv
 import math
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 
 def scene(structure, contacts, forcing, frequency, analysis="", kind="time_stepping"):
@@ -132,6 +134,47 @@ def test_a_ball_on_a_table_that_shakes_hard_is_told_as_unstable_with_what_it_set
     assert summary["max_impact_velocity_m_per_s"] == pytest.approx(0.2616, rel=1e-9)
     assert summary["leading_multiplier_real"] == pytest.approx(-2.58922383, abs=1e-7)
     assert summary["settled_periods"] > 1
+
+
+def strike_of_a_dashpot(touch, gravity=9.81, amplitude=20.0, omega=50.0 * math.pi, stiffness=1e6, damping=430.0):
+    """From a touch, an instant and a speed, over contact that ends where its force vanishes and the flight to the next."""
+
+    def depth(force):
+        return lambda t, z: [z[1], gravity + amplitude * math.cos(omega * t) - force(z)]
+
+    def until(slope, t, z, event):
+        event.terminal, event.direction = True, 1
+        ended = solve_ivp(slope, (t, t + 1.0), z, method="DOP853", rtol=1e-12, atol=1e-16, events=event)
+        return ended.t[-1], ended.y[:, -1]
+
+    def force(z):
+        return stiffness * z[0] + damping * z[1]
+
+    time, state = until(depth(force), touch[0], [0.0, touch[1]], lambda t, z: -force(z))
+    time, state = until(depth(lambda z: 0.0), time, state, lambda t, z: z[0])
+    return np.array([time - 2.0 * math.pi / omega, state[1]])
+
+
+def test_the_multiplier_of_a_ball_that_strikes_a_dashpot_is_that_of_its_strikes(run, matrix):
+    # The touches of one period by Newton's method; a dashpot that rises within 1e-6 m is nearly one that acts at once.
+    touch = np.array([0.3928 * 0.04, 0.2616])
+    for _ in range(6):
+        steps = np.diag([1e-7, 1e-5])
+        map_of = np.column_stack([(strike_of_a_dashpot(touch + s) - strike_of_a_dashpot(touch - s)) / (2.0 * s.sum()) for s in steps])
+        touch = touch + np.linalg.solve(np.eye(2) - map_of, strike_of_a_dashpot(touch) - touch)
+    leading = min(np.linalg.eigvals(map_of).real)
+    matrix("m.mtx", [[1.0]])
+    matrix("k.mtx", [[0.0]])
+    loads = ('[[forcing.terms]]\nharmonic = 0\ndofs = [1]\namplitude = -9.81\n'
+             '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\namplitude = 20.0')
+    pair = '[time]\ntrial = "fourier"\nweight = "fourier"\nfunctions = 255\nquadrature_points = 8192\n'
+    for at_once in "0.0", "1e-6":
+        stop = (f'[contact]\nlaw = "kelvin_voigt"\nstiffness = 1e6\ndamping = 430.0\ndamping_depth = {at_once}\n'
+                'gap = 0.0\n[[contact.pairs]]\ndofs = [1]\ncoefficients = [-1.0]')
+        found = run(scene("free = true", stop, loads, 25.0, "", "forced_response").replace("[analysis]", pair + "[analysis]"))
+        assert found.code == 0 and found.summary["phases_status"] == "converged", found.errors
+        assert found.summary["stability"] == "unstable"
+        assert found.summary["leading_multiplier_real"] == pytest.approx(leading, abs=1e-5)
 
 
 def test_a_curve_of_a_block_that_nothing_holds_is_told_as_undetermined(run, matrix):

@@ -26,8 +26,10 @@ PhasesProblem phases_problem(const CondensedProblem& problem, const ContactLaws&
 ResponsePhases response_phases(const CondensedProblem& problem, const PeriodicResponse& response,
                                const PhasesProblem& phases, const ContactPhasesOptions& options,
                                PhaseFinder find) {
-  constexpr int least_points = 256, most_points = 1024;  // a start needs no more
-  const int points = std::clamp(problem.points(), least_points, most_points);
+  // A start needs no more, but fewer alias the force of a damper that rises within a small depth.
+  constexpr int least_points = 256, enough = 1024, enough_of_dampers = 8192;
+  const int points = std::clamp(problem.points(), least_points,
+                                phases.laws.depend_on_velocity() ? enough_of_dampers : enough);
   const Motion balance = contact_motion(problem, response, phases.laws, points);
   ResponsePhases result{find(phases, balance.displacement, options, balance.force), missing, missing};
   if (result.motion.parts == nullptr) return result;
