@@ -63,6 +63,30 @@ def test_what_is_wrong_is_named(write, text, expected):
     assert "; the file was read as matrix input of Abaqus" in str(raised.value)
 
 
+CUT = "the file is cut off"
+
+
+@pytest.mark.parametrize("headerless", ["labels", "coordinate"])
+@pytest.mark.parametrize("end, why", [(-6, "shorter than all before"), ("a row", "no entry on the diagonal")])
+def test_a_file_that_is_cut_off_is_refused(write, headerless, end, why):
+    # A value without its exponent, -1000 as -1, and a last row without its diagonal.
+    entries = [(2, 2, 2e3), (3, 2, -1e3), (3, 3, 2e3), (4, 3, -1e3), (4, 4, 1e3)]
+    line = "{},1, {},1, {:.15e}\n" if headerless == "labels" else "{} {} {:.15e}\n"
+    text = "".join(line.format(i - (headerless != "labels"), j - (headerless != "labels"), value) for i, j, value in entries)
+    whole = wb.read_matrices(write("job_STIF1.mtx", text))
+    assert whole.stiffness.shape == (3, 3)
+    np.testing.assert_array_equal(wb.read_matrices(write("job_STIF1.mtx", text[:-1])).stiffness.toarray(), whole.stiffness.toarray())
+    cut = text[:end] if end != "a row" else "".join(text.splitlines(keepends=True)[:-1])
+    with pytest.raises(ValueError, match=why) as raised:
+        wb.read_matrices(write("job_STIF1.mtx", cut))
+    assert CUT in str(raised.value)
+
+
+def test_values_that_a_person_wrote_may_be_of_any_length(write):
+    found = wb.read_matrices(write("k_stif.mtx", "2,1, 2,1, 1000.0\n3,1, 3,1, 5"))
+    np.testing.assert_array_equal(found.stiffness.toarray(), np.diag([1000.0, 5.0]))
+
+
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_a_substructure_has_all_its_matrices_in_a_file(write, symmetric):
     matrices = {"STIFFNESS": STIFFNESS, "MASS": MASS, "VISCOUS DAMPING": DAMPING @ DAMPING.T if symmetric else DAMPING}

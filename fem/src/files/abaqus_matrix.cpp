@@ -55,7 +55,7 @@ class AbaqusReader {
       lines_.fail("found \"", lines_.text().substr(0, 120),
                   "\"; the line must hold node, degree of freedom, node, degree of freedom and value");
     const int row = matrix_.place(dof(words[0], words[1]));
-    matrix_.add(row, matrix_.place(dof(words[2], words[3])), lines_.finite(words[4]));
+    matrix_.add(row, matrix_.place(dof(words[2], words[3])), lines_.finite_of_column(words[4]));
   }
 
   void add_load(const std::vector<std::string_view>& words) {
@@ -72,6 +72,7 @@ class AbaqusReader {
   std::vector<NamedMatrix> result() const {
     std::vector<NamedMatrix> found;
     if (!matrix_.empty()) found.push_back(matrix_.square("", symmetric_, lines_.name()));
+    if (symmetric_ && !matrix_.empty() && matrix_.ends_within_a_row()) lines_.fail(detail::cut_row);
     if (!loads_.empty()) found.push_back(loads_.loads("", cases_, lines_.name()));
     if (found.empty())
       lines_.fail(

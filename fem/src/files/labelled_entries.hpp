@@ -17,6 +17,7 @@ class LabelledEntries {
   /// Zeros are left out.
   void add(int row, int column, double value);
   bool empty() const { return dofs_.empty(); }
+  bool ends_within_a_row() const { return !entries_.empty() && detail::ends_within_a_row(entries_); }
 
   /// The matrix with its rows by ascending labels; both triangles if it is symmetric. Throws MatrixFileError
   /// as matrix_of() does, with the names of nodes.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <unordered_map>
 
 #include "wavebalance/fem/matrix_file.hpp"
 
@@ -126,6 +127,16 @@ Eigen::SparseMatrix<double> matrix_of(MatrixEntries entries, int rows, int colum
   Eigen::SparseMatrix<double> matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
+}
+
+bool ends_within_a_row(const MatrixEntries& entries) {
+  std::unordered_map<int, bool> has_diagonal;
+  for (const auto& entry : entries) {
+    bool& has = has_diagonal[entry.row()];
+    has = has || entry.row() == entry.col();
+  }
+  const auto without = std::ranges::count(has_diagonal, false, [](const auto& row) { return row.second; });
+  return has_diagonal.size() > 1 && without == 1 && !has_diagonal[entries.back().row()];
 }
 
 }  // namespace wavebalance::fem::detail

@@ -22,4 +22,10 @@ std::string place_text(int row, int column);
 Eigen::SparseMatrix<double> matrix_of(MatrixEntries entries, int rows, int columns, bool symmetric,
                                       const std::string& name, const EntryName& entry_name = place_text);
 
+/// Whether the row of the last entry has none on the diagonal, as all other rows of entries have: programs
+/// end each row of a symmetric matrix with it, so that the file was cut off.
+bool ends_within_a_row(const MatrixEntries& entries);
+constexpr const char* cut_row =
+    "the last row has no entry on the diagonal, as all rows before it have; the file is cut off";
+
 }  // namespace wavebalance::fem::detail

@@ -82,4 +82,16 @@ double Lines::finite(std::string_view text) const {
   return value;
 }
 
+double Lines::finite_of_column(std::string_view text) {
+  const double value = finite(text);
+  const std::size_t width = text.size() - (text.starts_with('-') ? 1 : 0);
+  if (input_.eof() && of_one_width_ && width < width_)
+    fail("the value is \"", text,
+         "\" and shorter than all before, and no end of line follows; the file is cut off");
+  of_one_width_ = of_one_width_ && (width_ == 0 || width == width_) &&
+                  text.find_first_of("eEdD") != std::string_view::npos;
+  width_ = width;
+  return value;
+}
+
 }  // namespace wavebalance::fem::detail

@@ -77,6 +77,9 @@ class Lines {
   int index(std::string_view text, const char* what, int size) const;
   int index(std::size_t word, const char* what, int size) const { return index(words_[word], what, size); }
   double finite(std::string_view text) const;
+  /// The same of lines of one layout: of values with exponents and one length, a shorter one that nothing
+  /// follows was cut off.
+  double finite_of_column(std::string_view text);
   double finite(std::size_t word) const { return finite(words_[word]); }
 
  private:
@@ -85,6 +88,8 @@ class Lines {
   std::string text_;
   std::vector<std::string_view> words_;
   int number_ = 0;
+  std::size_t width_ = 0;  // of the values of a column without their signs
+  bool of_one_width_ = true;
 };
 
 }  // namespace wavebalance::fem::detail
