@@ -133,3 +133,23 @@ def test_stability_is_left_out_on_request(tmp_path):
     record = wb.run(STOPPED, PLAIN)
     assert "stability" not in record.summary
     assert labels_of(figure_of(record, tmp_path, "backbone"))[0].startswith("ω")
+
+
+def test_a_curve_to_a_large_energy_has_about_the_points_asked_for(tmp_path):
+    # u'' + u + u^3 = 0: omega is the arithmetic-geometric mean of (1 + A^2)^0.5 and (1 + A^2 / 2)^0.5.
+    matrix = tmp_path / "one.mtx"
+    matrix.write_text("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1.0\n")
+    scene = {"structure": {"type": "matrices", "mass": str(matrix), "stiffness": str(matrix), "contact_dofs": [1]},
+             "contact": {"law": "cubic", "cubic_stiffness": 1.0},
+             "analysis": {"type": "nonlinear_mode", "harmonics": 31, "reference_length": 1.0, "largest_energy": 500.0,
+                          "points": 150, "stability": False}}
+    record = wb.run(scene)
+    assert record.converged, record.status
+    table = record.backbone
+    assert 75 <= len(table["energy_ratio"]) <= 600
+    amplitude = table["max_displacement_m"]
+    high, low = np.sqrt(1.0 + amplitude**2), np.sqrt(1.0 + 0.5 * amplitude**2)
+    for _ in range(8):
+        high, low = 0.5 * (high + low), np.sqrt(high * low)
+    np.testing.assert_allclose(table["frequency_ratio"], high, rtol=1e-6)
+    assert np.isnan(table["contact_fraction"]).all()  # a spring that always acts is never in contact

@@ -11,6 +11,7 @@
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
+#include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -133,8 +134,10 @@ solvers::ElasticBackboneOptions elastic_options(const Analysis& analysis, double
   const bool ends = ends_at_frequency(analysis);
   options.max_frequency_ratio =
       ends ? analysis.last_frequency_ratio : std::numeric_limits<double>::infinity();
-  const double length =
-      ((ends ? analysis.last_frequency_ratio : usual_frequency_ratio) - 1.0) / options.frequency_scale;
+  const double by_frequency = ((ends ? analysis.last_frequency_ratio : usual_frequency_ratio) - 1.0) /
+                              options.frequency_scale,
+               by_amplitude = ends ? 0.0 : (std::sqrt(largest_energy) - 1.0) / std::numbers::sqrt2,
+               length = std::max(by_frequency, by_amplitude);
   options.max_step = std::min(options.max_step, 0.5 * length / analysis.points);
   options.initial_step = std::min(options.initial_step, options.max_step);
   options.max_points = 1000 + 20 * analysis.points;
@@ -221,6 +224,9 @@ Backbone ModeStudy::backbone(double largest_energy, const solvers::Observer& obs
         rigid_backbone(mode_, analysis.points, largest_energy, analysis.last_frequency_ratio, observer);
     set_rigid_end(curve, mode_.linear_omega(), largest_energy, analysis);
   }
+  const std::vector<SceneContact> contacts = contacts_of(scene_);
+  if (std::ranges::any_of(contacts, [](const SceneContact& one) { return acts_everywhere(one.law); }))
+    for (ModePoint& point : curve.points) point.contact_fraction = missing;
   curve.interruptions = interruptions_of(curve.points, mode_.linear_omega());
   curve.wall_seconds = clock.seconds();
   for (const ModePoint& point : curve.points)

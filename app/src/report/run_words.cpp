@@ -167,6 +167,10 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
                lowest = number_in(summary, quantities::min_displacement);
   if (!std::isfinite(highest)) return;
   const std::string unit = length_unit(summary);
+  constexpr double rounding = 1e-9;
+  const auto shown = [&](double value) {
+    return quantity(std::abs(value) <= rounding * (highest - lowest) ? 0.0 : value, unit);
+  };
   const double contact = number_in(summary, quantities::leading_contact);
   const std::string direction = text_in(summary, quantities::leading_direction),
                     named = text_in(summary, quantities::leading_contact_name);
@@ -175,8 +179,8 @@ void append_motion(std::vector<std::string>& sentences, const Summary& summary, 
           ? ""
           : fmt::format(" of {}, {},", named.empty() ? fmt::format("contact {}", contact) : named, direction);
   sentences.push_back(fmt::format("At {} the displacement{} is between {} and {}{}.",
-                                  with_unit(summary, quantities::frequency), name, quantity(lowest, unit),
-                                  quantity(highest, unit), beside_gap(highest, gap, unit)));
+                                  with_unit(summary, quantities::frequency), name, shown(lowest),
+                                  shown(highest), beside_gap(highest, gap, unit)));
 }
 
 /// The errors of the vibration of outputs and contacts, "row 19 0.35 %", the output that leads first.
@@ -259,7 +263,8 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
                   number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis));
   // Without a gap the vibration says it all, and a rigid obstacle holds the displacement at its gap.
   constexpr double rounding = 1e-9;
-  if (!std::isfinite(highest) || !std::isfinite(gap) || std::abs(highest - gap) <= rounding * std::abs(gap))
+  if (!std::isfinite(highest) || !std::isfinite(gap) ||
+      std::abs(highest - gap) <= rounding * std::max(std::abs(gap), vibration))
     return;
   sentences.push_back(
       fmt::format("The largest displacement is {}, {}{}.", rounded_quantity(highest, unit, value_resolution),
@@ -285,15 +290,21 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
   }
 }
 
+/// The energy that ratios refer to: that at which the linear mode reaches a gap, or a reference length.
+std::string reference_energy(const Summary& summary) {
+  const bool gap = std::isfinite(number_in(summary, quantities::max_penetration_over_gap));
+  return gap ? "grazing energy of the linear mode" : "energy of the linear mode at reference_length";
+}
+
 /// A single motion of a mode.
 void append_mode_at_energy(std::vector<std::string>& sentences, const Summary& summary) {
   const double energy = number_in(summary, quantities::energy_ratio),
                ratio = number_in(summary, quantities::frequency_ratio);
   if (!std::isfinite(energy) || !std::isfinite(ratio)) return;
-  sentences.push_back(fmt::format(
-      "At {:.4g} times the grazing energy of the linear mode, mode {:.0f} has the frequency "
-      "{}, {:.4g} times the linear one.",
-      energy, number_in(summary, quantities::mode), with_unit(summary, quantities::frequency), ratio));
+  sentences.push_back(
+      fmt::format("At {:.4g} times the {}, mode {:.0f} has the frequency {}, {:.4g} times the linear one.",
+                  energy, reference_energy(summary), number_in(summary, quantities::mode),
+                  with_unit(summary, quantities::frequency), ratio));
 }
 
 void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
@@ -301,8 +312,8 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
   const double ratio = number_in(summary, quantities::largest_energy_ratio);
   if (!std::isfinite(ratio)) return append_mode_at_energy(sentences, summary);
   sentences.push_back(fmt::format(
-      "Mode {:.0f} was followed over {}, up to {:.4g} times the grazing energy of the linear mode.",
-      number_in(summary, quantities::mode), count_of(summary, quantities::points, "point"), ratio));
+      "Mode {:.0f} was followed over {}, up to {:.4g} times the {}.", number_in(summary, quantities::mode),
+      count_of(summary, quantities::points, "point"), ratio, reference_energy(summary)));
   sentences.push_back(fmt::format("The frequency rises to {:.4g} times the linear one of {}.",
                                   number_in(summary, quantities::largest_frequency_ratio),
                                   with_unit(summary, quantities::linear_frequency)));
