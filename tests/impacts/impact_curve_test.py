@@ -5,7 +5,16 @@ import math
 import numpy as np
 import pytest
 import wavebalance as wb
-from impact_structures import between_stops, lumped_bar, oscillator, scene_of, two_masses
+from event_flow import EventFlow
+from impact_structures import (
+    Structure,
+    between_stops,
+    lumped_bar,
+    mixture_of,
+    oscillator,
+    scene_of,
+    two_masses,
+)
 from scipy.linalg import expm
 
 TAU = 2.0 * math.pi
@@ -152,3 +161,31 @@ def test_a_bar_of_many_modes_is_followed():
     sizes = np.hypot(points["multiplier_real"], points["multiplier_imag"])
     others = np.array(points["type"]) != "grazing"
     np.testing.assert_allclose(sizes[others], 1.0, rtol=0.0, atol=1e-6)
+
+
+def strikes_in_time(structure, periods=40):
+    """Instants and speeds by contact of the impacts in the last of so many periods from rest, from event to event."""
+    flow = EventFlow(mixture_of(structure))
+    states, z = ("open",) * len(structure.contacts), np.zeros(flow.length)
+    z[flow.one :] = 1.0, 1.0, 0.0  # the constant, and cos and sin at the beginning of a period
+    for _ in range(periods):
+        flow.fastest[:] = 0.0
+        states, z = flow.over(states, z, flow.period)
+    strikes = sorted((c, time / flow.period) for time, c, event, _ in flow.events if event == "impact")
+    assert [c for c, _ in strikes] == list(range(len(structure.contacts)))
+    return [time for _, time in strikes], flow.fastest
+
+
+def test_a_curve_goes_on_where_the_impacts_of_two_contacts_pass_each_other():
+    structure = Structure(np.eye(2), 0.3 * np.eye(2), np.array([[4.0, -3.0], [-3.0, 3.5]]), np.eye(2), np.array([0.4, 0.35]), 0.3, 1.2)
+    record = curve(structure, 1.15, 1.33)
+    assert record.status == "reached_end" and record.warnings == []
+    sweep, later = record.sweep, []
+    assert set(sweep["impacts"]) == {2.0} and set(sweep["unstable"]) == {0.0} and not record.summary["special_points"]
+    for i in np.linspace(0, len(sweep["impacts"]) - 1, 6).astype(int):
+        structure.omega = TAU * sweep["frequency_Hz"][i]
+        (one, other), speeds = strikes_in_time(structure)
+        later.append(math.remainder(other - one, 1.0))
+        found = [sweep[f"contact_{c}_max_impact_velocity_m_per_s"][i] for c in (1, 2)]
+        np.testing.assert_allclose(found, speeds, rtol=1e-8)
+    assert later[0] > 1e-3 and later[-1] < -1e-3
