@@ -64,6 +64,9 @@ std::string solution_sentence(const Summary& summary) {
     return "The curve is not complete (" + spaced_words(status) + ") after " + ending +
            " Its points up to there are solutions.";
   const bool shown = std::isfinite(number_in(summary, quantities::max_displacement));
+  if (shown && value_in<Table>(summary, quantities::motions.name) != nullptr)
+    return "The search is not complete (" + spaced_words(status) + ") after " + ending +
+           " The motions found up to there are solutions.";
   return "The scene was not solved (" + spaced_words(status) + ") after " + ending +
          (shown ? " The motion below is not a solution." : " There is no motion to show.") +
          phases_sentence(status);
