@@ -273,8 +273,7 @@ def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
             f"In the first, harmonic balance has an error of {error_text(v['fourier_127_error'])} in {time_text(v['fourier_127_ms'])}, "
             f"the exact solution 1e-12 in {time_text(v['phases_1_12_ms'])}, and time stepping {error_text(v['stepping_error'])} in "
             f"{time_text(v['stepping_ms'])}.",
-            f"Solves to a tolerance had at most {v['tolerance_ratio']:.2g} times that error for 17 motions, and at most "
-            f"{v['tolerance_random_ratio']:.2g} times for 200 random ones.",
+            f"Solves to a tolerance had at most {max(v['tolerance_ratio'], v['tolerance_random_ratio']):.2g} times that error.",
         ],
         "bench/README.md": [
             f"| response, 63 basis functions, 256 time samples, case 1 / case 2 | {both('point')} | {both('dense')} | "
