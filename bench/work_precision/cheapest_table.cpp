@@ -34,7 +34,7 @@ std::string fourier_text(const app::Recommendation& found) {
   if (const auto& near = found.fourier_near_miss) {
     std::array<char, 32> error{};
     std::snprintf(error.data(), error.size(), "%.1e", near->error);
-    return "Fourier: " + std::string(error.data()) + " in " + app::duration_text(near->seconds);
+    return "Fourier: " + std::string(error.data()) + " in " + app::quantity(near->seconds, "s", 3);
   }
   std::array<char, 32> ratio{};
   std::snprintf(ratio.data(), ratio.size(), "%.*f", found.fourier_time_ratio() < 9.95 ? 1 : 0,
@@ -46,7 +46,7 @@ std::string fourier_text(const app::Recommendation& found) {
 std::string cell_of(const app::Recommendation& found) {
   if (!found.choice) return "none";
   const Point& choice = *found.choice;
-  return app::label_of(choice.pair) + "<br>" + app::duration_text(choice.seconds) + "<br><small>" +
+  return app::label_of(choice.pair) + "<br>" + app::quantity(choice.seconds, "s", 3) + "<br><small>" +
          std::to_string(choice.functions) + " functions, " + std::to_string(choice.points) +
          " points</small><br>" + fourier_text(found);
 }

@@ -48,7 +48,7 @@ def test_it_finds_an_unstable_motion():
 
 def test_it_is_described_before_it_runs():
     text = wavebalance.check(BAR, EXACT, unset=BALANCE_KEYS)
-    assert "exact periodic solution to a relative error of 1e-9" in text and "functions" not in text
+    assert "exact periodic solution to a relative error of 10⁻⁹" in text and "functions" not in text
 
 
 @pytest.mark.parametrize("overrides, unset", [

@@ -100,7 +100,7 @@ def test_a_scene_of_phases_comes_back_as_it_is_written():
     written = wavebalance.complete(BAR, overrides, unset=BALANCE_KEYS)
     assert wavebalance.complete(written) == written
     assert tomllib.loads(written)["time"] == {"method": "exact", "tolerance": 1e-11}
-    assert "exact periodic solution to a relative error of 1e-11" in wavebalance.check(BAR, overrides, unset=BALANCE_KEYS)
+    assert "exact periodic solution to a relative error of 10⁻¹¹" in wavebalance.check(BAR, overrides, unset=BALANCE_KEYS)
 
 
 @pytest.mark.parametrize("key, value", [

@@ -29,12 +29,12 @@ def test_files_and_page_say_what_to_take(compare, bar):
     assert names_in(record.folder) == {
         "summary.json", "comparison.csv", "comparison.md", "error_over_time.svg", "error_over_functions.svg",
         "scene.toml", "report.html", "error_over_time.figure.js", "error_over_functions.figure.js"}
-    on_page = ("For an error of 1e-4 in displacement and force", "[time]\ntrial = ",
+    on_page = ("For an error of 10⁻⁴ in displacement and force", "[time]\ntrial = ",
                "Reference: the exact periodic solution, accurate to ", "Results of each pair", "The motion is stable.",
                "error_over_time.figure.js", "wavebalance compare ",
                f'{TWO_PAIRS} <span class="whole">--budget</span> 2')
     assert [part for part in on_page if part not in record.page] == []
-    said = ("The reference is the exact periodic solution", "For an error of 1e-2 in displacement and force the cheapest pair is ",
+    said = ("The reference is the exact periodic solution", "For an error of 0.01 in displacement and force the cheapest pair is ",
             '[time]\ntrial = "')
     assert [part for part in said if part not in record.text] == [], record.text
     rows = rows_of(record.folder / "comparison.csv")

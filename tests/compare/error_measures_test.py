@@ -43,7 +43,7 @@ def test_the_error_that_decides_is_one_of_both_or_the_larger(measure, weighed, c
                                               ("both", "displacement and force")])
 def test_the_error_is_named_by_sentences_tables_and_the_axis(measure, subject, compared):
     found = compared[measure]
-    assert f"For an error of 1e-2 in {subject}" in found.text
+    assert f"For an error of 0.01 in {subject}" in found.text
     assert found.summary["error_of"] == found.summary["recommendations"]["error_of"][0] == measure
     pictures = found.svgs()
     assert set(pictures) == {"error_over_time", "error_over_functions"}

@@ -165,7 +165,7 @@ def test_pairs_belong_to_matrices(refusal, changed, bar_text, chain_text, pairs)
 
 def test_pairs_are_described_as_contacts(scene_file, command, pairs):
     text = wb.check(scene_file(pairs))
-    assert "linear and exponential laws at 4 contacts, gaps 2e-5 to 5e-5 m" in text and "252 unknowns" in text
+    assert "linear and exponential laws at 4 contacts, gaps 20 µm to 50 µm" in text and "252 unknowns" in text
     assert "[[contact.pairs]]" in command("keys").text
 
 

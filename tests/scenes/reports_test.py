@@ -263,7 +263,7 @@ def test_the_list_of_what_was_asked_keeps_names_of_two_words(run, two_contacts):
 
 
 def test_rounding_is_not_printed_as_a_multiplier(run, scenes):
-    assert "a modulus < 1e-12" in sentences(run(scenes / "jones_legrand_2014" / "case1.toml").page)
+    assert "a modulus below 10⁻¹²" in sentences(run(scenes / "jones_legrand_2014" / "case1.toml").page)
 
 
 def test_coexisting_motions_are_drawn_and_listed(run, scenes):

@@ -69,7 +69,7 @@ def test_the_bracket_meets_its_stop_with_the_corners_that_it_names(bracket):
 
 @pytest.mark.parametrize("part", [
     "modes      192.42, 336.84, 658.81, 2035.6, 2651.8 Hz, damping ratios 0.01 each",
-    "compliance 2.4128e-05 m/N at -node 73 z; 2.4128e-05 m/N at -node 75 z"])
+    "compliance 24.128 µm/N at -node 73 z; 24.128 µm/N at -node 75 z"])
 def test_the_bracket_is_described_by_its_frequencies_and_by_compliances_at_its_nodes(part):
     assert part in wb.check(BRACKET)
 

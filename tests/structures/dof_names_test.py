@@ -138,11 +138,11 @@ MANY_PAIRS = "".join(f"[[contact.pairs]]\ndofs = {dofs}\n" for dofs in ("[1]", "
 
 @pytest.mark.parametrize("scene, part", [
     (NAMED, "modes      50.085, 140.33, 202.79 Hz, damping ratios 0.01 each\n"),
-    (NAMED, "compliance 2e-06 m/N at node 20 x; 3e-06 m/N at -node 4 ry\n"),
-    (CHAIN, "compliance 2e-06 m/N at row 2; 3e-06 m/N at row 3\n"),
+    (NAMED, "compliance 2 µm/N at node 20 x; 3 µm/N at -node 4 ry\n"),
+    (CHAIN, "compliance 2 µm/N at row 2; 3 µm/N at row 3\n"),
     (changed(NAMED, ("modal_damping = 0.01", "# ")), "Hz, without damping\n"),
     (changed(NAMED, ("contact_dofs", "# "), ("[forcing]", MANY_PAIRS + "[forcing]")),
-     "compliance from 1e-06 m/N at node 7 x to 3e-06 m/N at node 4 ry\n"),
+     "compliance from 1 µm/N at node 7 x to 3 µm/N at node 4 ry\n"),
 ], ids=["modes", "compliances", "rows", "undamped", "many pairs"])
 def test_check_describes_the_structure_with_the_names_of_its_contacts(scene, part):
     assert part in wb.check(scene)

@@ -295,7 +295,7 @@ frequency = 9.0
     given = wb.run(bar.format(table="", time=BASES), {"forcing.amplitude": 0.1 * force_at(9.0).real})
     assert distance(displacements(record), displacements(given)) < 1e-12
     assert distance(displacements(wb.run(tmp_path / "out" / "scene.toml")), displacements(record)) == 0.0
-    assert "0.1 N times a table over the frequency" in wb.check(bar.format(table='amplitude_table = "table.csv"', time=BASES))
+    assert "100 mN times a table over the frequency" in wb.check(bar.format(table='amplitude_table = "table.csv"', time=BASES))
 
 
 TABLES = {  # of which a sweep is refused at these keys

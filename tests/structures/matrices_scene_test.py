@@ -94,7 +94,7 @@ def test_keys_of_matrices_and_gaps_of_several_contacts_belong_to_no_bar():
 def test_obstacles_on_both_sides_with_a_gap_that_presses_are_described_and_warned_of():
     both = changed(CHAIN, ("contact_dofs = [2, 3]", "# "),
                    ("[forcing]", '[[contact.pairs]]\ndofs = [3]\nside = "both"\ngap = -1e-4\n[forcing]'))
-    assert " m; two contacts for each of the 1 direction with obstacles on both sides" in wb.check(both)
+    assert " µm; two contacts for each of the 1 direction with obstacles on both sides" in wb.check(both)
     warnings = wb.run(both).warnings
     assert any(one.startswith('contact.pairs[1].gap is -0.0001 m with side = "both"') for one in warnings), warnings
 

@@ -15,6 +15,7 @@
 #include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -140,10 +141,7 @@ void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost
   cost.most_exact_seconds = most;
 }
 
-std::string duration_text(double seconds) {
-  if (seconds >= 120.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  return seconds >= 10.0 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1g} s", seconds);
-}
+std::string duration_text(double seconds) { return quantity(seconds, "s", seconds >= 10.0 ? 2 : 1); }
 
 /// Bytes of the control group's limit; infinite where there is none.
 double control_group_limit() {
@@ -214,9 +212,7 @@ double available_memory() {
   return std::min({machine, process_limit(RLIMIT_AS), process_limit(RLIMIT_DATA), control_group_limit()});
 }
 
-std::string memory_text(double bytes) {
-  return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9) : fmt::format("{:.0f} MB", bytes / 1e6);
-}
+std::string memory_text(double bytes) { return quantity(bytes, "B", 2); }
 
 void check_memory(const Scene& scene, double max_gigabytes) {
   const double needed = estimate_cost(scene).bytes;

@@ -17,6 +17,7 @@
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -28,8 +29,7 @@ std::string shown_value(const Cell& value) { return cell_text(value); }
 std::string shown_value(const std::vector<double>& list) {
   constexpr std::size_t most = 6;
   if (list.empty()) return "none";
-  const std::string shown =
-      fmt::format("{:.6g}", fmt::join(std::span(list).first(std::min(most, list.size())), ", "));
+  const std::string shown = short_numbers(std::span(list).first(std::min(most, list.size())), 6);
   return list.size() <= most ? shown : fmt::format("{}, ... ({} in summary.json)", shown, list.size());
 }
 

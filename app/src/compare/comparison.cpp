@@ -10,6 +10,7 @@
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compare/phase_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/table.hpp"
 
 namespace wavebalance::app {
@@ -85,7 +86,8 @@ class ResponseComparison {
       else if (!std::isfinite(of_force))
         found_.without_force = "the force error of the reference is not known";
       else if (!found_.force_asked && of_force > known_share * largest)
-        found_.without_force = fmt::format("the force error of the reference is about {:.0e}", of_force);
+        found_.without_force =
+            fmt::format("the force error of the reference is about {}", short_number(of_force, 1));
       if (!found_.without_force.empty()) found_.measure = displacement;
     }
     measured_.measure = found_.measure;

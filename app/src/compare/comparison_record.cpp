@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "wavebalance/app/compare/comparison_figure.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -18,10 +19,6 @@ Summary heading(const ComparisonRecord& record, const Scene& scene, double wall_
           {"status", record.status},
           {"analysis", "comparison of a " + name_of(scene.analysis.type)},
           {"wall_seconds", wall_seconds}};
-}
-
-std::string number_text(double value) {
-  return std::isfinite(value) ? fmt::format("{:.5g}", value) : std::string("");
 }
 
 /// A line of a Markdown table; a vertical bar in a cell would end it.
@@ -37,7 +34,8 @@ std::string markdown_table(const std::vector<std::string>& columns, const Table&
     for (const std::string& column : columns) {
       const Cell& cell = table.at(row, column);
       const double* number = std::get_if<double>(&cell);
-      cells.push_back(number != nullptr ? number_text(*number) : cell_text(cell));
+      cells.push_back(number != nullptr ? (std::isfinite(*number) ? short_number(*number, 5) : "")
+                                        : cell_text(cell));
     }
     text += markdown_line(std::move(cells));
   }
@@ -46,10 +44,10 @@ std::string markdown_table(const std::vector<std::string>& columns, const Table&
 
 std::string reference_sentence(const Reference& reference) {
   if (!reference.converged) return "No reference was found within its part of the budget.";
-  std::string text =
-      fmt::format("The reference is {}, accurate to {:.0e} in displacement", reference.text, reference.error);
+  std::string text = fmt::format("The reference is {}, accurate to {} in displacement", reference.text,
+                                 short_number(reference.error, 1));
   if (std::isfinite(reference.force_error))
-    text += fmt::format(", to {:.0e} in force", reference.force_error);
+    text += fmt::format(", to {} in force", short_number(reference.force_error, 1));
   const std::string& stability = reference.stability.status;
   if (stability == "stable" || stability == "unstable") text += "; its motion is " + stability;
   return text + ".";
@@ -67,8 +65,8 @@ std::string measure_sentence(const Comparison& comparison) {
 std::string counted(const Comparison& comparison) {
   const auto converged = std::count_if(comparison.points.begin(), comparison.points.end(),
                                        [](const SolvePoint& point) { return point.converged; });
-  return fmt::format("{} solves, {} of them converged, {:.1f} s in all.", comparison.points.size(), converged,
-                     comparison.wall_seconds);
+  return fmt::format("{} solves, {} of them converged, {} in all.", comparison.points.size(), converged,
+                     quantity(comparison.wall_seconds, "s", 2));
 }
 
 std::string recommendations_text(const std::vector<Recommendation>& recommendations, bool markdown) {
@@ -116,7 +114,8 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
                     many_functions, far, others));
   for (const Recommendation& one : comparison.recommendations)
     if (one.stability == "unstable" && comparison.reference.stability.status != "unstable")
-      warnings.push_back(fmt::format("the motion recommended for an error of {:.0e} is unstable", one.error));
+      warnings.push_back(
+          fmt::format("the motion recommended for an error of {} is unstable", short_number(one.error, 1)));
   return warnings;
 }
 
@@ -275,20 +274,20 @@ ComparisonRecord comparison_record(const Scene& scene, const SweepComparison& co
   record.peak_unit = comparison.unit;
   record.summary = heading(record, scene, comparison.wall_seconds);
   record.summary.emplace_back("curves", record.table);
-  record.text =
-      fmt::format("{} curves, {:.1f} s in all.\n", comparison.curves.size(), comparison.wall_seconds);
+  record.text = fmt::format("{} curves, {} in all.\n", comparison.curves.size(),
+                            quantity(comparison.wall_seconds, "s", 2));
   if (comparison.exact) {
     const ComparedCurve& exact = *comparison.exact;
-    record.text += fmt::format(
-        "The exact curve took {:.2g} s. Its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
-        exact.seconds, exact.peak, exact.peak_at, comparison.unit, exact.turning_points);
+    record.text += fmt::format("The exact curve took {}. Its peak is {} at {}, and it turns {} times.\n",
+                               quantity(exact.seconds, "s", 2), quantity(exact.peak, "m", 6),
+                               quantity(exact.peak_at, comparison.unit, 6), exact.turning_points);
   }
   if (comparison.finest) {
     const ComparedCurve& finest = comparison.curves[*comparison.finest];
     record.text += fmt::format(
-        "The finest curve is {} with {} functions. Its peak is {:.6g} m at {:.6g} {}, and it turns {} times.\n",
-        label_of(finest.pair), finest.functions, finest.peak, finest.peak_at, comparison.unit,
-        finest.turning_points);
+        "The finest curve is {} with {} functions. Its peak is {} at {}, and it turns {} times.\n",
+        label_of(finest.pair), finest.functions, quantity(finest.peak, "m", 6),
+        quantity(finest.peak_at, comparison.unit, 6), finest.turning_points);
     record.pictures.push_back(
         {"sweeps", curves_figure(comparison), "the finest curve of each pair, and distances over functions"});
   }

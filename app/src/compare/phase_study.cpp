@@ -7,6 +7,7 @@
 
 #include "compare/phase_reference.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 
@@ -37,8 +38,8 @@ class PhaseStudy {
 
  private:
   bool goes_on(int functions, double tolerance) const {
-    return solvers::goes_on(
-        options_.observer, {fmt::format("exact solution to {:.0e} from {} functions", tolerance, functions)});
+    return solvers::goes_on(options_.observer, {fmt::format("exact solution to {} from {} functions",
+                                                            short_number(tolerance, 1), functions)});
   }
 
   /// The one from which the phases are found soonest.

@@ -10,6 +10,7 @@
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 
@@ -40,33 +41,26 @@ std::string choice_text(const SolvePoint& point) {
                      point.points);
 }
 
-/// "3.4e-3"; with no digits "1e-3".
-std::string error_text(double error, int digits = 1) {
-  std::string text = fmt::format("{:.{}e}", error, digits);
-  if (const auto zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
-  return text;
-}
-
-/// "1.2e-2 in 110 µs"
+/// "0.012 in 110 µs"
 std::string outcome_of(const SolvePoint& point) {
-  return error_text(point.error) + " in " + duration_text(point.seconds);
+  return short_number(point.error, 2) + " in " + quantity(point.seconds, "s", 3);
 }
 
 std::string errors_of(const SolvePoint& point) {
-  std::string text = "error " + error_text(point.displacement_error) + " in displacement";
-  if (!std::isnan(point.force_error)) text += ", " + error_text(point.force_error) + " in force";
+  std::string text = "error " + short_number(point.displacement_error, 2) + " in displacement";
+  if (!std::isnan(point.force_error)) text += ", " + short_number(point.force_error, 2) + " in force";
   return text;
 }
 
 /// "1e-2 in displacement and force"
 std::string asked_text(const Recommendation& found) {
-  return error_text(found.error, 0) + " in " + subject_of(found.measure);
+  return short_number(found.error, 1) + " in " + subject_of(found.measure);
 }
 
 std::string first_sentence(const Recommendation& found, bool steady) {
-  std::string text =
-      fmt::format("For an error of {} the cheapest pair is {}: {} per solve ({})", asked_text(found),
-                  choice_text(*found.choice), duration_text(found.choice->seconds), errors_of(*found.choice));
+  std::string text = fmt::format("For an error of {} the cheapest pair is {}: {} per solve ({})",
+                                 asked_text(found), choice_text(*found.choice),
+                                 quantity(found.choice->seconds, "s", 3), errors_of(*found.choice));
   if (!steady) text += ", but the next size is less accurate";
   if (found.near_miss) text += "; " + choice_text(*found.near_miss) + " has " + outcome_of(*found.near_miss);
   return text + ".";
@@ -87,7 +81,7 @@ std::string runner_up_sentence(const Recommendation& found) {
                        outcome_of(*found.runner_up));
   const char* opening = ratio <= little_ratio ? "The basis matters little" : "The basis matters";
   return fmt::format("{}: the next pair, {}, {} ({}).", opening, choice_text(*found.runner_up),
-                     ratio_text(ratio), duration_text(found.runner_up->seconds));
+                     ratio_text(ratio), quantity(found.runner_up->seconds, "s", 3));
 }
 
 /// Where Fourier:Fourier is late or never reaches the error, but misses it by little.
@@ -95,7 +89,7 @@ std::string near_fourier_sentence(const Recommendation& found) {
   const SolvePoint& near = *found.fourier_near_miss;
   const std::string later =
       found.fourier ? fmt::format(", and reaches it with {} and {} in {}", found.fourier->functions,
-                                  found.fourier->points, duration_text(found.fourier->seconds))
+                                  found.fourier->points, quantity(found.fourier->seconds, "s", 3))
                     : std::string();
   return fmt::format("The basis matters little: {} has {}{}.", choice_text(near), outcome_of(near), later);
 }
@@ -107,7 +101,7 @@ std::string second_sentence(const Recommendation& found, const std::vector<Solve
       if (point.pair.is_fourier() && reaches(point, least)) least = point.error;
     const bool known = std::isfinite(least) && least > found.error;
     return "The basis matters: Fourier:Fourier does not reach it within the budget" +
-           (known ? ", its smallest error is " + error_text(least) + "." : std::string("."));
+           (known ? ", its smallest error is " + short_number(least, 2) + "." : std::string("."));
   }
   if (found.matters == BasisMatters::little && found.choice->pair.is_fourier())
     return runner_up_sentence(found);
@@ -115,7 +109,7 @@ std::string second_sentence(const Recommendation& found, const std::vector<Solve
   if (found.matters == BasisMatters::little || found.matters == BasisMatters::much)
     return fmt::format("The basis matters{}: {} {} ({}).",
                        found.matters == BasisMatters::little ? " little" : "", choice_text(*found.fourier),
-                       ratio_text(found.fourier_time_ratio()), duration_text(found.fourier->seconds));
+                       ratio_text(found.fourier_time_ratio()), quantity(found.fourier->seconds, "s", 3));
   return "Fourier:Fourier was not among the pairs.";
 }
 
@@ -126,7 +120,7 @@ std::string displacement_sentence(const Recommendation& found, std::vector<Solve
   const auto able = cheapest(points, found.error);
   if (!able) return "";
   return fmt::format(" In displacement only, {} reaches it in {} (--error displacement).", choice_text(*able),
-                     duration_text(able->seconds));
+                     quantity(able->seconds, "s", 3));
 }
 
 /// Why there is no choice, and what came nearest.
@@ -148,8 +142,8 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
     return fmt::format(
         "Whether a pair reaches an error of {} is not known, because the reference has an error "
         "of about {}. A larger budget refines it. {}",
-        which, error_text(reference_error),
-        below ? fmt::format("{} is below this in {}.", choice_text(*below), duration_text(below->seconds))
+        which, short_number(reference_error, 2),
+        below ? fmt::format("{} is below this in {}.", choice_text(*below), quantity(below->seconds, "s", 3))
               : nearest);
   return "No pair reaches an error of " + which + " within the budget. " + nearest +
          displacement_sentence(found, points);
@@ -162,7 +156,7 @@ std::string phases_sentence(const Recommendation& found) {
       " The exact solution {}: {} from harmonic balance with {} functions and {} points ({}). "
       "A run with these sizes also reports the contact intervals, the errors of the response "
       "and its stability.",
-      found.choice ? "is faster" : "reaches it", duration_text(phases.seconds), phases.functions,
+      found.choice ? "is faster" : "reaches it", quantity(phases.seconds, "s", 3), phases.functions,
       phases.points, errors_of(phases));
 }
 
@@ -283,12 +277,6 @@ Recommendation recommend(const std::vector<SolvePoint>& points, double error, do
                     second_sentence(found, points) + of_phases;
   found.time_table = time_table_of(*found.choice, time);
   return found;
-}
-
-std::string duration_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:.3g} µs", 1e6 * seconds);
-  if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
-  return fmt::format("{:.3g} s", seconds);
 }
 
 }  // namespace wavebalance::app

@@ -7,6 +7,7 @@
 
 #include "files/number_text.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 
@@ -38,9 +39,8 @@ std::string two_gaps_text(const SceneContact& contact, const std::string& unit) 
   const contact::LawValues values = contact::complete_values(contact::law_entry(contact.law), contact.values);
   if (!values.contains("gap_below")) return "";
   const double below = contact::number_of(values, "gap_below");
-  if (below == contact.gap) return "gap " + number_text(below) + " " + unit + " on either side";
-  return "gaps " + number_text(contact.gap) + " " + unit + " above and " + number_text(below) + " " + unit +
-         " below";
+  if (below == contact.gap) return "gap " + quantity(below, unit) + " on either side";
+  return "gaps " + quantity(contact.gap, unit) + " above and " + quantity(below, unit) + " below";
 }
 
 /// Where laws without a gap act.
@@ -64,8 +64,8 @@ std::string gap_text(const std::vector<SceneContact>& contacts, const std::strin
   if (std::all_of(contacts.begin(), contacts.end(), same))
     if (const std::string both = two_gaps_text(contacts.front(), unit); !both.empty()) return both;
   const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-  if (*least == *most) return "gap " + number_text(*least) + " " + unit;
-  return "gaps " + number_text(*least) + " to " + number_text(*most) + " " + unit;
+  if (*least == *most) return "gap " + quantity(*least, unit);
+  return "gaps " + quantity(*least, unit) + " to " + quantity(*most, unit);
 }
 
 std::string law_text(const std::vector<SceneContact>& contacts) {

@@ -18,6 +18,7 @@
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/record.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -25,11 +26,11 @@
 namespace wavebalance::app {
 namespace {
 
-/// Digits that a reader takes in; scene.toml has all of them.
-std::string seven_digits(double value) { return number_text(rounded(value, 7)); }
+/// scene.toml has all digits.
+std::string seven_digits(double value, const std::string& unit = "") { return quantity(value, unit, 7); }
 
 std::string turning_text(double speed) {
-  return speed > 0.0 ? fmt::format(", turning at {} rad/s", seven_digits(speed)) : "";
+  return speed > 0.0 ? ", turning at " + seven_digits(speed, "rad/s") : "";
 }
 
 std::string turning_text(const Scene& scene) {
@@ -107,15 +108,15 @@ std::string table_text(const std::string& file) {
 
 /// One of the loads beside the first.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
-  const std::string size = number_text(term.amplitude);
+  const std::string size =
+      seven_digits(term.amplitude, term.samples.empty() ? std::string(unit_of(term)) : "");
   const std::string series = !term.samples.empty() ? size + " times samples"
                              : term.harmonic == 0  ? "static, " + size
                                                    : fmt::format("harmonic {}, {}", term.harmonic, size);
   const std::string place = term_place(scene, term);
   const std::string phase =
       term.phase == 0.0 ? "" : fmt::format(", {} degrees ahead", seven_digits(term.phase));
-  const std::string unit = term.samples.empty() ? " " + std::string(unit_of(term)) : "";
-  return fmt::format("           {}: {}{}{}{}{}\n", spaced_words(name_of(term.kind)), series, unit,
+  return fmt::format("           {}: {}{}{}{}\n", spaced_words(name_of(term.kind)), series,
                      table_text(term.amplitude_table), phase, place.empty() ? "" : " " + place);
 }
 
@@ -131,8 +132,8 @@ std::string weight_line(const Scene& scene) {
       files->internal_from ? fmt::format("; nodes from {} on are internal to elements and weigh nothing",
                                          *files->internal_from)
                            : "";
-  return fmt::format("           weight: static, {} m/s^2, {:.5g} N in all{}\n", toml_text(weight),
-                     sum.norm(), internal);
+  return fmt::format("           weight: static, {} m/s^2, {} in all{}\n", toml_text(weight),
+                     quantity(sum.norm(), "N", 5), internal);
 }
 
 /// Outputs by their names, a few of many.
@@ -166,15 +167,17 @@ std::string forcing_line(const Scene& scene) {
     frequency = seven_digits(analysis.frequency_from) + " to " + seven_digits(analysis.frequency_to);
   std::string terms = weight_line(scene);
   for (const ForcingTerm& term : scene.forcing.terms) terms += term_line(scene, term);
-  if (is_over_amplitude(analysis))
-    terms += fmt::format("           the amplitude varies from {} to {} {}\n",
-                         number_text(analysis.amplitude_from), number_text(analysis.amplitude_to),
-                         reference_load(scene.forcing).value().unit);
+  if (is_over_amplitude(analysis)) {
+    const std::string unit(reference_load(scene.forcing).value().unit);
+    terms +=
+        fmt::format("           the amplitude varies from {} to {}\n",
+                    seven_digits(analysis.amplitude_from, unit), seven_digits(analysis.amplitude_to, unit));
+  }
   if (!kind_of(analysis.type).under_load) return "forcing    nothing periodic\n" + terms;
   const std::string periods =
       analysis.subharmonic == 1 ? "" : fmt::format(", motions of {} periods", analysis.subharmonic);
   const bool terms_alone = scene.forcing.amplitude == 0.0 && !terms.empty();
-  const std::string force = fmt::format("{} N{} {}, ", number_text(scene.forcing.amplitude),
+  const std::string force = fmt::format("{}{} {}, ", seven_digits(scene.forcing.amplitude, "N"),
                                         table_text(scene.forcing.amplitude_table), force_place(scene));
   return fmt::format("forcing    {}{} Hz{}{}\n{}", terms_alone ? "" : force, frequency, periods,
                      analysis.branches ? ", with branches" : "", terms) +
@@ -184,7 +187,7 @@ std::string forcing_line(const Scene& scene) {
 std::string chosen_text(const Time& time) {
   const std::string pair = time.trial.empty() ? "pair" : time.trial + ":" + time.weight;
   return fmt::format("time       {}, functions and quadrature points chosen for a relative error of {}\n",
-                     pair, number_text(time.tolerance));
+                     pair, short_number(time.tolerance));
 }
 
 /// What becomes of the Nyquist coefficient; empty for an odd number of functions.
@@ -197,7 +200,7 @@ std::string nyquist_text(const Time& time) {
 std::string phases_line(const Time& time) {
   return fmt::format(
       "time       exact periodic solution to a relative error of {}, started from harmonic balance\n",
-      number_text(time.tolerance));
+      short_number(time.tolerance));
 }
 
 std::string time_lines(const Time& time) {
@@ -248,11 +251,11 @@ std::string mode_lines(const Scene& scene) {
       : is_damped_mode(scene) ? fmt::format("about {} points up to amplitude ratio {}", analysis.points,
                                             seven_digits(analysis.largest_amplitude))
       : analysis.energy_ratio > 0.0
-          ? "the motion of energy ratio " + number_text(analysis.energy_ratio)
+          ? "the motion of energy ratio " + seven_digits(analysis.energy_ratio)
           : fmt::format("{} points up to energy ratio {}", analysis.points,
-                        number_text(analysis.largest_energy)) +
+                        seven_digits(analysis.largest_energy)) +
                 (analysis.last_frequency_ratio > 0.0
-                     ? " or frequency ratio " + number_text(analysis.last_frequency_ratio)
+                     ? " or frequency ratio " + seven_digits(analysis.last_frequency_ratio)
                      : "");
   if (is_elastic_mode(scene) || is_damped_mode(scene)) {
     const Time time = mode_time(scene);
@@ -279,9 +282,7 @@ std::string cost_line(const Scene& scene) {
 }
 
 std::string five_digits(const Eigen::VectorXd& numbers) {
-  std::vector<std::string> texts;
-  for (const double number : numbers) texts.push_back(fmt::format("{:.5g}", number));
-  return fmt::format("{}", fmt::join(texts, ", "));
+  return short_numbers(std::span(numbers.data(), std::size_t(numbers.size())), 5);
 }
 
 std::string ratios_text(const Eigen::VectorXd& ratios) {
@@ -294,7 +295,7 @@ std::string ratios_text(const Eigen::VectorXd& ratios) {
 std::string compliance_text(const StructureFacts& facts) {
   constexpr Eigen::Index few = 4;
   const auto at = [&](Eigen::Index contact) {
-    return fmt::format("{:.5g} m/N at {}", facts.compliances[contact],
+    return fmt::format("{} at {}", quantity(facts.compliances[contact], "m/N", 5),
                        facts.contacts[static_cast<std::size_t>(contact)]);
   };
   const Eigen::Index count = facts.compliances.size();

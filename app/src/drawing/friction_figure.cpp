@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/analysis/friction_measures.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {

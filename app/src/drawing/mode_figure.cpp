@@ -10,8 +10,8 @@
 #include "drawing/output_figure.hpp"
 #include "drawing/record_figure.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

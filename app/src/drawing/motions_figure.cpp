@@ -4,8 +4,8 @@
 #include <string>
 
 #include "drawing/period_window.hpp"
-#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {

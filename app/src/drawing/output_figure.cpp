@@ -9,7 +9,7 @@
 
 #include "drawing/sweep_lines.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {

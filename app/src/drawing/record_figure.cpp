@@ -14,10 +14,10 @@
 #include "drawing/period_window.hpp"
 #include "drawing/sweep_lines.hpp"
 #include "plot/thin_curve.hpp"
-#include "plot/unit_prefix.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -35,12 +35,6 @@ std::string structure_title(const Scene& scene) {
   const std::string kind = structure.type == StructureType::blade ? "blade" : "matrices";
   const int contacts = whole_contact_count(scene);
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
-}
-
-std::string frequency_text(double value) {
-  std::ostringstream text;
-  text << std::setprecision(6) << value << " Hz";
-  return text.str();
 }
 
 /// What the panels of a motion have in common.
@@ -186,7 +180,7 @@ Figure response_figure(const Scene& scene, const Response& response) {
 
 Figure motion_figure(const Scene& scene, const Response& response, double frequency) {
   Figure figure;
-  figure.title = method_title(scene) + ", " + frequency_text(frequency);
+  figure.title = method_title(scene) + ", " + quantity(frequency, "Hz", 6);
   if (response.recorded)
     figure.title += ", the last period before recording";
   else if (!response.converged)
@@ -297,7 +291,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   Figure figure;
   figure.title = method_title(scene);
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
-    figure.title += ", " + frequency_text(scene.forcing.frequency);
+    figure.title += ", " + quantity(scene.forcing.frequency, "Hz", 6);
   if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
   figure.panel_width = 660;  // two names of "half peak to peak, unstable" fit beside each other in the legend
   figure.panel_height = 420;

@@ -1,4 +1,4 @@
-#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +33,14 @@ const Prefix& prefix_for(double magnitude, double least, double most) {
   });
 }
 
+std::string superscript(int exponent) {
+  static constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  for (const char c : std::to_string(exponent))
+    text += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
+  return text;
+}
+
 }  // namespace
 
 Scale axis_scale(double largest) {
@@ -61,15 +69,40 @@ Scale axis_scale(double largest, std::string_view unit) {
   return axis_scale(length ? largest : std::min(largest, 1.0));
 }
 
-std::string quantity(double value, const std::string& unit) {
+std::string short_number(double value, int digits) {
   if (!std::isfinite(value)) return "not known";
-  if (unit.empty()) return fmt::format("{:.4g}", value);
+  constexpr int written_out = 5;  // digits before the point
+  const double shown = rounded(value, digits), rounding = 1e-12;
+  const int exponent = shown == 0.0 ? 0 : int(std::floor(std::log10(std::abs(shown)) + rounding));
+  if (exponent >= -3 && exponent < std::max(digits, written_out))
+    return fmt::format("{:.{}g}", shown, std::max(digits, written_out));
+  const std::string mantissa = fmt::format("{:.{}g}", shown / std::pow(10.0, exponent), digits),
+                    power = "10" + superscript(exponent);
+  return mantissa == "1" ? power : mantissa == "-1" ? "-" + power : mantissa + "·" + power;
+}
+
+std::string short_numbers(std::span<const double> values, int digits) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + short_number(value, digits);
+  return text;
+}
+
+std::string percentage(double fraction, int digits) {
+  constexpr double least = 1e-5;
+  const double size = std::abs(fraction);
+  if (size > 0.0 && size < least) return "less than 0.001 %";
+  return short_number(100.0 * fraction, digits) + " %";
+}
+
+std::string quantity(double value, const std::string& unit, int digits) {
+  if (!std::isfinite(value)) return "not known";
+  if (unit.empty()) return short_number(value, digits);
   const double least = unit == "Hz" ? 1.0 : 1e-12;
-  const double magnitude = rounded(std::abs(value), 4);  // "1 mm" for 999.99 µm
+  const double magnitude = rounded(std::abs(value), digits);  // "1 mm" for 999.99 µm
   if (!takes_prefix(unit) || magnitude < least || magnitude == 0.0)
-    return fmt::format("{:.4g} {}", value, unit);
-  const Prefix& prefix = prefix_for(magnitude, least, unit == "N" ? 1e9 : 1.0);
-  return fmt::format("{:.4g} {}{}", value / prefix.size, prefix.sign, unit);
+    return short_number(value, digits) + " " + unit;
+  const Prefix& prefix = prefix_for(magnitude, least, unit == "N" || unit == "B" ? 1e9 : 1.0);
+  return short_number(value / prefix.size, digits) + " " + prefix.sign + unit;
 }
 
 }  // namespace wavebalance::app

@@ -7,6 +7,7 @@
 
 #include "report/report_parts.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"
 
@@ -23,13 +24,6 @@ std::string command_of(const CompareArguments& arguments) {
   for (const auto& one : arguments.run.overrides) text += " --set " + shell_word(one);
   for (const auto& one : arguments.run.removed) text += " --unset " + shell_word(one);
   return text + " --output " + shell_word(arguments.run.output.string());
-}
-
-/// "1e-2"
-std::string error_text(double error) {
-  std::string text = fmt::format("{:.0e}", error);
-  const auto zero = text.find("e-0");
-  return zero == std::string::npos ? text : text.erase(zero + 2, 1);
 }
 
 /// As pictures name it.
@@ -57,8 +51,8 @@ std::string recommendations(const ComparisonRecord& record, const Summary& summa
   if (table == nullptr) return "";
   std::string html, before;
   for (const Recommendation& one : record.recommendations) {
-    html +=
-        fmt::format("<h3>For an error of {} in {}</h3>\n", error_text(one.error), subject_of(one.measure));
+    html += fmt::format("<h3>For an error of {} in {}</h3>\n", short_number(one.error, 1),
+                        subject_of(one.measure));
     html += paragraph({one.sentences});
     if (one.stability == "stable" || one.stability == "unstable")
       html += paragraph({"The motion is " + one.stability + "."});
@@ -128,10 +122,11 @@ std::string reference_html(const Reference& reference) {
   if (reference.text.empty()) return "";
   if (!std::isfinite(reference.error))
     return paragraph({"No reference was found within its part of the budget."});
-  std::vector<std::string> sentences{
-      fmt::format("Reference: {}, accurate to {:.0e} in displacement.", reference.text, reference.error)};
+  std::vector<std::string> sentences{fmt::format("Reference: {}, accurate to {} in displacement.",
+                                                 reference.text, short_number(reference.error, 1))};
   if (std::isfinite(reference.force_error))
-    sentences.push_back(fmt::format("Its contact force is accurate to {:.0e}.", reference.force_error));
+    sentences.push_back(
+        fmt::format("Its contact force is accurate to {}.", short_number(reference.force_error, 1)));
   const std::string& stability = reference.stability.status;
   if (stability == "stable" || stability == "unstable")
     sentences.push_back("The motion is " + stability + ".");

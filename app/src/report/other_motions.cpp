@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -16,9 +16,9 @@ std::string isolas_sentence(const Summary& summary) {
   const std::size_t found = isolas == nullptr ? 0 : isolas->rows();
   std::vector<std::string> each;
   for (std::size_t i = 0; i < found; ++i)
-    each.push_back(fmt::format("isola {} from {:.5g} to {:.5g} Hz, with a contact force of up to {}", i + 1,
-                               isolas->numbers("lowest_frequency_Hz")[i],
-                               isolas->numbers("highest_frequency_Hz")[i],
+    each.push_back(fmt::format("isola {} from {} to {}, with a contact force of up to {}", i + 1,
+                               short_number(isolas->numbers("lowest_frequency_Hz")[i], 5),
+                               quantity(isolas->numbers("highest_frequency_Hz")[i], "Hz", 5),
                                quantity(isolas->numbers("max_contact_force_N")[i], "N")));
   const double starts = number_in(summary, quantities::isola_starts);
   const double frequencies = number_in(summary, quantities::isola_frequencies);

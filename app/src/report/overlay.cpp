@@ -18,6 +18,7 @@
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -203,7 +204,7 @@ OverlayCurve motion_in(const fs::path& folder, const std::string& label, const f
   }
   const double frequency = number_in(summary, quantities::frequency),
                unstable = number_in(summary, quantities::unstable_multipliers);
-  OverlayCurve curve{fmt::format("{}, {:.6g} Hz", label, frequency),
+  OverlayCurve curve{label + ", " + short_number(frequency, 6) + " Hz",
                      "motion",
                      {},
                      column_of(table, "time_fraction", file),

@@ -5,9 +5,9 @@
 
 #include "files/missing.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "report/overlay.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {

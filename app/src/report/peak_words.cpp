@@ -7,8 +7,8 @@
 
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -38,8 +38,7 @@ std::string rounded_quantity(double value, const std::string& unit, double resol
 std::string place_text(double place, double resolution, const SweepAxis& axis) {
   constexpr int most = 5;
   const double at = rounded(place, digits_of(place, resolution, most));
-  return "at " + (axis.quantity == "frequency" ? fmt::format("{:.10g} {}", at, axis.unit)
-                                               : "an amplitude of " + quantity(at, axis.unit));
+  return (axis.quantity == "frequency" ? "at " : "at an amplitude of ") + quantity(at, axis.unit, most);
 }
 
 std::string peak_text(double vibration, const std::string& unit, double resolution, double place,

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "plot/unit_prefix.hpp"
 #include "report/report_parts.hpp"
 #include "report/run_words.hpp"
 #include "results/rest_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/html.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

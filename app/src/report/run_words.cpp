@@ -7,12 +7,12 @@
 
 #include "files/number_text.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "report/exact_words.hpp"
 #include "report/other_motions.hpp"
 #include "report/peak_words.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
 namespace wavebalance::app {
@@ -36,17 +36,9 @@ std::string length_unit(const Summary& summary) {
 
 std::string force_unit_in(const Summary& summary) { return force_unit(length_unit(summary)); }
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
-
-/// Errors below this are rounding.
-std::string shown_error(double error) {
-  constexpr double least = 1e-10;
-  return error < least ? "< 1e-8 %" : percent(error);
-}
-
 std::string shown_residual(double residual) {
   constexpr double rounding = 1e-12;
-  return residual < rounding ? "< 1e-12" : fmt::format("of {:.2g}", residual);
+  return residual < rounding ? "below 10⁻¹²" : "of " + short_number(residual, 2);
 }
 
 std::string solution_sentence(const Summary& summary) {
@@ -78,7 +70,7 @@ std::string beside_gap(double displacement, double gap, const std::string& unit)
   constexpr double not_shown = 1e-5;  // with four digits
   const double past = displacement / gap - 1.0;
   if (std::abs(past) <= not_shown) return fmt::format(", the gap of {}", quantity(gap, unit));
-  return fmt::format(", {} {} the gap of {}", percent(std::abs(past)), past < 0.0 ? "short of" : "past",
+  return fmt::format(", {} {} the gap of {}", percentage(std::abs(past)), past < 0.0 ? "short of" : "past",
                      quantity(gap, unit));
 }
 
@@ -105,7 +97,7 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
         quantity(number_in(summary, quantities::max_impact_velocity), length_unit(summary) + "/s"), largest));
   if (share > 0.0)
     sentences.push_back(
-        fmt::format("Contact lasts for {} of the period. Its largest force is {}.", percent(share),
+        fmt::format("Contact lasts for {} of the period. Its largest force is {}.", percentage(share),
                     quantity(number_in(summary, quantities::max_contact_force), force_unit_in(summary))));
 }
 
@@ -123,7 +115,7 @@ void append_friction(std::vector<std::string>& sentences, const Summary& summary
                                     contacts.has_column("name")
                                         ? capitalised(cell_text(contacts.at(i, "name")))
                                         : "Contact " + cell_text(contacts.at(i, "contact")),
-                                    percent(stick[i]), percent(slip[i]), percent(open[i])));
+                                    percentage(stick[i]), percentage(slip[i]), percentage(open[i])));
   if (contacts.rows() > few)
     sentences.push_back(fmt::format("{} of {} contacts with friction slip within the period, and {} open.",
                                     any(slip), contacts.rows(), any(open)));
@@ -135,11 +127,11 @@ void append_friction(std::vector<std::string>& sentences, const Summary& summary
 void append_friction_along(std::vector<std::string>& sentences, const Summary& summary) {
   const double slip = number_in(summary, quantities::max_slip_fraction),
                open = number_in(summary, quantities::max_open_fraction);
-  sentences.push_back(
-      slip > 0.0
-          ? fmt::format("Contacts slip for up to {} of the period (mean over all contacts).", percent(slip))
-          : std::string("No contact slips."));
-  sentences.push_back(open > 0.0 ? fmt::format("They are open for up to {} of it.", percent(open))
+  sentences.push_back(slip > 0.0
+                          ? fmt::format("Contacts slip for up to {} of the period (mean over all contacts).",
+                                        percentage(slip))
+                          : std::string("No contact slips."));
+  sentences.push_back(open > 0.0 ? fmt::format("They are open for up to {} of it.", percentage(open))
                                  : std::string("No contact opens."));
 }
 
@@ -158,7 +150,7 @@ void append_contact(std::vector<std::string>& sentences, const Summary& summary,
     sentences.emplace_back("There is no contact.");
   } else if (std::isfinite(share)) {
     sentences.push_back(fmt::format("Contact lasts for {}{} of the period. The largest contact force is {}.",
-                                    limit, percent(share), quantity(force, force_unit_in(summary))));
+                                    limit, percentage(share), quantity(force, force_unit_in(summary))));
   } else if (std::isfinite(force)) {
     sentences.push_back(
         fmt::format("The largest contact force is {}.", quantity(force, force_unit_in(summary))));
@@ -198,10 +190,10 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
     const double error = outputs->numbers(column)[i];
     if (!std::isfinite(error) || cell_text(outputs->at(i, "output")).starts_with("contact ")) continue;
     const bool leads = name == text_in(summary, quantities::leading_output);
-    errors.insert(leads ? errors.begin() : errors.end(), name + " " + shown_error(error));
+    errors.insert(leads ? errors.begin() : errors.end(), name + " " + percentage(error));
   }
   const double contacts = number_in(summary, quantities::error_of_vibration);
-  if (std::isfinite(contacts)) errors.push_back("contacts " + shown_error(contacts));
+  if (std::isfinite(contacts)) errors.push_back("contacts " + percentage(contacts));
   return errors;
 }
 
@@ -219,8 +211,8 @@ void append_phases(std::vector<std::string>& sentences, const Summary& summary, 
   if (std::isfinite(error)) {
     sentences.push_back(
         fmt::format("Over the period and all contacts{} the relative rms error is {} for the displacement{}.",
-                    curve ? ", at the peak," : "", shown_error(error),
-                    std::isfinite(force) ? " and " + shown_error(force) + " for the contact force" : ""));
+                    curve ? ", at the peak," : "", percentage(error),
+                    std::isfinite(force) ? " and " + percentage(force) + " for the contact force" : ""));
   } else if (!status.empty() && status != "not_found" && status != "not_computed") {
     sentences.push_back("The error against the exact periodic solution is not known (" +
                         (status == "too_many_phases" ? "too many contact intervals" : spaced_words(status)) +
@@ -284,12 +276,13 @@ void append_damped_mode(std::vector<std::string>& sentences, const Summary& summ
         quantity(number_in(summary, quantities::slip_amplitude), length_unit(summary)),
         with_unit(summary, quantities::linear_frequency)));
     sentences.push_back(
-        fmt::format("The frequency falls to {:.4g} of this value. The damping ratio is at most {:.4g}.",
-                    number_in(summary, quantities::least_frequency_ratio), most));
+        fmt::format("The frequency falls to {} of this value. The damping ratio is at most {}.",
+                    short_number(number_in(summary, quantities::least_frequency_ratio)), short_number(most)));
   } else if (const double ratio = number_in(summary, quantities::damping_ratio); std::isfinite(ratio)) {
     sentences.push_back(
-        fmt::format("The free motion of mode {:.0f} has the frequency {} and the damping ratio {:.4g}.",
-                    number_in(summary, quantities::mode), with_unit(summary, quantities::frequency), ratio));
+        fmt::format("The free motion of mode {:.0f} has the frequency {} and the damping ratio {}.",
+                    number_in(summary, quantities::mode), with_unit(summary, quantities::frequency),
+                    short_number(ratio)));
   }
 }
 
@@ -305,9 +298,9 @@ void append_mode_at_energy(std::vector<std::string>& sentences, const Summary& s
                ratio = number_in(summary, quantities::frequency_ratio);
   if (!std::isfinite(energy) || !std::isfinite(ratio)) return;
   sentences.push_back(
-      fmt::format("At {:.4g} times the {}, mode {:.0f} has the frequency {}, {:.4g} times the linear one.",
-                  energy, reference_energy(summary), number_in(summary, quantities::mode),
-                  with_unit(summary, quantities::frequency), ratio));
+      fmt::format("At {} times the {}, mode {:.0f} has the frequency {}, {} times the linear one.",
+                  short_number(energy), reference_energy(summary), number_in(summary, quantities::mode),
+                  with_unit(summary, quantities::frequency), short_number(ratio)));
 }
 
 void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
@@ -315,18 +308,18 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
   const double ratio = number_in(summary, quantities::largest_energy_ratio);
   if (!std::isfinite(ratio)) return append_mode_at_energy(sentences, summary);
   sentences.push_back(fmt::format(
-      "Mode {:.0f} was followed over {}, up to {:.4g} times the {}.", number_in(summary, quantities::mode),
-      count_of(summary, quantities::points, "point"), ratio, reference_energy(summary)));
-  sentences.push_back(fmt::format("The frequency rises to {:.4g} times the linear one of {}.",
-                                  number_in(summary, quantities::largest_frequency_ratio),
+      "Mode {:.0f} was followed over {}, up to {} times the {}.", number_in(summary, quantities::mode),
+      count_of(summary, quantities::points, "point"), short_number(ratio), reference_energy(summary)));
+  sentences.push_back(fmt::format("The frequency rises to {} times the linear one of {}.",
+                                  short_number(number_in(summary, quantities::largest_frequency_ratio)),
                                   with_unit(summary, quantities::linear_frequency)));
   if (number_in(summary, quantities::points_tongue) > 0.0)
     sentences.emplace_back(
         "A tongue is a segment of the branch on an internal resonance, where a second mode responds.");
   if (std::isfinite(number_in(summary, quantities::virial_residual)))
     sentences.push_back(fmt::format(
-        "The virial residual, the relative error of an energy identity of exact motions, is at most {:.2g}.",
-        number_in(summary, quantities::virial_residual)));
+        "The virial residual, the relative error of an energy identity of exact motions, is at most {}.",
+        short_number(number_in(summary, quantities::virial_residual), 2)));
 }
 
 }  // namespace

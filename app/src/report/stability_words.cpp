@@ -9,6 +9,7 @@
 #include "files/number_text.hpp"
 #include "report/run_words.hpp"
 #include "results/quantities.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -79,8 +80,7 @@ void append_special_points(std::vector<std::string>& sentences, const Summary& s
   std::map<std::pair<std::ptrdiff_t, std::string>, std::vector<std::string>> places;
   for (std::size_t i = 0; i < points->rows(); ++i)
     if (const auto* place = std::get_if<double>(&points->at(i, axis.column())))
-      places[type_in_words(cell_text(points->at(i, "type")))].push_back(
-          fmt::format("{:.7g} {}", *place, axis.unit));
+      places[type_in_words(cell_text(points->at(i, "type")))].push_back(quantity(*place, axis.unit, 7));
   constexpr std::size_t most = 8;
   for (const auto& [type, where] : places)
     sentences.push_back(fmt::format(
@@ -143,9 +143,9 @@ std::vector<std::string> unstable_parts(const Summary& summary, const SweepAxis&
     const std::string curve = curve_of_part(*parts, i);
     if (places.empty() || places.back().first != curve)
       places.emplace_back(curve, std::vector<std::string>());
-    places.back().second.push_back(begins[i] == ends[i]
-                                       ? fmt::format("{:.7g} {}", ends[i], axis.unit)
-                                       : fmt::format("{:.7g} to {:.7g} {}", begins[i], ends[i], axis.unit));
+    places.back().second.push_back(begins[i] == ends[i] ? quantity(ends[i], axis.unit, 7)
+                                                        : short_number(begins[i], 7) + " to " +
+                                                              short_number(ends[i], 7) + " " + axis.unit);
   }
   std::vector<std::string> sentences;
   for (const auto& [curve, where] : places)
@@ -175,8 +175,8 @@ std::vector<std::string> stability_sentences(const Summary& summary, const Sweep
   const double modulus = std::hypot(real, imaginary);
   if (std::isfinite(real))
     sentences.front() +=
-        modulus < least ? " The leading Floquet multiplier has a modulus < 1e-12."
-                        : fmt::format(" The leading Floquet multiplier has the modulus {:.4g}.", modulus);
+        modulus < least ? " The leading Floquet multiplier has a modulus below 10⁻¹²."
+                        : " The leading Floquet multiplier has the modulus " + short_number(modulus) + ".";
   const std::vector<std::string> parts = unstable_parts(summary, axis);
   if (!parts.empty()) sentences.push_back(parts.front());
   append_special_points(sentences, summary, axis);

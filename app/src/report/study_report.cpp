@@ -14,6 +14,7 @@
 #include "report/report_parts.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/page/html.hpp"
 
@@ -98,7 +99,7 @@ std::string extremes_html(const Study& study, const StudyRecord& record) {
   }
   if (!largest || *largest == *least) return "";
   const auto run = [&](std::size_t i) {
-    return fmt::format("{:.4g} in run {}", values[i], cell_text(record.table.at(i, "run")));
+    return fmt::format("{} in run {}", short_number(values[i]), cell_text(record.table.at(i, "run")));
   };
   return "<p>" +
          escaped(
@@ -136,7 +137,7 @@ std::string quantiles_html(const Study& study, const Summary& summary) {
     rows.emplace_back();
     for (const Cell& cell : table->row(i)) {
       const auto* number = std::get_if<double>(&cell);
-      rows.back().push_back(number == nullptr ? cell_text(cell) : fmt::format("{:.4g}", *number));
+      rows.back().push_back(number == nullptr ? cell_text(cell) : short_number(*number));
     }
   }
   return "<p>Quantiles over the runs that converged: 5 % of them do not exceed q05. summary.json "

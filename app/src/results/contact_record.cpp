@@ -9,6 +9,7 @@
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 
@@ -90,9 +91,9 @@ void append_energy_error(Record& record, double error) {
   record.add("friction_energy_error", error);
   if (error > large)
     warn(record,
-         "The energy dissipated by friction differs from load minus damping by {:.2g} (relative). "
+         "The energy dissipated by friction differs from load minus damping by {}. "
          "More time.functions and time.quadrature_points resolve stick and slip better.",
-         error);
+         percentage(error, 2));
 }
 
 /// Where contact lasts, and from when on, though no motion was found in which it does.
@@ -101,10 +102,10 @@ void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& resp
   const bool chatters = response.motion.status == PhasesStatus::chattering;
   if (!chatters && response.motion.status != PhasesStatus::lasting_contact) return;
   warn(record,
-       "{} at contact {} {:.6g} s after the start of the integration. Then the contact stays "
+       "{} at contact {} {} after the start of the integration. Then the contact stays "
        "closed. No periodic motion with sustained contact was found.",
        chatters ? "Impacts follow each other ever faster and end" : "An impact without rebound occurs",
-       response.chattering_contact + 1, response.chattering_end / frequency);
+       response.chattering_contact + 1, quantity(response.chattering_end / frequency, "s", 6));
 }
 
 /// contact, begin, end (fractions of the motion's period): obstacles with impacts on which a contact rests.
@@ -164,9 +165,9 @@ void append_endless(Record& record, const Response& response, double frequency) 
   record.add("endless_contact", last.contact + 1);
   record.add(quantities::endless_time, instant);
   warn(record,
-       "Contact {} changes its state without end in a vanishing time, {:.6g} s after the start. "
+       "Contact {} changes its state without end in a vanishing time, {} after the start. "
        "The integration ends there.",
-       last.contact + 1, instant);
+       last.contact + 1, quantity(instant, "s", 6));
 }
 
 }  // namespace

@@ -15,12 +15,12 @@
 #include "drawing/diagram_figure.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/attractors/bifurcation.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -161,7 +161,7 @@ std::int64_t sum_of(const Table& table, const char* column) {
 /// "12 to 19.5", or one value.
 std::string interval_text(const Table& table, std::size_t row) {
   const double from = table.numbers("from")[row], to = table.numbers("to")[row];
-  return from == to ? fmt::format("{:.6g}", from) : fmt::format("{:.6g} to {:.6g}", from, to);
+  return from == to ? short_number(from, 6) : short_number(from, 6) + " to " + short_number(to, 6);
 }
 
 /// "12 to 19.5, 22 and 4 more" of the rows.

@@ -18,6 +18,7 @@
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
@@ -125,8 +126,8 @@ void warn_of_failed_points(Record& record, const Backbone& curve) {
   for (const Interruption& gap : curve.interruptions)
     if (!gap.status.empty())
       ranges.push_back(gap.first_ratio < gap.last_ratio
-                           ? fmt::format("{:.4f} to {:.4f}", gap.first_ratio, gap.last_ratio)
-                           : fmt::format("{:.4f}", gap.first_ratio));
+                           ? short_number(gap.first_ratio, 5) + " to " + short_number(gap.last_ratio, 5)
+                           : short_number(gap.first_ratio, 5));
   warn(record,
        "At {} of {} points of the branch no motion was found ({}), at frequency ratios {}. "
        "analysis.samples = 2 x analysis.harmonics, or other harmonics, may help.",
@@ -291,9 +292,9 @@ Record motion_record(const ModeStudy& study) {
   if (found && resonant) {
     record.add(quantities::tongues, resonance_name(point.resonance));
     warn(record,
-         "The motion is on the internal resonance {}: mode {} has {:.0f} % of the kinetic energy. "
+         "The motion is on the internal resonance {}: mode {} has {} of the kinetic energy. "
          "The branch follows this resonance, and no motion beyond it was found.",
-         resonance_name(point.resonance), point.resonance.mode, 100.0 * point.resonance.share);
+         resonance_name(point.resonance), point.resonance.mode, percentage(point.resonance.share, 2));
   }
   const bool gapless = scene.analysis.reference_length > 0.0;
   append_quality(record.summary, moves && !gapless ? point.max_penetration : missing,
@@ -326,8 +327,7 @@ void warn_of_equal_frequencies(Record& record, const ModeStudy& study) {
     const double apart = std::abs(omega[other] - omega[mode]) / omega[mode];
     if (apart > near) continue;
     warn(record, "The linear frequencies of modes {} and {} {}: {}", std::min(mode, other) + 1,
-         std::max(mode, other) + 1,
-         apart <= rounding ? "are equal" : fmt::format("differ by {:.1g} %", 100.0 * apart),
+         std::max(mode, other) + 1, apart <= rounding ? "are equal" : "differ by " + percentage(apart, 1),
          apart <= 2.0 * equal_frequencies
              ? "they were combined so that the first one moves the contacts most."
              : "beyond contact the branches may interact. Energies refer to the requested linear mode.");

@@ -14,6 +14,7 @@
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_record.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/assets.hpp"
 #include "wavebalance/app/page/body.hpp"
 #include "wavebalance/app/results/tables.hpp"
@@ -112,8 +113,8 @@ Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxi
 }
 
 std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
-  if (motion.at == axis.quantity) return fmt::format("at {} {}", cell_text(motion.place), axis.unit);
-  return fmt::format("at the {}, {:.7g} {}", spaced_words(motion.at), motion.place, axis.unit);
+  if (motion.at == axis.quantity) return "at " + quantity(motion.place, axis.unit, 7);
+  return fmt::format("at the {}, {}", spaced_words(motion.at), quantity(motion.place, axis.unit, 7));
 }
 
 /// The motion as that of a single response, with the instants of contact where these are known.

@@ -14,6 +14,7 @@
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/motions.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/tables.hpp"
 
 namespace wavebalance::app {
@@ -81,8 +82,8 @@ void append_unsolved(Record& record, const Motions& all) {
     table.append_row({status, std::int64_t{one.periods}, one.max_displacement, one.max_force, share});
     warn(record,
          "Time integration converges to a motion of {} forcing period{} with a largest "
-         "displacement of {:.4g} m. No exact solution was found for it ({}).",
-         one.periods, one.periods == 1 ? "" : "s", one.max_displacement, status);
+         "displacement of {}. No exact solution was found for it ({}).",
+         one.periods, one.periods == 1 ? "" : "s", quantity(one.max_displacement, "m"), status);
   }
   record.add("unsolved_motions", table);
 }
@@ -106,7 +107,7 @@ std::string motions_plan(const Scene& scene) {
       solves_by_impacts(scene) ? "exact solutions with impacts"
       : seeks_by_events(scene)
           ? "event-driven integration over a period"
-          : "exact solutions to a relative error of " + number_text(scene.time.tolerance));
+          : "exact solutions to a relative error of " + short_number(scene.time.tolerance));
 }
 
 Record motions_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how) {

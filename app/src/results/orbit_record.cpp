@@ -9,6 +9,7 @@
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "matrices/structure_files.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -79,7 +80,7 @@ void append_planes(Record& record, const std::vector<OrbitPlane>& planes) {
 
 /// "45 Hz", "peak, 48.32 Hz"
 std::string name_of(const CurveMotion& motion, const SweepAxis& axis) {
-  const std::string place = fmt::format("{:.6g} {}", motion.place, axis.unit);
+  const std::string place = quantity(motion.place, axis.unit, 6);
   return motion.at == axis.quantity ? place : spaced_words(motion.at) + ", " + place;
 }
 

@@ -7,11 +7,11 @@
 
 #include "drawing/diagram_figure.hpp"
 #include "files/missing.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/output_record.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -105,9 +105,9 @@ void warn_of_kind(Record& record, const RecordedMotion& motion) {
   constexpr double independent = 0.45;  // twice the standard deviation with 20 batches
   if (motion.correlation > independent)
     warn(record,
-         "Neighbouring batches of {} periods are correlated ({:.2g}): the stated errors are too "
+         "Neighbouring batches of {} periods are correlated ({}): the stated errors are too "
          "small. More analysis.recorded_periods make batches longer.",
-         motion.recorded / 20, motion.correlation);
+         motion.recorded / 20, short_number(motion.correlation, 2));
 }
 
 /// "1.680 ± 0.004 mm": the error with two digits, and the value with as many decimals.
@@ -124,19 +124,19 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
       fmt::format("The motion did not repeat within {} forcing periods. ", motion.transient);
   const std::string measured =
       std::isfinite(motion.exponent.value)
-          ? fmt::format("the largest Lyapunov exponent is {:.3g} ± {:.2g} per forcing period",
-                        motion.exponent.value, motion.exponent.error)
+          ? fmt::format("the largest Lyapunov exponent is {} ± {} per forcing period",
+                        short_number(motion.exponent.value, 3), short_number(motion.exponent.error, 2))
           : std::string("the largest Lyapunov exponent was not found");
   switch (motion.kind) {
     case MotionKind::chaotic:
       return before + "It is chaotic: " + measured + ".";
     case MotionKind::quasi_periodic:
-      return before +
-             fmt::format(
-                 "It is quasi-periodic with a second frequency of {} (plus multiples of the forcing "
-                 "frequency). Its section is a closed curve within {:.1g} of its size. As expected, {}, "
-                 "zero within its error.",
-                 quantity(motion.curve.rotation * frequency, "Hz"), motion.curve.residual, measured);
+      return before + fmt::format(
+                          "It is quasi-periodic with a second frequency of {} (plus multiples of the forcing "
+                          "frequency). Its section is a closed curve within {} of its size. As expected, {}, "
+                          "zero within its error.",
+                          quantity(motion.curve.rotation * frequency, "Hz"),
+                          percentage(motion.curve.residual, 1), measured);
     case MotionKind::periodic:
       return before + fmt::format("In the recorded part it repeats after {} of them.", motion.repeats);
     case MotionKind::settling:
@@ -167,17 +167,18 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
              ? " and a largest value of " + quantity(of("max_force").value, force_unit(contact.unit)) + "."
              : "."));
   if (has(quantities::impacts))
-    sentences.push_back(
-        fmt::format("There are {:.4g} ± {:.2g} impacts per forcing period, at up to {}. They dissipate {}.",
-                    sum("impacts_in_a_period").value, sum("impacts_in_a_period").error,
-                    quantity(of("max_impact_velocity").value, contact.unit + "/s"),
-                    with_error(sum("impact_energy_in_a_period"), "J")));
+    sentences.push_back(fmt::format(
+        "There are {} ± {} impacts per forcing period, at up to {}. They dissipate {}.",
+        short_number(sum("impacts_in_a_period").value), short_number(sum("impacts_in_a_period").error, 2),
+        quantity(of("max_impact_velocity").value, contact.unit + "/s"),
+        with_error(sum("impact_energy_in_a_period"), "J")));
   if (has(quantities::friction_work))
     sentences.push_back(fmt::format("Friction dissipates {} per forcing period.",
                                     with_error(sum("friction_work_in_a_period"), "J")));
   if (has(quantities::wear))
-    sentences.push_back(fmt::format("It wears off {:.4g} ± {:.2g} m^3 per forcing period.",
-                                    sum("wear_in_a_period").value, sum("wear_in_a_period").error));
+    sentences.push_back(fmt::format("It wears off {} ± {} m^3 per forcing period.",
+                                    short_number(sum("wear_in_a_period").value),
+                                    short_number(sum("wear_in_a_period").error, 2)));
   sentences.emplace_back("Errors are half widths of 95 % confidence intervals from 20 batch means.");
   return sentences;
 }

@@ -6,9 +6,9 @@
 
 #include "files/missing.hpp"
 #include "matrices/structure_facts.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

@@ -12,6 +12,7 @@
 #include "results/structure_points.hpp"
 #include "results/summary_parts.hpp"
 #include "results/sweep_record.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {
@@ -75,7 +76,7 @@ void warn_of_quasi_periodic_motions(Record& record, const std::vector<solvers::S
   std::vector<std::string> places;  // as they are printed, each once
   for (const auto& point : points) {
     if (point.type != solvers::SpecialPointType::neimark_sacker) continue;
-    const std::string place = fmt::format("{:.6g}", parameter_of(point, sweep.curve.parameter));
+    const std::string place = short_number(parameter_of(point, sweep.curve.parameter), 6);
     if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
   }
   if (places.empty()) return;
@@ -181,9 +182,9 @@ void append_stability(Record& record, const Scene& scene, const Sweep& sweep) {
   append_structure_points(record, sweep);
   if (!sweep.unexplained.empty())
     warn(record,
-         "Before {:.6g} {} the number of unstable multipliers changes without a listed "
+         "Before {} {} the number of unstable multipliers changes without a listed "
          "bifurcation point: one is missing.",
-         fmt::join(sweep.unexplained, ", "), sweep_axis(sweep).unit);
+         short_numbers(sweep.unexplained, 6), sweep_axis(sweep).unit);
   warn_of_quasi_periodic_motions(record, sweep.stability.special_points, sweep);
 }
 
@@ -258,9 +259,9 @@ void warn_of_isola(Record& record, const Sweep& isola, std::size_t number) {
   warn_of_quasi_periodic_motions(record, isola.stability.special_points, isola);
   if (isola.origin.meets_known)
     warn(record,
-         "Isola {}, found at {:.6g} Hz, ends on a known branch: a step was too long, and it is a "
+         "Isola {}, found at {}, ends on a known branch: a step was too long, and it is a "
          "missed loop of that branch or crosses it. A smaller analysis.largest_step decides it.",
-         number, isola.origin.frequency);
+         number, quantity(isola.origin.frequency, "Hz", 6));
   if (!isola.converged()) warn(record, "Isola {} was not followed to an end: {}.", number, isola.status());
 }
 
@@ -295,9 +296,9 @@ void append_isolas(Record& record, const Scene& scene, const Sweep& sweep) {
   append_isolas_found(record, sweep);
   if (!search.unmatched.empty())
     warn(record,
-         "At {:.6g} Hz time integration converges to a motion of the forcing period near which no "
+         "At {} Hz time integration converges to a motion of the forcing period near which no "
          "discretised response was found. More functions may lead to one.",
-         fmt::join(search.unmatched, ", "));
+         short_numbers(search.unmatched, 6));
 }
 
 }  // namespace wavebalance::app

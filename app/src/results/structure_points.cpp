@@ -7,6 +7,7 @@
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "results/summary_parts.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -48,7 +49,7 @@ Table table_of(const solvers::StructurePoints& points, const SweepAxis& axis) {
 
 std::string range_of(const std::vector<double>& places) {
   const auto [low, high] = std::minmax_element(places.begin(), places.end());
-  return *low == *high ? fmt::format("{:.6g}", *low) : fmt::format("{:.6g} to {:.6g}", *low, *high);
+  return *low == *high ? short_number(*low, 6) : short_number(*low, 6) + " to " + short_number(*high, 6);
 }
 
 /// That a step of the curve was too long.

@@ -5,13 +5,13 @@
 #include <string_view>
 
 #include "files/missing.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/contact_record.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
@@ -61,15 +61,15 @@ void append_condition(Record& record, double condition, double rounding_error) {
   if (std::isinf(condition)) {
     record.warnings.emplace_back("a system of the solution is singular to working precision");
   } else if (condition > largest_condition) {
-    warn(record, "the condition estimate {:.1e} is past {:.0e}: up to {:.0f} of 16 digits may be lost",
-         condition, largest_condition, std::ceil(std::log10(condition)));
+    warn(record, "the condition estimate {} is past {}: up to {:.0f} of 16 digits may be lost",
+         short_number(condition, 2), short_number(largest_condition, 1), std::ceil(std::log10(condition)));
   }
   constexpr double ordinary_rounding_error = 1e-6;
   if (rounding_error > ordinary_rounding_error)
     warn(record,
-         "poor conditioning: rounding errors of the dynamic condensation are about {:.1e} of the "
+         "poor conditioning: rounding errors of the dynamic condensation are about {} of the "
          "motion, so fewer than six digits are accurate",
-         rounding_error);
+         short_number(rounding_error, 2));
   record.add("condition_estimate", condition);
   record.add("rounding_error_estimate", rounding_error);
   record.add(quantities::warnings, record.warnings);
@@ -91,8 +91,8 @@ void warn_of_scene(Record& record, const Scene& scene) {
   for (std::size_t i = 0; i < scene.contact.pairs.size(); ++i) {
     const ContactPair& pair = scene.contact.pairs[i];
     if (pair.side == ObstacleSide::both && has_gap(pair.law) && pair.gap < 0.0)
-      warn(record, "{}.gap is {:.4g} {} with side = \"both\": both obstacles press on the structure at rest.",
-           pair_section(i), pair.gap, displacement_unit(scene));
+      warn(record, "{}.gap is {} with side = \"both\": both obstacles press on the structure at rest.",
+           pair_section(i), quantity(pair.gap, displacement_unit(scene)));
   }
 }
 
@@ -182,8 +182,8 @@ void append_start(Record& record, const StartMotion& start, bool found, double d
   record.add("start_distance", found ? distance : missing);
   constexpr double as_large_as_the_start = 0.9;
   if (found && distance > as_large_as_the_start)
-    warn(record, "The motion differs from the start by {:.2g} times the start: it may be on another branch.",
-         distance);
+    warn(record, "The motion differs from the start by {} times the start: it may be on another branch.",
+         short_number(distance, 2));
   if (!found && !record.interrupted)
     record.warnings.push_back(
         "No response was found near the start. A closer start, or a sweep from it, may lead "

@@ -15,6 +15,7 @@
 #include "results/summary_parts.hpp"
 #include "results/whirl_record.hpp"
 #include "wavebalance/app/compose/compose.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 
@@ -58,8 +59,9 @@ void append_places(std::vector<std::string>& places, const std::vector<solvers::
   for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
     if (!was_not_found(phases.special_points[i])) continue;
     const std::string type(to_string(points[i].type));
-    places.push_back(fmt::format("the {} at {:.7g} {}", spaced_words(type),
-                                 parameter_of(points[i], sweep.curve.parameter), sweep_axis(sweep).unit));
+    places.push_back(
+        fmt::format("the {} at {}", spaced_words(type),
+                    quantity(parameter_of(points[i], sweep.curve.parameter), sweep_axis(sweep).unit, 7)));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "drawing/campbell_figure.hpp"
 #include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/whirl.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -52,15 +53,15 @@ Table critical_table(const std::vector<CriticalSpeed>& critical) {
 
 std::string whirl_text(double frequency, const WhirlMode& whirl) {
   const std::string direction = whirl.direction();
-  return fmt::format("{:.5g} Hz{}{} ({:.2g} %)", frequency, direction == "-" ? "" : " ",
-                     direction == "-" ? "" : direction, 100.0 * whirl.damping_ratio());
+  return fmt::format("{}{}{} ({})", quantity(frequency, "Hz", 5), direction == "-" ? "" : " ",
+                     direction == "-" ? "" : direction, percentage(whirl.damping_ratio(), 2));
 }
 
 std::string whirls_text(const StructureModel& model, double speed) {
   std::vector<std::string> texts;
   for (const WhirlMode& whirl : whirls_at(model, speed, 6))
     texts.push_back(whirl_text(whirl.frequency_hz(), whirl));
-  return fmt::format("at {:.7g} rad/s: {}", speed,
+  return fmt::format("at {}: {}", quantity(speed, "rad/s", 7),
                      texts.empty() ? "none found" : fmt::format("{}", fmt::join(texts, ", ")));
 }
 
@@ -111,9 +112,9 @@ std::string whirl_lines(const Scene& scene) {
     critical.push_back(whirl_text(one.speed / two_pi, one.whirl));
   const std::string warning = sense_warning(scene, diagram);
   return text + (warning.empty() ? "" : "warning    " + warning + "\n") +
-         fmt::format("critical   {}, up to {:.5g} Hz\n",
+         fmt::format("critical   {}, up to {}\n",
                      critical.empty() ? "no speed" : fmt::format("{}", fmt::join(critical, ", ")),
-                     highest / two_pi);
+                     quantity(highest / two_pi, "Hz", 5));
 }
 
 }  // namespace wavebalance::app

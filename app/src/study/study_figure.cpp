@@ -12,9 +12,9 @@
 #include "files/number_text.hpp"
 #include "plot/axis_ticks.hpp"
 #include "plot/plot_text.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/quantities.hpp"
 #include "study/quantile.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/output_words.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/app/study/study_record.hpp"
@@ -236,7 +236,7 @@ void add_quantile_curves(Panel& panel, const Varying& x, const std::vector<doubl
     if (std::isfinite(values[i])) columns[x.numbers[i]].push_back(values[i]);
   for (auto& [at, column] : columns) std::sort(column.begin(), column.end());
   for (const double share : {0.05, 0.5, 0.95}) {
-    Series series(fmt::format("{:g} % of the runs are below", 100 * share), SeriesStyle::line);
+    Series series(percentage(share) + " of the runs are below", SeriesStyle::line);
     for (const auto& [at, column] : columns) series.append(at, quantile_of(column, share));
     panel.add(std::move(series));
   }

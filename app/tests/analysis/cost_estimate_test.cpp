@@ -37,13 +37,13 @@ TEST(EstimateCost, OfALawOfTheVelocityIsThatOfOthersSinceNoMatrixOfAllItsSamples
 }
 
 TEST(CostText, SaysSecondsAndMemory) {
-  EXPECT_EQ(cost_text({.seconds = 0.2, .bytes = 21e6}), "about 0.2 s and 21 MB of memory");
+  EXPECT_EQ(cost_text({.seconds = 0.2, .bytes = 21e6}), "about 200 ms and 21 MB of memory");
 }
 
 TEST(CostText, GivesTheExactMotionOfAResponseARange) {
   EXPECT_EQ(
       cost_text({.seconds = 0.2, .least_exact_seconds = 0.5, .most_exact_seconds = 24.0, .bytes = 21e6}),
-      "about 0.2 s for the response, 0.5 s to 24 s for its exact motion, and 21 MB of memory");
+      "about 200 ms for the response, 500 ms to 24 s for its exact motion, and 21 MB of memory");
 }
 
 TEST(AvailableMemory, IsThatOfTheMachineAtMost) {

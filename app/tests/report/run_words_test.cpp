@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "plot/unit_prefix.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/solvers/stability/contact_stiffness.hpp"
 
 namespace wavebalance::app {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/report/rule.hpp"
 
@@ -133,29 +133,7 @@ std::string markdown_text(const TextTable& table) {
   return text;
 }
 
-namespace {
-
-std::string superscript(int exponent) {
-  static constexpr std::array digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text;
-  for (const char c : std::to_string(exponent))
-    text += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
-  return text;
-}
-
-}  // namespace
-
-std::string number(double value, int digits) {
-  const std::string text = fmt::format("{:.{}g}", value, digits);
-  const std::size_t e = text.find('e');
-  if (e == text.npos) return text;
-  if (const int exponent = std::stoi(text.substr(e + 1)); exponent > 0 && exponent < 5)
-    return fmt::format("{:.0f}", std::stod(text));  // 120 of two digits, not 1.2·10²
-  const std::string mantissa = text.substr(0, e), power = "10" + superscript(std::stoi(text.substr(e + 1)));
-  if (mantissa == "1" || mantissa == "-1") return (mantissa == "1" ? "" : "-") + power;
-  return mantissa + "·" + power;
-}
-
-std::string percent(double fraction, int digits) { return number(100.0 * fraction, digits) + " %"; }
+std::string number(double value, int digits) { return app::short_number(value, digits); }
+std::string percent(double fraction, int digits) { return app::percentage(fraction, digits); }
 
 }  // namespace wavebalance::report

@@ -125,7 +125,7 @@ TEST(Markdown, HoldsOneRowPerLine) {
 }
 
 TEST(Numbers, AreShort) {
-  EXPECT_EQ(number(0.000123456), "0.000123");
+  EXPECT_EQ(number(0.000123456), "1.23·10⁻⁴");
   EXPECT_EQ(number(1.23456e-5), "1.23·10⁻⁵");
   EXPECT_EQ(number(-1e8), "-10⁸");
   EXPECT_EQ(number(123.4, 2), "120");
@@ -133,6 +133,8 @@ TEST(Numbers, AreShort) {
   EXPECT_EQ(number(99960.0, 3), "10⁵");
   EXPECT_EQ(number(2.5e120), "2.5·10¹²⁰");
   EXPECT_EQ(percent(0.0123456), "1.23 %");
+  EXPECT_EQ(percent(1.14e-9), "less than 0.001 %");
+  EXPECT_EQ(percent(0.0), "0 %");
 }
 
 }  // namespace

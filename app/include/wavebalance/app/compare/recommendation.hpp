@@ -63,7 +63,4 @@ inline constexpr double known_share = 0.25;
 Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
                          const Time& time, ErrorMeasure measure = ErrorMeasure::displacement);
 
-/// "54 µs", "1.8 ms", "2.1 s"
-std::string duration_text(double seconds);
-
 }  // namespace wavebalance::app

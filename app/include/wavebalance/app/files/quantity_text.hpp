@@ -1,30 +1,42 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace wavebalance::app {
 
-/// A factor on values of an axis, and the prefix of its unit that belongs to it.
+/// A factor on values of an axis, and the prefix of its unit.
 struct Scale {
   double factor = 1.0;
   std::string prefix;
 };
 
-/// That which makes numbers up to `largest` readable, from nano to giga; none for numbers that are all zero.
+/// The scale that makes numbers up to `largest` readable, from nano to giga; none if all are zero.
 Scale axis_scale(double largest);
 
-/// Whether values in a unit may be told with another prefix: not in one that was asked for, as "mm", nor a
-/// ratio.
+/// Whether values in a unit may have another prefix: not in a requested unit such as "mm", and no ratio.
 bool takes_prefix(std::string_view unit);
-/// The same of values in a unit, of which lengths and angles alone take prefixes above one.
+/// The scale of values in a unit, where only lengths and angles have prefixes above one.
 Scale axis_scale(double largest, std::string_view unit);
 
-/// axis_scale() of the largest of the values, by whose factor they are multiplied.
+/// axis_scale() of the largest of the values, which are multiplied by its factor.
 Scale take_to_scale(std::vector<double>& values);
 
-/// "1.02 mm", "79.2 kN": four digits with a prefix from pico to giga, of which only forces take those above
-/// one, and frequencies none; "not known" for NaN.
-std::string quantity(double value, const std::string& unit);
+// Numbers for readers: the one format of terminal, reports and pages. Files have all digits
+// (number_text.hpp).
+
+/// `value` with so many significant digits, "1.23·10⁻⁵" where that is shorter; "not known" for NaN.
+std::string short_number(double value, int digits = 4);
+
+/// "0.5, 12.25": short_number() of each.
+std::string short_numbers(std::span<const double> values, int digits);
+
+/// `fraction` as "12.3 %", or "less than 0.001 %".
+std::string percentage(double fraction, int digits = 3);
+
+/// "1.02 mm", "79.2 kN": with a prefix from pico to giga. Only forces and bytes have prefixes above one, and
+/// frequencies have none.
+std::string quantity(double value, const std::string& unit, int digits = 4);
 
 }  // namespace wavebalance::app
