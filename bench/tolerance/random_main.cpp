@@ -9,7 +9,7 @@
 #include "wavebalance/solvers/linalg/missing.hpp"
 #include "wavebalance/solvers/phases/response_phases.hpp"
 
-// Random motions to a tolerance beside the contact phases near them: tolerance_random.csv.
+// Random motions to a tolerance and the exact solutions near them: tolerance_random.csv.
 namespace wavebalance::bench {
 namespace {
 
@@ -59,13 +59,13 @@ void report(const app::Table& table) {
     largest = std::max(largest, errors[row]);
   }
   std::printf(
-      "%zu runs, %d converged, %d with contact phases beside them, %d of these beyond three times\n"
+      "%zu runs, %d converged, %d with an exact solution near them, %d of these beyond three times\n"
       "the tolerance; largest true error over tolerance %.3g\n",
       table.rows(), converged, judged, beyond, largest);
 }
 
 constexpr const char* about =
-    "Solves 200 random bars to a tolerance and measures the true error, by the contact phases near what was found.\n"
+    "Solves 200 random bars to a tolerance and measures the true error, by the exact solution near what was found.\n"
     "Writes tolerance_random.csv.";
 
 void run(const Program& program) {
@@ -75,7 +75,7 @@ void run(const Program& program) {
     for (std::uint64_t seed = first_seed; seed < first_seed + motions; ++seed) append(table, seed, tolerance);
   write_data(
       program.output, "tolerance_random", table,
-      {"Random bars against stops to a tolerance, beside the contact phases near the motion that was found",
+      {"Random bars against stops to a tolerance, compared with the exact solution near the motion that was found",
        "SI; s of processor time; errors are relative rms of the contact displacement",
        "bench/tolerance/random_motions.hpp",
        {"true_error is empty where the structure has no motion near that one; cancelled: after 1 s."}});

@@ -127,7 +127,7 @@ class Results {
 
 constexpr const char* about =
     "Measures error over solve time of every pair of bases, in the cases of JL14 and against a rigid obstacle,\n"
-    "beside contact phases, time stepping and the assembled system. Writes work_precision.csv, cheapest_pairs.csv and two\n"
+    "with exact solutions, time stepping and the assembled system. Writes work_precision.csv, cheapest_pairs.csv and two\n"
     "pictures. For another scene there is: wavebalance compare SCENE.toml --output DIR";
 
 void run(const Program& program) {

@@ -33,7 +33,7 @@ void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>
   for (const app::BasisPair& pair : app::leading_pairs(pairs(), points, most))
     panel.add(app::best_of(pair, points));
   app::Series phases = app::best_of(app::BasisPair::phases(), points);
-  phases.label = "contact phases from 63 functions";
+  phases.label = "exact solution from 63 functions";
   phases.marker = 8;  // that of no pair in the same colour
   for (app::Series one : {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
                           baseline("time_stepping", "time stepping", 7, points), std::move(phases)})
