@@ -145,7 +145,7 @@ class Tracker {
     StabilityOptions how = with_harmonics_of(problem_.pair(), options_.stability);
     how.leading = false;
     if (stops_ && stops_->are_needed(stiffness, at.frequency, how))
-      return measure_exact(stops_->map_beside(problem_, at, stiffness), what, sample);
+      return measure_exact(stops_->multipliers_beside(problem_, at, stiffness, how), what, sample);
     if (what == Measure::count_alone && stiffness.friction.empty())
       return set_count(unstable_multipliers(*dynamics, stiffness, at.frequency, how), sample);
     if (what == Measure::signs && stiffness.friction.empty())
@@ -155,13 +155,14 @@ class Tracker {
     if (is_known(sample)) set_count(both.count, sample);
   }
 
-  static void measure_exact(const std::optional<Eigen::MatrixXd>& map, Measure what, CurveSample& sample) {
+  static void measure_exact(const std::optional<Eigen::VectorXcd>& multipliers, Measure what,
+                            CurveSample& sample) {
     PointStability& stability = sample.stability;
-    stability.status = map ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
-    if (!map) return;
-    if (what != Measure::count_alone) set_signs(signs_of_multipliers(detail::map_multipliers(*map)), sample);
+    stability.status = multipliers ? StabilityStatus::converged : StabilityStatus::too_few_harmonics;
+    if (!multipliers) return;
+    if (what != Measure::count_alone) set_signs(signs_of_multipliers(*multipliers), sample);
     if (what == Measure::signs) return;
-    stability.unstable = detail::count_outside_circle(*map);
+    stability.unstable = detail::count_outside(*multipliers);
     if (stability.unstable < 0) stability.status = StabilityStatus::on_unit_circle;
   }
 
@@ -294,13 +295,11 @@ class Tracker {
     const auto consider = [&](Complex multiplier) {
       if (!(distance_from(type, multiplier) >= distance_from(type, nearest))) nearest = multiplier;
     };
-    std::optional<Eigen::MatrixXd> exact;
+    std::optional<Eigen::VectorXcd> all;
     if (stops_ && stops_->are_needed(stiffness, at.frequency, how.stability))
-      exact = stops_->map_beside(problem_, at, stiffness);
-    if (exact)
-      for (const Complex multiplier : detail::map_multipliers(*exact))
-        consider({multiplier.real(), std::abs(multiplier.imag())});
-    else if (const auto all = multipliers_of_costly(*dynamics, stiffness, at.frequency, how.stability))
+      all = stops_->multipliers_beside(problem_, at, stiffness, how.stability);
+    if (!all) all = multipliers_of_costly(*dynamics, stiffness, at.frequency, how.stability);
+    if (all)
       for (const Complex multiplier : *all) consider({multiplier.real(), std::abs(multiplier.imag())});
     else
       for (const FloquetExponent& one : floquet_exponents(*dynamics, stiffness, at.frequency, how).values)

@@ -13,6 +13,13 @@ StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions option
 void require_stability_arguments(const char* who, const ContactDynamics& dynamics,
                                  const PeriodicStiffness& stiffness, double frequency, int harmonics);
 
+/// Whether all modes beyond a modulus (1/s) decay within a period.
+bool fast_modes_decay(const ContactDynamics& dynamics, double modulus, double frequency);
+
+/// Whether multipliers show on which side of the circle they lie, though known to what lies between them and
+/// `others`.
+bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others);
+
 /// All multipliers by the monodromy, by falling modulus, with friction and where the determinant takes much
 /// more work; nothing elsewhere, since along the same motion the determinant is the more accurate.
 std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,

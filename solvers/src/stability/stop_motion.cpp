@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "linalg/dense.hpp"
+#include "linalg/multipliers.hpp"
 #include "stability/floquet_determinant.hpp"
 #include "stability/smooth_pieces.hpp"
+#include "stability/stability_checks.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -280,16 +282,25 @@ bool StopMotions::are_needed(const PeriodicStiffness& stiffness, double frequenc
          !harmonics_resolve(dynamics_, stiffness, frequency, options.harmonics, options.max_omitted);
 }
 
-std::optional<Eigen::MatrixXd> StopMotions::map_beside(const CondensedProblem& problem,
+// The modes of the stops that are closed, kept while the same poles are slow.
+StopMotions::Reduced& StopMotions::reduced(double modulus) {
+  constexpr std::size_t most_kept = 64, most_reduced = 8;
+  const auto slow = std::size_t(std::ranges::count_if(
+      dynamics_.poles(), [&](const ContactPole& pole) { return std::abs(pole.exponent) <= modulus; }));
+  if (reduced_.size() > most_reduced) reduced_.clear();
+  const auto at = reduced_.try_emplace(slow, Reduced{dynamics_.with_springs_beyond(modulus), {}}).first;
+  if (at->second.held.size() > most_kept) at->second.held.clear();
+  return at->second;
+}
+
+std::optional<Eigen::MatrixXd> StopMotions::map_beside(Reduced& reduced, const CondensedProblem& problem,
                                                        const PeriodicResponse& response,
                                                        const PeriodicStiffness& stiffness) {
   constexpr double farthest = 0.1;  // of motions of one kind
-  constexpr std::size_t most_kept = 64;
-  if (!free_) free_.emplace(problem.structure(), problem.load_harmonics(), 0.0);
-  if (held_.size() > most_kept) held_.clear();
   const auto held = [&](const std::vector<int>& closed) -> const HeldByStops* {
-    auto at = held_.find(closed);
-    if (at == held_.end()) at = held_.emplace(closed, HeldByStops::of(dynamics_, stops_, closed)).first;
+    auto at = reduced.held.find(closed);
+    if (at == reduced.held.end())
+      at = reduced.held.emplace(closed, HeldByStops::of(reduced.dynamics, stops_, closed)).first;
     return at->second ? &*at->second : nullptr;
   };
   const double origin = quiet_instant(stiffness.intervals), period = 1.0 / response.frequency;
@@ -309,6 +320,26 @@ std::optional<Eigen::MatrixXd> StopMotions::map_beside(const CondensedProblem& p
     size += exact.squaredNorm();
   }
   return apart <= farthest * farthest * size ? map : std::nullopt;
+}
+
+std::optional<Eigen::VectorXcd> StopMotions::multipliers_beside(const CondensedProblem& problem,
+                                                                const PeriodicResponse& response,
+                                                                const PeriodicStiffness& stiffness,
+                                                                const StabilityOptions& options) {
+  if (!free_) free_.emplace(problem.structure(), problem.load_harmonics(), 0.0);
+  const double highest = 2.0 * std::numbers::pi * response.frequency * options.harmonics;
+  std::optional<Eigen::VectorXcd> before = Eigen::VectorXcd();
+  for (double within = 1.0;; within *= 2.0) {
+    if (!fast_modes_decay(dynamics_, within * highest, response.frequency)) continue;
+    Reduced& slow = reduced(within * highest);
+    const bool complete = slow.dynamics.poles().size() == dynamics_.poles().size();
+    const auto map = map_beside(slow, problem, response, stiffness);
+    std::optional<Eigen::VectorXcd> found;
+    if (map) found = detail::map_multipliers(*map);
+    const bool decided = found && before && before->size() > 0 && are_decided(*found, *before);
+    if (complete || decided || !(found || before)) return found;
+    before = std::move(found);
+  }
 }
 
 }  // namespace wavebalance::solvers

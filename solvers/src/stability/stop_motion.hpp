@@ -11,7 +11,7 @@ namespace wavebalance::solvers {
 
 /// Exact periodic motions of a structure between linear stops, for the stability along a curve where the
 /// harmonics of its balance do not represent perturbations. Between two instants at which a stop closes or
-/// opens the structure is linear, so that the motion is exact in all modes however stiff the stops.
+/// opens the structure is linear, so that the motion is exact however stiff the stops.
 ///
 /// The instants of the balance's motion determine a periodic state, the motion from this state other
 /// instants, and so on: Newton's method, since stops change without a force and a perturbation passes them
@@ -27,18 +27,31 @@ class StopMotions {
   bool are_needed(const PeriodicStiffness& stiffness, double frequency,
                   const StabilityOptions& options) const;
 
-  /// The map of perturbations over a period of the exact motion beside a response; nothing where it is not
-  /// found. O(instants S^3) for each of about five steps, S states.
-  std::optional<Eigen::MatrixXd> map_beside(const CondensedProblem& problem, const PeriodicResponse& response,
-                                            const PeriodicStiffness& stiffness);
+  /// The multipliers of the exact motion beside a response, by falling modulus. Modes beyond the highest
+  /// harmonic, or 2, 4, ... times as high, are springs at the contacts, until twice as many leave no doubt on
+  /// which side of the circle the multipliers lie. Nothing where twice in turn no motion is found. O(instants
+  /// S^3) for each of about five steps, S states.
+  std::optional<Eigen::VectorXcd> multipliers_beside(const CondensedProblem& problem,
+                                                     const PeriodicResponse& response,
+                                                     const PeriodicStiffness& stiffness,
+                                                     const StabilityOptions& options);
 
  private:
+  struct Reduced {
+    ContactDynamics dynamics;                                             // with springs for fast modes
+    std::map<std::vector<int>, std::optional<detail::HeldByStops>> held;  // by the stops that are closed
+  };
+
   StopMotions(const ContactDynamics& dynamics, detail::LinearStops stops);
+  Reduced& reduced(double modulus);
+  std::optional<Eigen::MatrixXd> map_beside(Reduced& reduced, const CondensedProblem& problem,
+                                            const PeriodicResponse& response,
+                                            const PeriodicStiffness& stiffness);
 
   const ContactDynamics& dynamics_;
   detail::LinearStops stops_;
-  std::map<std::vector<int>, std::optional<detail::HeldByStops>> held_;  // by the stops that are closed
-  std::optional<detail::FreeContacts> free_;                             // once a motion is sought
+  std::map<std::size_t, Reduced> reduced_;    // by the number of slow poles
+  std::optional<detail::FreeContacts> free_;  // once a motion is sought
 };
 
 }  // namespace wavebalance::solvers

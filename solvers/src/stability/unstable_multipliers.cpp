@@ -44,37 +44,22 @@ int affordable_evaluations(const FloquetDeterminant& determinant, const Stabilit
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
 }
 
-// Whether multipliers show on which side of the circle they lie, though known to what lies between them and
-// `others`.
-bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
-  constexpr double least_margin = 1e-5;
-  if (!multipliers.allFinite() || !others.allFinite()) return false;
-  for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
-    const double size = std::abs(multipliers[i]), other = i < others.size() ? std::abs(others[i]) : 0.0;
-    if (std::abs(size - 1.0) < std::max(least_margin, 3.0 * std::abs(size - other))) return false;
-  }
-  return detail::count_outside(multipliers) == detail::count_outside(others);
-}
-
 // The multipliers by modes up to four times the highest harmonic, or twice as far up to 16 times, the others
 // being springs at the contacts. Nothing where half as many harmonics never show that this tells on which
 // side of the circle they lie, or where a period leaves much of the other modes.
 std::optional<Eigen::VectorXcd> by_slow_modes(const ContactDynamics& dynamics,
                                               const PeriodicStiffness& stiffness, double frequency,
                                               const StabilityOptions& options) {
-  constexpr double much = 0.9, settled = 1e-6;
+  constexpr double settled = 1e-6;
   constexpr std::size_t most_poles = 40;
   Eigen::VectorXcd before;
   for (const double within : {2.0, 4.0, 8.0, 16.0}) {
     const double modulus = within * 2.0 * pi * frequency * options.harmonics;
-    const auto lasts = [&](const ContactPole& pole) {
-      return std::abs(pole.exponent) > modulus && std::exp(pole.exponent.real() / frequency) > much;
-    };
     const ContactDynamics slow = dynamics.with_springs_beyond(modulus);
     if (slow.poles().size() > most_poles) return std::nullopt;
     Eigen::VectorXcd multipliers = switching_monodromy(slow, stiffness, frequency, settled);
     if (before.size() > 0 && are_decided(multipliers, before) &&
-        std::ranges::none_of(dynamics.poles(), lasts))
+        fast_modes_decay(dynamics, modulus, frequency))
       return multipliers;
     before = std::move(multipliers);
   }
@@ -129,6 +114,23 @@ void StabilityOptions::validate() const {
   detail::require_positive("StabilityOptions", "max_omitted", max_omitted);
   detail::require_at_least("StabilityOptions", "max_evaluations", max_evaluations, 1);
   detail::require_positive("StabilityOptions", "max_operations", max_operations);
+}
+
+bool fast_modes_decay(const ContactDynamics& dynamics, double modulus, double frequency) {
+  constexpr double much = 0.9;
+  return std::ranges::none_of(dynamics.poles(), [&](const ContactPole& pole) {
+    return std::abs(pole.exponent) > modulus && std::exp(pole.exponent.real() / frequency) > much;
+  });
+}
+
+bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others) {
+  constexpr double least_margin = 1e-5;
+  if (!multipliers.allFinite() || !others.allFinite()) return false;
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
+    const double size = std::abs(multipliers[i]), other = i < others.size() ? std::abs(others[i]) : 0.0;
+    if (std::abs(size - 1.0) < std::max(least_margin, 3.0 * std::abs(size - other))) return false;
+  }
+  return detail::count_outside(multipliers) == detail::count_outside(others);
 }
 
 StabilityOptions with_harmonics_of(const TimePair& pair, StabilityOptions options) {
