@@ -32,13 +32,21 @@ void check_records(const Document& document, const Scene& scene) {
               "expected 0, or at least " + std::to_string(least_recorded_periods) +
                   ", of which statistics take batches");
   if (!diagram) return;
-  const bool over_frequency = analysis.frequency_from > 0.0 && analysis.frequency_to > 0.0,
-             over_amplitude = analysis.amplitude_from > 0.0 && analysis.amplitude_to > 0.0,
-             any = analysis.frequency_from + analysis.frequency_to > 0.0;
-  if (over_amplitude ? any : !over_frequency || analysis.amplitude_from > 0.0)
-    fail_missing(document, "analysis", over_amplitude || any ? "frequency_from" : "amplitude_from",
-                 "one interval, analysis.frequency_from and frequency_to or analysis.amplitude_from and "
-                 "amplitude_to");
+  const bool over_frequency = analysis.frequency_from + analysis.frequency_to > 0.0,
+             over_amplitude = analysis.amplitude_from + analysis.amplitude_to > 0.0;
+  if (over_frequency && over_amplitude)
+    fail_rule(document, {"analysis.amplitude_from", "analysis.amplitude_to"},
+              "the frequency has an interval, too; expected one interval");
+  const auto require = [&](double value, const char* key) {
+    if (!(value > 0.0))
+      fail_missing(document, "analysis", key,
+                   "one interval, analysis.frequency_from and frequency_to or analysis.amplitude_from and "
+                   "amplitude_to");
+  };
+  require(over_amplitude ? analysis.amplitude_from : analysis.frequency_from,
+          over_amplitude ? "amplitude_from" : "frequency_from");
+  require(over_amplitude ? analysis.amplitude_to : analysis.frequency_to,
+          over_amplitude ? "amplitude_to" : "frequency_to");
   if (over_amplitude && !(scene.forcing.frequency > 0.0))
     fail_missing(document, "forcing", "frequency", "a number in Hz, > 0, in a diagram over the amplitude");
   check_sweep(document, scene);

@@ -202,9 +202,8 @@ class CycleSearch {
 
   End settled_for(int periods) {
     for (int i = 0; i < periods; ++i) {
-      const FlowStatus status = flow_.advance_period();
-      if (status == FlowStatus::grows) return End::grows;
-      if (status != FlowStatus::converged) return End::lost;
+      ended_ = flow_.advance_period();
+      if (ended_ != FlowStatus::converged) return end_of_flow();
       ++result_.periods;
       if (!goes_on(options_.motion.observer, {"limit cycle", int(result_.periods), missing, "periods"})) {
         result_.status = LimitCycleStatus::cancelled;
@@ -214,13 +213,15 @@ class CycleSearch {
     return End::goes_on;
   }
 
+  End end_of_flow() const { return ended_ == FlowStatus::grows ? End::grows : End::lost; }
+
   // What the motion does from here on.
   End watched() {
     constexpr double resting = 1e-7, near = 0.02;
     if (cancelled()) return End::goes_on;
     const PeriodStart begin{0.0, flow_.state(), flow_.contact_states()};
     const auto trace = traced();
-    if (!trace) return End::lost;
+    if (!trace) return end_of_flow();
     if (trace->amplitude() < resting * length_) return End::rest;
     const auto repeats = trace->returns(near);
     if (!repeats) return End::goes_on;
@@ -239,12 +240,12 @@ class CycleSearch {
     constexpr int periods = 8, points = 256;
     Trace trace{{}, period_ / points};
     for (int i = 0; i < periods; ++i) {
-      const FlowStatus status = flow_.advance_period(points, [&](const FlowSample& sample) {
+      ended_ = flow_.advance_period(points, [&](const FlowSample& sample) {
         Eigen::VectorXd point(2 * sample.displacement.size());
         point << sample.displacement, period_ / two_pi * sample.velocity;
         trace.points.push_back(std::move(point));
       });
-      if (status != FlowStatus::converged) return std::nullopt;
+      if (ended_ != FlowStatus::converged) return std::nullopt;
       ++result_.periods;
     }
     return trace;
@@ -273,6 +274,7 @@ class CycleSearch {
 
   const LimitCycleOptions& options_;
   double period_, length_;  // s, m
+  FlowStatus ended_ = FlowStatus::converged;
   PhasesProblem problem_;
   ContactFlow flow_;
   std::mt19937 random_;
