@@ -166,7 +166,7 @@ def test_what_was_found_before_an_interruption_stays(tmp_path, hammer):
 
 
 @pytest.mark.parametrize(("sets", "words"), [
-    (["analysis.frequency_from=10.0", "analysis.frequency_to=14.0"], ["one interval", "amplitude_from"]),
+    (["analysis.frequency_from=10.0", "analysis.frequency_to=14.0"], ["analysis.amplitude_from = ", "the frequency has an interval, too"]),
     (["analysis.transient_periods=-1"], ["transient_periods", "-1"]),
     (["analysis.values=1"], ["values", "1"]),
     (["analysis.amplitude_to=30.0"], ["amplitude_to", "another amplitude"]),
@@ -176,6 +176,48 @@ def test_what_does_not_fit_is_refused_by_key(run, hammer, sets, words):
     record = run(STRUCTURE + DIAGRAM, set=sets)
     assert record.code == 2
     assert all(word in record.errors for word in words), record.errors
+
+
+@pytest.mark.parametrize("left_out", ["amplitude_from", "amplitude_to"])
+def test_the_end_of_an_interval_that_is_missing_is_named(run, hammer, left_out):
+    lines = [line for line in DIAGRAM.splitlines() if not line.startswith(left_out)]
+    record = run(STRUCTURE + "\n".join(lines) + "\n")
+    assert record.code == 2 and f"analysis.{left_out}: missing; expected one interval" in record.errors
+
+
+def test_a_transient_is_not_told_as_aperiodic(run, matrix):
+    # With a damping ratio of 0.01 a tenth of the free vibration is left after 37 of its periods.
+    matrix("one.mtx", [[1.0]])
+    scene = """[structure]
+type = "matrices"
+mass = "one.mtx"
+stiffness = "one.mtx"
+stiffness_damping = 0.02
+contact_dofs = [1]
+[contact]
+law = "cubic"
+cubic_stiffness = 0.001
+[forcing]
+load_dofs = [1]
+amplitude = 1.0
+[analysis]
+type = "bifurcation_diagram"
+frequency_from = 0.05
+frequency_to = 0.06
+values = 2
+both_ways = false
+exact_curve = false
+section_points = 48
+transient_periods = {}
+"""
+    early = run(scene.format(0))
+    assert early.code == 0 and early.summary["aperiodic_values"] == 0, early.errors
+    assert "still transient" in early.errors and "aperiodic" not in early.text
+    back = run(scene.format(0).replace("both_ways = false", "both_ways = true"))
+    assert back.summary["hysteresis_values"] == 0, back.text
+    late = run(scene.format(100))
+    assert late.code == 0 and "transient" not in late.errors
+    assert late.summary["longest_period_found"] == 1 and late.summary["aperiodic_values"] == 0
 
 
 def test_compare_refuses_a_diagram(command, tmp_path, hammer):

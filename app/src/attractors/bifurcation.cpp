@@ -13,6 +13,15 @@
 namespace wavebalance::app {
 namespace {
 
+/// Whether a point and the next one lie nearer to each other in the last quarter of a section than in the
+/// first, as those of a transient do, and of a chaotic or quasi-periodic motion do not.
+bool comes_nearer(const Eigen::MatrixXd& section) {
+  constexpr double nearer = 0.25;
+  const Eigen::Index moves = section.cols() - 1, quarter = moves / 4;
+  const Eigen::MatrixXd change = section.rightCols(moves) - section.leftCols(moves);
+  return change.rightCols(quarter).norm() < nearer * change.leftCols(quarter).norm();
+}
+
 /// A sine is missed by 3e-4 of its amplitude at most.
 constexpr int samples_of_a_period = 128;
 
@@ -67,7 +76,8 @@ class PassedValues {
     result.velocity = motion.velocity;
     result.period = solvers::section_period(motion, options.recorded / 4, scene_.analysis.section_tolerance,
                                             flow->length(), problem.frequency);
-    if (result.period == 0)
+    result.settles = result.period == 0 && comes_nearer(motion.displacement);
+    if (result.period == 0 && !result.settles)
       result.curve = solvers::invariant_curve(solvers::section_points(motion, problem.frequency),
                                               largest_curve_residual);
     before_ = std::move(flow);

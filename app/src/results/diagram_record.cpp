@@ -89,11 +89,12 @@ Table intervals_table(const Diagram& diagram) {
   for (std::size_t i = 0, next = 0; i < values.size(); i = next) {
     const auto alike = [&](const DiagramValue& one) {
       return one.forwards == values[i].forwards && one.period == values[i].period &&
-             one.failure == values[i].failure;
+             one.failure == values[i].failure && one.settles == values[i].settles;
     };
     for (next = i; next < values.size() && alike(values[next]);) ++next;
-    table.append_row(row_of(way_of(values[i]), values[i].value, values[next - 1].value, next - i,
-                            values[i].failure.empty() ? double(values[i].period) : missing));
+    table.append_row(
+        row_of(way_of(values[i]), values[i].value, values[next - 1].value, next - i,
+               values[i].failure.empty() && !values[i].settles ? double(values[i].period) : missing));
   }
   return table;
 }
@@ -110,8 +111,10 @@ double distance_of(const DiagramValue& a, const DiagramValue& b, int place) {
   return least;
 }
 
-/// Whether both ways lead to different motions at a value; two aperiodic ones are not told apart.
+/// Whether both ways lead to different motions at a value; two aperiodic ones are not told apart, nor is what
+/// is transient from what it may come to.
 bool differ(const DiagramValue& there, const DiagramValue& back, int place, double alike) {
+  if (there.settles || back.settles) return false;
   if (!there.failure.empty() || !back.failure.empty()) return false;
   if (there.period != back.period) return true;
   return there.period > 0 && distance_of(there, back, place) > alike;
@@ -233,7 +236,7 @@ std::int64_t count_of(const Diagram& diagram, bool (*which)(const DiagramValue&)
   return std::ranges::count_if(diagram.values, which);
 }
 
-bool is_aperiodic(const DiagramValue& one) { return one.failure.empty() && one.period == 0; }
+bool is_aperiodic(const DiagramValue& one) { return one.failure.empty() && one.period == 0 && !one.settles; }
 bool is_quasi_periodic(const DiagramValue& one) { return one.is_quasi_periodic(); }
 
 std::vector<std::string> sentences_of(const Diagram& diagram, int values, const Table& intervals,
@@ -284,6 +287,10 @@ void append_findings(Record& record, const Scene& scene, const Diagram& diagram)
          "At {} values the integration ended before the section was complete ({}). They have no points, and "
          "the next value starts from rest.",
          failed, fmt::join(reasons, ", "));
+  const auto settling = count_of(diagram, [](const DiagramValue& one) { return one.settles; });
+  if (settling > 0)
+    warn(record, "At {} values the motion was still transient. analysis.transient_periods sets its time.",
+         settling);
   if (diagram.exact_status != "not_sought" && diagram.exact.empty())
     warn(record, "There is no exact curve over the interval ({}).", diagram.exact_status);
 }

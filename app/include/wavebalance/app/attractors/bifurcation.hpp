@@ -14,6 +14,7 @@ struct DiagramValue {
   bool forwards = true;  ///< or on the way back
   int period = 0;        ///< periods of the load after which the motion repeats; 0: up to a quarter of the
                          ///< points it does not
+  bool settles = false;  ///< without a period: its points come nearer to each other, so that it may have one
   /// Empty, or why there is no section: to_string(FlowStatus); the next value begins from rest.
   std::string failure = {};
   Eigen::MatrixXd displacement = {}, velocity = {};  ///< places x points of the section
