@@ -96,7 +96,9 @@ MotionStability motion_stability(const CondensedProblem& problem, const ContactL
                                  motion->status == PhasesStatus::too_many_phases);
   if (sought) {
     MotionStability unknown;
-    unknown.status = to_string(motion->status);
+    const bool undamped = !laws.depend_on_velocity() && !laws.act_over_period() &&  // which may damp
+                          has_undamped_pole(dynamics, 2.0 * std::numbers::pi * problem.frequency());
+    unknown.status = undamped ? to_string(StabilityStatus::undamped) : to_string(motion->status);
     return unknown;
   }
   MotionStability result = motion && motion->converged() ? by_phases(*motion, dynamics, response.frequency)
