@@ -67,6 +67,13 @@ def test_the_curve_of_a_stiff_free_gear_pair_has_the_folds_of_the_one_on_a_weak_
     assert folds == [pytest.approx(4295.40, rel=5e-4), pytest.approx(3568.06, rel=5e-4)]
 
 
+def test_a_backlash_far_smaller_than_the_motion_does_not_shorten_the_steps(run, gears):
+    gears(2e8)
+    record = run(GEAR.format(stiffness=2e8), set=["contact.gap=1e-9", "analysis.stability=false"])
+    assert record.code == 0, record.errors
+    assert record.summary["points"] < 2000
+
+
 def test_check_gives_the_rigid_motion_of_a_free_mass_as_a_mode_of_0_hz(command, gears, tmp_path):
     gears(2e8)
     (tmp_path / "gear.toml").write_text(GEAR.format(stiffness=2e8))

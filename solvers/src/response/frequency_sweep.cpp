@@ -208,7 +208,7 @@ class Sweep {
     const double rms = first.displacement.norm() / std::sqrt(double(first.displacement.size()));
     constexpr double least_share = 1e-3;  // of a gap, of what vibrates
     if (arc.displacement_scale == 0.0) {
-      arc.displacement_scale = gap > 0.0 ? gap : length_of_springs(rms);
+      arc.displacement_scale = gap > least_share * rms ? gap : length_of_springs(rms);
       arc.least_scale = std::min(arc.least_scale, least_share);
     }
     if (arc.parameter_scale == 0.0) arc.parameter_scale = std::abs(options_.to - options_.from) / 20.0;
