@@ -163,6 +163,19 @@ def test_unstable_parts_are_dashed_from_one_special_point_to_the_other(sweep):
     assert (np.diff(numbers(dashed["x"])) < 0).all()
 
 
+def test_grazings_of_an_output_are_marked_on_its_curve(solve):
+    _, folder = solve({
+        "structure": {"type": "matrices", "mass": np.array([[5.0]]), "damping": np.array([[37.7]]),
+                      "stiffness": np.array([[28424.0]]), "contact_dofs": [1]},
+        "contact": {"law": "clearance", "stiffness": 2.5e5, "gap": 6e-3},
+        "forcing": {"terms": [{"kind": "base_acceleration", "dofs": [1], "amplitude": 9.81}]},
+        "time": {"trial": "fourier", "weight": "fourier", "functions": 63},
+        "analysis": {"type": "frequency_sweep", "frequency_from": 5.0, "frequency_to": 40.0, "outputs": [1]}})
+    output, contact = (series_of(panel)["grazing"] for panel in figure_of(folder, "sweep")["panels"][:2])
+    assert len(output["y"]) >= 2 and output["x"] == contact["x"]
+    assert output["y"] == pytest.approx(contact["y"], rel=5e-3)
+
+
 def test_a_missing_value_interrupts_the_line_of_a_picture(sweep, solve):
     def strokes(record):
         (first, *_) = re.findall(r"<path stroke='rgb\(  0, 114, 178\)'\s+d='([^']*)'", record.svg())

@@ -60,12 +60,16 @@ std::string ordinate(const Output& output, const Scale& scale, const std::string
   return output.unit.empty() ? words : words + " (" + scale.prefix + output.unit + ")";
 }
 
-/// Bifurcation and grazing points of a curve that is drawn: those of outputs between its points beside them.
+/// Bifurcation and grazing points of a curve that is drawn: those of outputs on the line between its points
+/// beside them, at their middle where the curve turns there.
 std::vector<PlacedPoint> placed_on(const Series& drawn, const SweepLine& line, bool of_output,
                                    double factor) {
   return line.placed([&](const solvers::SpecialPoint& one) {
     const std::size_t next = std::min(one.next_point, drawn.y.size() - 1), before = next == 0 ? 0 : next - 1;
-    return of_output ? 0.5 * (drawn.y[before] + drawn.y[next]) : factor * one.vibration;
+    if (!of_output) return factor * one.vibration;
+    const double part =
+        (parameter_of(one, line.curve.parameter) - drawn.x[before]) / (drawn.x[next] - drawn.x[before]);
+    return std::lerp(drawn.y[before], drawn.y[next], part >= 0.0 && part <= 1.0 ? part : 0.5);
   });
 }
 
