@@ -35,6 +35,7 @@ def test_the_terminal_and_the_page_begin_with_them(command, masses):
     assert words.index("The vibration of row 1 is at most") < words.index("The curve has")
     assert words.index("The curve has") < words.index("The largest vibration of a contact")
     assert "The velocity of row 3 is at most" in words
+    assert words.count("The vibration of row 1 is at most") == 1
     drawn = (record.folder / "sweep.figure.js").read_text()
     assert drawn.index('"title":"Vibration of row 1"') < drawn.index("of the contacts")
     assert "Harmonics of row 1" in (record.folder / "outputs.figure.js").read_text()

@@ -73,3 +73,30 @@ def test_unstable_parts_of_a_curve_and_of_its_branches_are_named(told, scenes):
     assert lacking(text, f"Along the curve motions are unstable at {places[0]}.",
                    f"Along branch 1 motions are unstable at {places[1]}.",
                    f"Stability is known at {known} of {summary['points']} points. Near grazing, contact lasts less") == []
+
+
+def two_masses(**analysis):
+    """The first meets a stop, the second has a weight and hardly a link to the first."""
+    return {"structure": {"type": "matrices", "mass": np.eye(2), "stiffness": np.array([[1e4, -1e-6], [-1e-6, 4e4]]),
+                          "modal_damping": 0.05, "contact_dofs": [1]},
+            "contact": {"law": "linear", "stiffness": 2e4, "gap": 1e-3},
+            "forcing": {"amplitude": 2.0, "load_dofs": [1], "terms": [{"harmonic": 0, "dofs": [2], "amplitude": 40.0}]},
+            "time": {"trial": "fourier", "weight": "fourier", "functions": 31},
+            "analysis": {"type": "frequency_sweep", "frequency_from": 12.0, "frequency_to": 24.0, "outputs": [1, 2],
+                         "stability": False} | analysis}
+
+
+def test_an_output_that_only_rounding_moves_has_a_vibration_of_zero(told):
+    _, text = told(two_masses())
+    assert "The vibration of row 2 is zero, about a mean of 1 mm." in text
+
+
+@pytest.mark.parametrize("analysis, words", [
+    ({}, "of it, which were not compared with an exact periodic solution."),
+    ({"exact": True}, "It is resolved to "),
+    ({"stability": True}, "confirmed by the nearest exact periodic solution."),
+])
+def test_the_digits_of_a_peak_say_what_confirms_them(told, analysis, words):
+    _, text = told(two_masses(**analysis))
+    assert text.count("The peak was solved for between the points of the curve.") == 1
+    assert words in text

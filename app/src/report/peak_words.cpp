@@ -19,15 +19,6 @@ int digits_of(double value, double resolution, int most) {
   return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / resolution))), 2, most);
 }
 
-/// How many digits of a peak that was solved for are true, where the error of the motion is known.
-std::string digits_sentence(double digits, bool exact) {
-  return fmt::format(
-      "The peak was solved for between the points of the curve. {}",
-      exact ? fmt::format("It has {:.0f} digit{} that {} confirmed by the nearest exact periodic solution.",
-                          digits, digits == 1.0 ? "" : "s", digits == 1.0 ? "is" : "are")
-            : fmt::format("It is resolved to {:.0f} digits.", digits));
-}
-
 }  // namespace
 
 std::string rounded_quantity(double value, const std::string& unit, double resolution) {
@@ -73,7 +64,7 @@ void append_output_of_mode(std::vector<std::string>& sentences, const Table& out
 }  // namespace
 
 void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
-                   const SweepAxis& axis, bool with_digits) {
+                   const SweepAxis& axis) {
   const auto number = [&](std::string_view column) { return std::get<double>(outputs.at(row, column)); };
   const double vibration = number("half_peak_to_peak"), mean = number("mean");
   if (!std::isfinite(vibration)) return;
@@ -87,10 +78,26 @@ void append_output(std::vector<std::string>& sentences, const Table& outputs, st
                                                         number(quantities::peak_place_resolution.name), axis)
                                : quantity(vibration, unit) + " (half peak to peak)";
   constexpr double rounding = 1e-7;  // of what a balance and its peak resolve
-  sentences.push_back(fmt::format("{} is {}, about a mean of {}.", named_output(name), size,
+  sentences.push_back(fmt::format("{} is {}, about a mean of {}.", named_output(name),
+                                  vibration <= rounding * std::abs(mean) ? "zero" : size,
                                   std::abs(mean) <= rounding * vibration ? "zero" : quantity(mean, unit)));
-  if (with_digits && solved && std::isfinite(number("digits")))
-    sentences.push_back(digits_sentence(number("digits"), std::isfinite(number("error_at_peak"))));
+}
+
+void append_digits(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
+                   bool exact_curve) {
+  if (!outputs.has_column("digits")) return;
+  const double digits = std::get<double>(outputs.at(row, "digits"));
+  if (!std::isfinite(digits)) return;
+  const bool compared = std::isfinite(std::get<double>(outputs.at(row, "error_at_peak")));
+  const std::string count = fmt::format("{:.0f} digit{}", digits, digits == 1.0 ? "" : "s");
+  const std::string verb = digits == 1.0 ? "is" : "are";
+  std::string words =
+      fmt::format("The curve determines {} of it, which {} not compared with an exact periodic solution.",
+                  count, digits == 1.0 ? "was" : "were");
+  if (exact_curve) words = fmt::format("It is resolved to {}.", count);
+  if (compared)
+    words = fmt::format("It has {} that {} confirmed by the nearest exact periodic solution.", count, verb);
+  sentences.push_back("The peak was solved for between the points of the curve. " + words);
 }
 
 }  // namespace wavebalance::app

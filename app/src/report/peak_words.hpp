@@ -18,9 +18,12 @@ std::string place_text(double place, double resolution, const SweepAxis& axis);
 std::string peak_text(double vibration, const std::string& unit, double resolution, double place,
                       double place_resolution, const SweepAxis& axis);
 
-/// How the output of a row of the summary's table vibrates, in the digits that its curve and its error leave,
-/// and with `with_digits` how many of a curve these are; nothing where that is not known.
+/// How the output of a row of the summary's table vibrates, in the digits that its curve and its error leave.
 void append_output(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
-                   const SweepAxis& axis, bool with_digits = false);
+                   const SweepAxis& axis);
+
+/// How many digits of a peak that was solved for are determined, and by what; nothing where none was.
+void append_digits(std::vector<std::string>& sentences, const Table& outputs, std::size_t row,
+                   bool exact_curve);
 
 }  // namespace wavebalance::app

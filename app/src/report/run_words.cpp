@@ -238,8 +238,12 @@ void append_leading_output(std::vector<std::string>& sentences, const Summary& s
                            const SweepAxis& axis) {
   const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
   const std::string leading = text_in(summary, quantities::leading_output);
-  for (std::size_t i = 0; outputs != nullptr && i < outputs->rows(); ++i)
-    if (cell_text(outputs->at(i, "output")) == leading) append_output(sentences, *outputs, i, axis, true);
+  for (std::size_t i = 0; outputs != nullptr && i < outputs->rows(); ++i) {
+    if (cell_text(outputs->at(i, "output")) != leading) continue;
+    append_output(sentences, *outputs, i, axis);
+    append_digits(sentences, *outputs, i,
+                  text_in(summary, quantities::solved_by) == name_of(TimeMethod::exact));
+  }
 }
 
 void append_curve(std::vector<std::string>& sentences, const Summary& summary, double gap,
@@ -327,9 +331,10 @@ void append_mode(std::vector<std::string>& sentences, const Summary& summary) {
 std::vector<std::string> output_sentences(const Summary& summary, const SweepAxis& axis) {
   constexpr std::size_t most = 12;
   const auto* outputs = value_in<Table>(summary, quantities::outputs.name);
+  const std::string leading = text_in(summary, quantities::leading_output);
   std::vector<std::string> sentences;
   for (std::size_t i = 0; outputs != nullptr && i < std::min(most, outputs->rows()); ++i)
-    append_output(sentences, *outputs, i, axis);
+    if (cell_text(outputs->at(i, "output")) != leading) append_output(sentences, *outputs, i, axis);
   return sentences;
 }
 
