@@ -43,6 +43,7 @@ def test_statistics_of_a_chaotic_hammer_are_those_of_a_long_motion_by_flights(ru
     found = record.summary
     assert (found["status"], found["motion_kind"], found["converged"]) == ("aperiodic", "chaotic", False)
     assert not found["warnings"]
+    assert "Over the next 512 periods contact 1 vibrates by" in record.text
     assert found["curve_residual"] > 0.1  # of the size of the section, which no closed curve is near
     assert "second_frequency_Hz" not in found
     square, error = mean_with_error(long_motion["squares"])

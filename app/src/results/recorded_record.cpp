@@ -147,8 +147,7 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
   return before + "Whether it is aperiodic or still transient is not known: " + measured + ".";
 }
 
-/// What came out, of which the contact with the largest force and the summary, which has no more than the
-/// scene's laws do.
+/// What came out, of the leading contact and of the summary, which has no more than the scene's laws do.
 std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequency,
                                       const MotionPlace& contact, const Summary& summary) {
   const auto of = [&](const char* quantity) { return motion.of(contact.name, quantity); };
@@ -156,9 +155,8 @@ std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequ
   const auto has = [&](const Quantity& one) { return std::isfinite(number_in(summary, one)); };
   std::vector<std::string> sentences{
       kind_sentence(motion, frequency),
-      fmt::format("Over the next {} periods the contact with the largest force vibrates by {} (rms about "
-                  "its mean), between {} and {}.",
-                  motion.recorded, with_error(of("vibration_rms"), contact.unit),
+      fmt::format("Over the next {} periods {} vibrates by {} (rms about its mean), between {} and {}.",
+                  motion.recorded, contact.name, with_error(of("vibration_rms"), contact.unit),
                   quantity(of("min").value, contact.unit), quantity(of("max").value, contact.unit))};
   if (has(quantities::mean_contact_force))
     sentences.push_back(
