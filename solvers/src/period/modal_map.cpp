@@ -155,7 +155,8 @@ ModalMap::Step ModalMap::refined(const PeriodState& begin, Ticks start, int leve
 
 Period ModalMap::advance(const PeriodState& begin, const StepControl& control) {
   const Ticks length = Ticks{1} << deepest_level;
-  const double allowed = control.tolerance * std::max(size(begin), free_state_.norm() * 1e-6);
+  const double allowed =
+      control.tolerance * std::max({size(begin), control.least_size, free_state_.norm() * 1e-6});
   const Eigen::Index contacts = clear_below_.size();
   max_operations_ = operations_ + control.max_operations;
   if (far_ == 0.0) far_ = 1e10 * std::max(size(begin), free_state_.norm());

@@ -20,6 +20,7 @@ struct PeriodState {
 struct StepControl {
   double tolerance = 0.0;       ///< of a step, relative to the size of the state
   double max_operations = 0.0;  ///< in one period
+  double least_size = 0.0;      ///< which errors are relative to where the state is smaller
 };
 
 /// One period of the load.

@@ -53,11 +53,12 @@ class Settling {
   SettledMotion run(const TakesReturn& takes) {
     SettledMotion result;
     result.start = start_;
-    constexpr double finer = 1e-2, finest = 1e-11;
+    constexpr double first = 1e2, finer = 1e-2, finest = 1e-11;
     Verdict before{{}, false};
     // Friction changes between stick and slip at many instants, each of which costs short steps.
-    double tolerance = has_memory_ ? even_steps : options_.tolerance;
-    for (const double share : {0.5, 1.0, 1.5}) {
+    double tolerance = has_memory_ ? even_steps : first * options_.tolerance;
+    least_size_ = size_after_even_steps();
+    for (const double share : {0.4, 1.0, 1.5}) {
       limit_ = std::min(share, 1.0) * options_.max_operations;  // each accuracy has its part
       const Verdict now =
           settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
@@ -67,8 +68,8 @@ class Settling {
       before = now;
       tolerance = tolerance == even_steps ? options_.tolerance : std::max(finest, finer * tolerance);
     }
-    const bool settles = result.attractor_periods > 0 && load_periods_ % result.attractor_periods == 0;
-    if (!result.cancelled && !result.grows && !settles && result.integrated()) add_returns(takes, result);
+    const bool ends = result.cancelled || result.grows || result.repeats_after(load_periods_);
+    if (!ends && result.integrated()) add_returns(takes, result);
     return result;
   }
 
@@ -96,11 +97,19 @@ class Settling {
     return {};
   }
 
+  // Of the motion that begins. Where it begins at rest, errors relative to rest would take all operations.
+  double size_after_even_steps() {
+    const Period period = map_.advance(states_.front(), {even_steps, options_.max_operations});
+    return period.complete ? map_.size(period.state) : 0.0;
+  }
+
   bool add_period(double tolerance, SettledMotion& result) {
     constexpr double accuracy = 10.0;  // of a step before it is extrapolated, over the tolerance
-    Period period = map_.advance(states_.back(), {accuracy * tolerance, limit_ - map_.operations()});
+    Period period =
+        map_.advance(states_.back(), {accuracy * tolerance, limit_ - map_.operations(), least_size_});
     result.grows = period.grows;
     if (!period.complete) return false;
+    least_size_ = 0.0;
     const Motion& contacts = period.contacts;
     if (!result.integrated())
       result.last = {contacts.displacement.replicate(1, load_periods_),
@@ -202,7 +211,8 @@ class Settling {
   double return_tolerance() const { return has_memory_ ? even_steps : options_.tolerance; }
 
   void add_returns(const TakesReturn& takes, SettledMotion& result) {
-    return_limit_ = map_.operations() + options_.max_operations;
+    constexpr double share = 1.0 / 3.0;
+    return_limit_ = map_.operations() + share * options_.max_operations;
     std::vector<PeriodState> found;
     for (const std::size_t k : nearest_returns()) {
       const double change = distance(states_[k + static_cast<std::size_t>(load_periods_)], states_[k]);
@@ -230,6 +240,7 @@ class Settling {
   double start_;
   bool has_memory_;
   double limit_ = 0.0, return_limit_ = 0.0;  // of operations
+  double least_size_ = 0.0;                  // of the motion in its first period
   std::vector<PeriodState> states_;          // at the starts of the periods of the load
 };
 

@@ -21,7 +21,7 @@ struct SettlingOptions {
   double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
   static constexpr int max_modes = 120;  ///< of the structure; the others deflect statically
   int max_size = 400;                    ///< degrees of freedom up to which the modes are computed
-  double max_operations = 1e10;          ///< two to five seconds; as much again for motions near returns
+  double max_operations = 2.6e10;        ///< three to four seconds; a third more for motions near returns
   int max_returns = 12;                  ///< pieces of the motion that are kept where it does not settle
   Observer observer;                     ///< called once per period
 
@@ -51,14 +51,18 @@ struct SettledMotion {
   std::vector<Motion> returns;
 
   bool integrated() const { return !last.empty(); }
+  /// Whether it has a period of so many of the load.
+  bool repeats_after(int load_periods) const {
+    return attractor_periods > 0 && load_periods % attractor_periods == 0;
+  }
 };
 
 /// Integrates M u'' + C u' + K u = load - contact forces of `problem` (frequency set before) from the state
 /// of the options, at a maximum of the load's first harmonic. A number of periods is one that two of three
 /// integrations agree on, each with a hundredth of the error of the one before. With friction the first has
-/// even steps, a quarter as many, and up to twice as many returns are kept; of a structure that is free to
-/// move none is integrated. Throws std::invalid_argument for options out of range or not finite. O(n^3) once,
-/// O(m^2 + C m) per step.
+/// even steps, a quarter as many, and up to twice as many returns are kept; of a structure
+/// that is free to move none is integrated. Throws std::invalid_argument for options out of range or not
+/// finite. O(n^3) once, O(m^2 + C m) per step.
 SettledMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
                      const SettlingOptions& options = {});
 
