@@ -24,10 +24,6 @@ int highest_harmonic(const Forcing& forcing) {
   return highest;
 }
 
-double tolerance_of(const Scene& scene) {
-  return scene.time.tolerance > 0.0 ? scene.time.tolerance : default_phases_tolerance;
-}
-
 /// What a search for phases ended with.
 struct PhasesFound {
   std::string status = "no_start";
@@ -73,7 +69,7 @@ PhasesFound from_balances(const Scene& scene, const StructureModel& model, const
       return found;
     }
     if (!balance.converged()) continue;
-    auto phases = problem.phases(balance, {.tolerance = tolerance_of(scene), .observer = observer});
+    auto phases = problem.phases(balance, {.tolerance = phases_tolerance(scene), .observer = observer});
     note(found, std::move(phases->motion), "from_balance", functions);
     if (!found.may_go_on()) return found;
   }
@@ -90,8 +86,8 @@ PhasesFound by_events(const Scene& scene, solvers::ContactProblem& problem, cons
   }
   solvers::TimeSteppingOptions stepping;
   stepping.observer = observer;
-  solvers::SettledExact all = problem.settled_exact(scene.forcing.frequency, stepping,
-                                                    {.tolerance = tolerance_of(scene), .observer = observer});
+  solvers::SettledExact all = problem.settled_exact(
+      scene.forcing.frequency, stepping, {.tolerance = phases_tolerance(scene), .observer = observer});
   const solvers::Motion& last = all.settled.stepping.contacts;
   if (!last.empty())
     found.settled = {all.settled.stepping.attractor_periods, last.displacement.maxCoeff(),
@@ -113,7 +109,7 @@ void try_settling(PhasesFound& found, solvers::ContactProblem& problem, const Sc
   found.settled = {settled.attractor_periods, settled.last.displacement.maxCoeff(),
                    settled.last.force.maxCoeff()};
   auto motion = problem.phases(scene.forcing.frequency, settled,
-                               {.tolerance = tolerance_of(scene), .observer = observer});
+                               {.tolerance = phases_tolerance(scene), .observer = observer});
   if (motion && (motion->converged() || found.may_go_on()))
     note(found, *std::move(motion), "from_settling", 0);
 }
@@ -139,9 +135,23 @@ void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& m
     note_structure(result, problem.structure_motion(
                                frequency, motion, options.structure_points,
                                {.tolerance = std::max(motion.impacts.empty() ? least_left_out : of_impacts,
-                                                      tolerance_of(scene))}));
+                                                      phases_tolerance(scene))}));
   if (options.stability && result.converged) result.stability = problem.stability(frequency, motion);
   if (!moves_by_events(scene)) note_settled(problem, scene, options.observer, result);
+}
+
+void copy_phases(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, int load_periods,
+                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                 Response& result) {
+  result.phases = {motion, solvers::missing, solvers::missing};
+  result.iterations = motion.iterations;
+  result.unknowns = motion.unknowns;
+  result.converged = motion.converged();
+  result.moves = motion.parts != nullptr;
+  if (!result.moves) return;
+  result.residual = motion.residual;
+  result.periods = result.motion_periods = load_periods;
+  copy_motion(problem, motion, scene, model, options, result);
 }
 
 namespace {
@@ -165,20 +175,9 @@ void solve_by_phases(const Scene& scene, const StructureModel& model, const Resp
   result.start_functions = found.start_functions;
   result.residual = solvers::missing;
   if (!found.motion) return;
-  const solvers::PhaseMotion& motion = *found.motion;
-  result.phases = {motion, solvers::missing, solvers::missing};
-  result.iterations = motion.iterations;
-  result.unknowns = motion.unknowns;
-  result.converged = motion.converged();
-  result.moves = motion.parts != nullptr;
-  if (!result.moves) {
-    result.settled = found.settled;
-    return;
-  }
-  result.residual = motion.residual;
-  result.periods = result.motion_periods = found.load_periods;
   if (found.load_periods > 1) problem = problem.over_periods(found.load_periods);
-  copy_motion(problem, motion, scene, model, options, result);
+  copy_phases(problem, *found.motion, found.load_periods, scene, model, options, result);
+  if (!result.moves) result.settled = found.settled;
   if (events && result.stability && result.stability->unstable > 0) result.settled = found.settled;
 }
 
@@ -233,6 +232,10 @@ std::optional<Response> phases_to_tolerance(const Scene& scene, const StructureM
   Response found = timed_response(scene, model, options, false);
   if (!found.converged && found.status != to_string(solvers::SolveStatus::cancelled)) return std::nullopt;
   return found;
+}
+
+double phases_tolerance(const Scene& scene) {
+  return scene.time.tolerance > 0.0 ? scene.time.tolerance : default_phases_tolerance;
 }
 
 bool is_by_phases(const Response& response) { return response.solved_by == name_of(TimeMethod::exact); }

@@ -49,6 +49,25 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   note_settled(problem, scene, options.observer, result);
 }
 
+/// Whether the exact motion that time integration converges to is known now, in place of a balance.
+bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
+                   const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                   Response& result) {
+  if (!options.exact_instead || found.settled == nullptr) return false;
+  solvers::ContactPhasesOptions phases;
+  phases.max_operations = most_operations_of_phases(problem.contacts());
+  phases.observer = options.observer;
+  const auto motion = problem.phases(scene.forcing.frequency, *found.settled, phases);
+  if (!motion || !motion->converged()) return false;
+  result = {};
+  result.solved_by = name_of(TimeMethod::exact);
+  result.status = to_string(motion->status);
+  result.strategy = "from_settling";
+  result.attractor_periods = found.attractor_periods;
+  copy_phases(problem, *motion, solvers::load_periods(problem.condensed()), scene, model, options, result);
+  return true;
+}
+
 void solve_law(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                Response& result) {
   solvers::ForcedResponseOptions solver;
@@ -57,6 +76,7 @@ void solve_law(const Scene& scene, const StructureModel& model, const ResponseOp
   solver.stay_near_guess = options.stay_near_guess;
   solvers::ContactProblem problem = compose_problem(scene, model);
   const auto found = problem.respond(scene.forcing.frequency, solver, {options.guess, options.guess_force});
+  if (solve_exactly(problem, found, scene, model, options, result)) return;
   copy_solution(result, problem.condensed(), found, scene, model);
   result.start_distance = relative_distance(found.displacement, options.guess);
   note_motion(problem, found, scene, model, options, result);

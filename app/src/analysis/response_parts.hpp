@@ -28,6 +28,12 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
 void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                   Response& result);
 
+/// Sets the numbers of an exact motion and, if there is one, what copy_motion() does. `load_periods` are
+/// those of its period.
+void copy_phases(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, int load_periods,
+                 const Scene& scene, const StructureModel& model, const ResponseOptions& options,
+                 Response& result);
+
 /// Sets the contacts' exact motion, and what options ask for of it.
 void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result);

@@ -56,6 +56,7 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Anal
   ResponseOptions options = response_options(scene, how.observer);
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases;
+  options.exact_instead = true;
   if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
   if (!start.contacts.empty()) {

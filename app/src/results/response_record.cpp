@@ -168,9 +168,15 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
   const solvers::ResponsePhases& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
   if (is_by_phases(response)) {
-    record.add(quantities::tolerance, scene.time.tolerance);
+    record.add(quantities::tolerance, phases_tolerance(scene));
     record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.add("start_functions", response.start_functions);
+    if (!scene.time.trial.empty() && scene.time.tolerance == 0.0) {
+      record.add(quantities::form, response.solved_by);
+      record.warnings.emplace_back(
+          "The functions of the scene do not hold this motion: no solution of the discretised equations was "
+          "found near it. It is the exact motion that time integration from rest converges to.");
+    }
   } else {
     record.add(quantities::phases_status, to_string(found.motion.status));
     record.add(quantities::error_of_vibration, vibration_error(found.motion, response));

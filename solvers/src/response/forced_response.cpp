@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -234,27 +235,34 @@ Start start_of(const Task& task, const Motion& period, double start) {
 }
 
 /// Newton's method from the motion that the structure settles to, or from states that nearly recur in it. The
-/// result is the better of that and `best`, the outcome of earlier attempts. Sets `attractor_periods`.
+/// result is the better of that and `best`, the outcome of earlier attempts. Sets `settled`.
 Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
-                        int& attractor_periods) {
+                        SettledMotion& settled) {
   SettlingOptions settling = task.options.settling;
   settling.observer = task.options.observer;
+  Task bounded = task;  // returns may be many
+  bounded.fallback_operations = task.options.max_fallback_operations;
+  double operations = 0.0;
   const auto improve = [&](const Motion& from, double start, Strategy strategy) {
+    const bool last = strategy == Strategy::settling;
     const Start there = start_of(task, from, start - task.problem.pair().first_sample());
-    best = better(std::move(best), try_newton(task, form, there, strategy));
-    return best.ended();
+    Candidate next = try_newton(last ? task : bounded, form, there, strategy);
+    operations += next.operations;
+    best = better(std::move(best), std::move(next));
+    return best.ended() || operations > bounded.fallback_operations;
   };
-  const SettledMotion motion =
-      settle(task.problem, task.laws, settling,
-             [&](const Motion& piece, double start) { return improve(piece, start, Strategy::recurrence); });
-  attractor_periods = motion.attractor_periods;
+  settled = settle(task.problem, task.laws, settling, [&](const Motion& piece, double start) {
+    return improve(piece, start, Strategy::recurrence);
+  });
+  const SettledMotion& motion = settled;
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
   if (best.ended()) return best;
   if (!motion.integrated() || !motion.returns.empty())
     return better(std::move(best), try_residual(task, form, first));
-  if (improve(motion.last, motion.start, Strategy::settling)) return best;
-  const Start settled = start_of(task, motion.last, motion.start - task.problem.pair().first_sample());
-  return better(std::move(best), try_residual(task, form, settled));
+  improve(motion.last, motion.start, Strategy::settling);
+  if (best.ended()) return best;
+  const Start last = start_of(task, motion.last, motion.start - task.problem.pair().first_sample());
+  return better(std::move(best), try_residual(task, form, last));
 }
 
 /// With what a problem needs for some iterations, where that is more: one of a hundred contacts takes half of
@@ -266,7 +274,7 @@ Task with_room_for_iterations(Task task, const Candidate& first) {
   return task;
 }
 
-Candidate solve(const Task& at_first, const Start& first, bool guessed, int& attractor_periods) {
+Candidate solve(const Task& at_first, const Start& first, bool guessed, SettledMotion& settled) {
   const Eigen::VectorXd form =
       contact_series_flexibility(at_first.problem, at_first.laws, at_first.options.form);
   Candidate best = try_newton(at_first, form, first, Strategy::newton);
@@ -284,13 +292,13 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, int& att
   if (task.laws.act_over_period()) {
     if (has_many_with_friction(task)) best = better(std::move(best), try_sticking(task, form));
     if (best.ended()) return best;
-    return solve_settled(task, form, first, std::move(best), attractor_periods);
+    return solve_settled(task, form, first, std::move(best), settled);
   }
   for (const Eigen::VectorXd& tried : forms_of(task)) {
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
   }
-  best = solve_settled(task, form, first, std::move(best), attractor_periods);
+  best = solve_settled(task, form, first, std::move(best), settled);
   if (best.ended() || !task.laws.unilateral() || task.problem.is_free()) return best;
   return better(std::move(best), try_from_rest(task, form));
 }
@@ -339,7 +347,7 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& a
   const ContactLaws laws = any_laws.at(problem.load_frequency());
   laws.require(problem.contacts());
   const Task task{problem, laws, options};
-  int attractor_periods = SettledMotion::unknown;
+  SettledMotion settled;
   Candidate candidate;
   if (problem.is_free() && !static_load_is_balanced(problem, laws)) {
     candidate = no_solution(SolveStatus::unbalanced, contact_series_flexibility(problem, laws, options.form),
@@ -349,13 +357,14 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& a
     // A static load may keep contacts closed. The structure then moves much less than without contact.
     const bool pressed = places && problem.balancing_force().norm() > 1e-9 * problem.spring_force();
     if (places) start = balanced_start(task, !pressed);
-    candidate = solve(task, start, guessed, attractor_periods);
+    candidate = solve(task, start, guessed, settled);
     if (places && !candidate.ended())
-      candidate = better(std::move(candidate),
-                         solve(task, balanced_start(task, pressed), guessed, attractor_periods));
+      candidate = better(std::move(candidate), solve(task, balanced_start(task, pressed), guessed, settled));
   }
   PeriodicResponse response = response_of(task, std::move(candidate));
-  response.attractor_periods = attractor_periods;
+  response.attractor_periods = settled.attractor_periods;
+  if (!response.converged() && settled.repeats_after(load_periods(problem)))
+    response.settled = std::make_shared<const SettledMotion>(std::move(settled));
   if (!response.converged() && response.status != SolveStatus::cancelled)
     for (const Eigen::VectorXd& at : {problem.contact_free_response(), response.displacement})
       laws.require_numbers(problem.contacts(), at);

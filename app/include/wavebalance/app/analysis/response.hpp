@@ -128,6 +128,9 @@ struct ResponseOptions {
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
   bool stability = false;         ///< of weighted_residual_response() and phases_response()
   bool phases = false;            ///< of weighted_residual_response(): Response::phases
+  /// Of weighted_residual_response() without time.tolerance: whether the exact motion that time integration
+  /// converges to is the response where the functions hold none. Response::solved_by tells which it is.
+  bool exact_instead = false;
   Observer observer{};
 };
 
@@ -154,6 +157,9 @@ double largest_phases_tolerance(int contacts);
 
 /// Whether the response is the motion of the structure itself, and not a balance beside it.
 bool is_by_phases(const Response& response);
+
+/// time.tolerance, or the default one of exact motions.
+double phases_tolerance(const Scene& scene);
 
 /// The exact periodic solution, to time.tolerance: of scenes with time.method =
 /// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a

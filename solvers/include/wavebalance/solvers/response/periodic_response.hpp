@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -7,6 +8,8 @@
 #include "wavebalance/solvers/balance/newton.hpp"
 
 namespace wavebalance::solvers {
+
+struct SettledMotion;
 
 /// Strategies for a periodic response, in the order in which they are tried.
 enum class Strategy {
@@ -37,6 +40,8 @@ struct PeriodicResponse {
   Strategy strategy = Strategy::none;  ///< what found it
   /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not, or not known.
   int attractor_periods = -1;
+  /// The motion that it settles to, where that has the period of the problem and the response none near it.
+  std::shared_ptr<const SettledMotion> settled;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run
   /// Estimated rounding error of the condensation in the motion, relative: CondensedProblem::rounding_error()
