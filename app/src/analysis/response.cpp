@@ -60,7 +60,7 @@ bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResp
   const auto motion = problem.phases(scene.forcing.frequency, *found.settled, phases);
   if (!motion || !motion->converged()) return false;
   result = {};
-  result.solved_by = name_of(TimeMethod::exact);
+  result.solved_by = result.form = name_of(TimeMethod::exact);
   result.status = to_string(motion->status);
   result.strategy = "from_settling";
   result.attractor_periods = found.attractor_periods;

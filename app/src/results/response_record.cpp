@@ -7,7 +7,6 @@
 #include "analysis/response_parts.hpp"
 #include "drawing/record_figure.hpp"
 #include "files/missing.hpp"
-#include "plot/unit_prefix.hpp"
 #include "results/contact_record.hpp"
 #include "results/motion_files.hpp"
 #include "results/orbit_record.hpp"
@@ -171,12 +170,10 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
     record.add(quantities::tolerance, phases_tolerance(scene));
     record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.add("start_functions", response.start_functions);
-    if (!scene.time.trial.empty() && scene.time.tolerance == 0.0) {
-      record.add(quantities::form, response.solved_by);
+    if (!response.form.empty())
       record.warnings.emplace_back(
           "The functions of the scene do not hold this motion: no solution of the discretised equations was "
           "found near it. It is the exact motion that time integration from rest converges to.");
-    }
   } else {
     record.add(quantities::phases_status, to_string(found.motion.status));
     record.add(quantities::error_of_vibration, vibration_error(found.motion, response));
