@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "wavebalance/app/files/output.hpp"
+#include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -33,7 +34,7 @@ bool is_place(const std::string& column) {
 std::string rounded_text(const Cell& cell, int digits) {
   const auto* number = std::get_if<double>(&cell);
   if (number == nullptr) return cell_text(cell);
-  return std::isfinite(*number) ? fmt::format("{:.{}g}", *number, digits) : "";
+  return std::isfinite(*number) ? short_number(*number, digits) : "";
 }
 
 }  // namespace
