@@ -96,7 +96,7 @@ def test_obstacles_on_both_sides_with_a_gap_that_presses_are_described_and_warne
                    ("[forcing]", '[[contact.pairs]]\ndofs = [3]\nside = "both"\ngap = -1e-4\n[forcing]'))
     assert " µm; two contacts for each of the 1 direction with obstacles on both sides" in wb.check(both)
     warnings = wb.run(both).warnings
-    assert any(one.startswith('contact.pairs[1].gap is -0.0001 m with side = "both"') for one in warnings), warnings
+    assert any(one.startswith('contact.pairs[1].gap is -100 µm with side = "both"') for one in warnings), warnings
 
 
 def test_time_stepping_counts_the_states_of_the_matrices():
