@@ -57,7 +57,7 @@ class Settling {
     Verdict before{{}, false};
     // Friction changes between stick and slip at many instants, each of which costs short steps.
     double tolerance = has_memory_ ? even_steps : first * options_.tolerance;
-    least_size_ = size_after_even_steps();
+    if (!has_memory_) least_size_ = size_after_even_steps();
     for (const double share : {0.4, 1.0, 1.5}) {
       limit_ = std::min(share, 1.0) * options_.max_operations;  // each accuracy has its part
       const Verdict now =
@@ -211,7 +211,7 @@ class Settling {
   double return_tolerance() const { return has_memory_ ? even_steps : options_.tolerance; }
 
   void add_returns(const TakesReturn& takes, SettledMotion& result) {
-    constexpr double share = 1.0 / 3.0;
+    constexpr double share = 0.4;
     return_limit_ = map_.operations() + share * options_.max_operations;
     std::vector<PeriodState> found;
     for (const std::size_t k : nearest_returns()) {

@@ -240,8 +240,10 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
                         SettledMotion& settled) {
   SettlingOptions settling = task.options.settling;
   settling.observer = task.options.observer;
-  Task bounded = task;  // returns may be many
-  bounded.fallback_operations = task.options.max_fallback_operations;
+  // Returns may be many. Only those of friction are known to need more for each.
+  const bool friction = task.laws.act_over_period();
+  Task bounded = task;
+  if (!friction) bounded.fallback_operations = task.options.max_fallback_operations;
   double operations = 0.0;
   const auto improve = [&](const Motion& from, double start, Strategy strategy) {
     const bool last = strategy == Strategy::settling;
@@ -249,7 +251,7 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
     Candidate next = try_newton(last ? task : bounded, form, there, strategy);
     operations += next.operations;
     best = better(std::move(best), std::move(next));
-    return best.ended() || operations > bounded.fallback_operations;
+    return best.ended() || (!friction && operations > bounded.fallback_operations);
   };
   settled = settle(task.problem, task.laws, settling, [&](const Motion& piece, double start) {
     return improve(piece, start, Strategy::recurrence);

@@ -21,9 +21,9 @@ struct SettlingOptions {
   double tolerance = 1e-6;  ///< of the state after its period, in the energy norm, relative
   static constexpr int max_modes = 120;  ///< of the structure; the others deflect statically
   int max_size = 400;                    ///< degrees of freedom up to which the modes are computed
-  double max_operations = 2.6e10;        ///< three to four seconds; a third more for motions near returns
-  int max_returns = 12;                  ///< pieces of the motion that are kept where it does not settle
-  Observer observer;                     ///< called once per period
+  double max_operations = 2.6e10;  ///< three to four seconds; 0.4 times as much for motions near returns
+  int max_returns = 12;            ///< pieces of the motion that are kept where it does not settle
+  Observer observer;               ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
