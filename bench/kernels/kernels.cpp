@@ -51,7 +51,7 @@ void condensation(benchmark::State& state) {
   for (auto _ : state) {
     problem.forget_condensation();
     problem.set_frequency(scene.frequency);
-    benchmark::DoNotOptimize(problem.contact_free_response().data());
+    benchmark::DoNotOptimize(problem.linear_response().data());
   }
   set_work(state, operations * elements * (functions / 2 + 1), 6.0 * real * elements);
 }
@@ -93,7 +93,7 @@ void force_evaluation(benchmark::State& state) {
   const auto points = static_cast<int>(state.range(0));
   auto problem = fourier_problem(scene, 63, points);
   problem.set_frequency(scene.frequency);
-  const Eigen::VectorXd& displacement = problem.contact_free_response();
+  const Eigen::VectorXd& displacement = problem.linear_response();
   Eigen::VectorXd force(points), tangent(points);
   const solvers::AnyContactLaw law = scene.law();
   const auto size = static_cast<std::size_t>(points);
@@ -105,7 +105,7 @@ void force_evaluation(benchmark::State& state) {
   set_work(state, 20.0 * active, 3.0 * points * real);
 }
 
-// Evaluation, factorization and solution of one Newton step at the contact-free response of case 1, whose
+// Evaluation, factorization and solution of one Newton step at the linear response of case 1, whose
 // longest contact is the largest of the solve: an LU of the active samples and four transforms.
 void newton_step(benchmark::State& state) {
   const Case scene = jl14_case(1);
@@ -115,10 +115,10 @@ void newton_step(benchmark::State& state) {
   solvers::ContactSystem system(problem, scene.law());
   system.set_linear_solver(solvers::LinearSolver::dense);
   Eigen::VectorXd direction;
-  system.evaluate(problem.contact_free_response());
+  system.evaluate(problem.linear_response());
   system.factorize();
   for (auto _ : state) {
-    system.evaluate(problem.contact_free_response());
+    system.evaluate(problem.linear_response());
     system.factorize();
     system.solve(system.residual(), direction);
     benchmark::DoNotOptimize(direction.data());
@@ -139,7 +139,7 @@ void newton_step_gmres(benchmark::State& state) {
   Eigen::VectorXd direction;
   bool solved = true;
   for (auto _ : state) {
-    system.evaluate(problem.contact_free_response());
+    system.evaluate(problem.linear_response());
     solved = system.factorize() && system.solve(system.residual(), direction, 1e-6) && solved;
     benchmark::DoNotOptimize(direction.data());
   }

@@ -37,9 +37,9 @@ struct ImpactBench {
   solvers::LinearStructure structure = bar_with_end_mass();
   solvers::ContactDynamics dynamics{structure};
   solvers::CondensedProblem condensed = condensed_at(structure);
-  solvers::PhaseFamily family{condensed, contact::RigidLaw(gap, restitution), dynamics,
-                              solvers::SweepParameter::frequency};
-  solvers::PhasesProblem problem = family.at(omega / turn);
+  solvers::ProblemFamily family{condensed, contact::RigidLaw(gap, restitution), dynamics,
+                                solvers::SweepParameter::frequency};
+  solvers::ExactProblem problem = family.at(omega / turn);
 
   static solvers::CondensedProblem condensed_at(const solvers::LinearStructure& structure) {
     const spectral::FourierBasis basis(7);
@@ -68,7 +68,7 @@ void impact_multipliers(benchmark::State& state) {
     start.push_back({impact.contact, impact.time, impact.impulse});
   for (auto _ : state) {
     state.PauseTiming();
-    const solvers::PhaseMotion motion = solvers::impact_motion(bench.problem, start);
+    const solvers::ExactSolution motion = solvers::impact_motion(bench.problem, start);
     state.ResumeTiming();
     benchmark::DoNotOptimize(motion.multipliers().data());
   }
@@ -76,7 +76,7 @@ void impact_multipliers(benchmark::State& state) {
 
 void follow_impacts(benchmark::State& state, bool stability) {
   const ImpactBench bench;
-  const solvers::PhaseMotion first = solvers::impact_response(bench.problem).motion;
+  const solvers::ExactSolution first = solvers::impact_response(bench.problem).motion;
   solvers::ExactCurve curve;
   for (auto _ : state)
     curve = solvers::exact_curve(bench.family, first,

@@ -15,7 +15,7 @@
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 
-// One periodic response from the contact-free response, condensation included, the pair of bases and FFT
+// One periodic response from the linear response, condensation included, the pair of bases and FFT
 // plans made before; beside it the same by Newton on all n (2H + 1) unknowns with dense LU, the way the
 // published codes do it.
 namespace wavebalance::bench {
@@ -66,8 +66,8 @@ void phases(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   solvers::ContactProblem problem(fourier_problem(scene, 63, 256), scene.law());
   const solvers::PeriodicResponse response = problem.respond(scene.frequency);
-  const solvers::ContactPhasesOptions options{.tolerance = std::pow(10.0, -double(state.range(1)))};
-  std::optional<solvers::ResponsePhases> found;
+  const solvers::CollocationOptions options{.tolerance = std::pow(10.0, -double(state.range(1)))};
+  std::optional<solvers::ExactNearResponse> found;
   for (auto _ : state) found = problem.phases(response, options);
   if (!found || !found->motion.converged()) {
     state.SkipWithError("not converged");

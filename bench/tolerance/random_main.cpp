@@ -6,8 +6,8 @@
 #include "random_motions.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/files/table.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
 
 // Random motions to a tolerance and the exact solutions near them: tolerance_random.csv.
 namespace wavebalance::bench {
@@ -22,12 +22,12 @@ app::Table empty_table() {
                      "quadrature_points", "rungs", "seconds"});
 }
 
-/// Relative rms error of the displacement, by contact phases that are a hundred times as accurate; NaN where
+/// Relative rms error of the displacement, by collocation that are a hundred times as accurate; NaN where
 /// the structure has no motion near what was found.
 double true_error(const tolerance::RandomMotion& motion, solvers::RefinementResult& found, double tolerance) {
   const solvers::ContactDynamics dynamics(motion.model.structure);
-  const auto exact = solvers::response_phases(*found.problem, motion.law, found.response, dynamics,
-                                              {.tolerance = 0.01 * tolerance});
+  const auto exact = solvers::exact_near_response(*found.problem, motion.law, found.response, dynamics,
+                                                  {.tolerance = 0.01 * tolerance});
   return exact.motion.converged() ? exact.displacement_error : solvers::missing;
 }
 

@@ -30,7 +30,7 @@ class Dice {
 inline double free_amplitude(const app::Scene& scene) {
   app::Scene linear = scene;
   linear.time = {.trial = "fourier", .weight = "fourier", .functions = 3, .quadrature_points = 64};
-  return app::make_problem(linear).contact_free_response().maxCoeff();
+  return app::make_problem(linear).linear_response().maxCoeff();
 }
 
 /// A bar driven at 40 to 4000 Hz, damped by 1e-5 to 1e-3 s, against a linear or an exponential stop. The gap

@@ -2,14 +2,14 @@
 
 #include "dense_system.hpp"
 #include "points.hpp"
-#include "wavebalance/app/compare/phase_study.hpp"
+#include "wavebalance/app/compare/exact_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compare/stopwatch.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
-// What the condensed solver is measured against: the assembled system, time stepping and contact phases.
+// What the condensed solver is measured against: the assembled system, time stepping and collocation.
 namespace wavebalance::bench {
 namespace {
 
@@ -85,9 +85,9 @@ std::vector<Point> time_stepping_points(const Study& study, const std::vector<do
   return points;
 }
 
-std::vector<Point> phase_points(const Study& study, const std::vector<double>& tolerances) {
+std::vector<Point> collocation_points(const Study& study, const std::vector<double>& tolerances) {
   constexpr int functions = 63;
-  app::PhaseStudyOptions options;
+  app::ExactStudyOptions options;
   options.tolerances = tolerances;
   options.first_functions = options.largest_functions = functions;
   return app::phase_study(study.measured, study.reference, options);

@@ -43,7 +43,7 @@ app::SizeStudyOptions sizes(bool quick, std::vector<int> quick_points, double ma
   return options;
 }
 
-std::vector<double> phase_tolerances(bool quick) {
+std::vector<double> exact_tolerances(bool quick) {
   if (quick) return {1e-3};
   return {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
 }
@@ -53,14 +53,14 @@ std::vector<Point> penalty_points(const Study& study, bool quick) {
   append(points, dense_points(study, quick ? std::vector{3, 7} : std::vector{3, 7, 15, 31, 63}, 2.0));
   append(points, time_stepping_points(study, quick ? std::vector{1e-2}
                                                    : std::vector{1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}));
-  append(points, phase_points(study, phase_tolerances(quick)));
+  append(points, collocation_points(study, exact_tolerances(quick)));
   app::mark_front(points);
   return points;
 }
 
 std::vector<Point> rigid_points(const Study& study, bool quick) {
   std::vector<Point> points = app::size_study(study.measured, pairs(), sizes(quick, {4}, 0.2));
-  append(points, phase_points(study, phase_tolerances(quick)));
+  append(points, collocation_points(study, exact_tolerances(quick)));
   app::mark_front(points);
   return points;
 }

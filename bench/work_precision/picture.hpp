@@ -7,7 +7,7 @@
 namespace wavebalance::bench {
 
 /// Adds a panel of error over solve time: the front over everything, what Fourier:Fourier and the four pairs
-/// with the most points on the front reach at best, contact phases and the baselines. Points that have not
+/// with the most points on the front reach at best, collocation and the baselines. Points that have not
 /// converged are not drawn.
 void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>& points);
 

@@ -21,9 +21,9 @@ struct Study {
   const app::Scene& scene() const { return measured.scene; }
 };
 
-/// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle, against contact phases.
+/// Both cases of [JL14, Table 1] and the motion that never leaves the obstacle, against collocation.
 std::vector<Study> penalty_studies();
-/// Both cases against a rigid obstacle with the tip's mass at its neighbour, against contact phases.
+/// Both cases against a rigid obstacle with the tip's mass at its neighbour, against collocation.
 std::vector<Study> rigid_studies();
 
 }  // namespace wavebalance::bench

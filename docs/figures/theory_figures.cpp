@@ -168,7 +168,7 @@ void draw_multipliers(const Files& files) {
 
 // A balance of a scene with Fourier functions, and the motion of the structure near it.
 struct Balance {
-  Balance(app::Scene scene, int functions, const solvers::ContactPhasesOptions& options)
+  Balance(app::Scene scene, int functions, const solvers::CollocationOptions& options)
       : problem(app::compose_problem(with_functions(scene, functions), app::make_model(scene))),
         response(problem.respond(scene.forcing.frequency)) {
     const auto found = problem.phases(response, options);
@@ -185,7 +185,7 @@ struct Balance {
 
   solvers::ContactProblem problem;
   solvers::PeriodicResponse response;
-  solvers::ResponsePhases phases;
+  solvers::ExactNearResponse phases;
 };
 
 constexpr double exact = 1e-12;  // tolerance of what errors are measured against
@@ -213,7 +213,7 @@ void draw_phases(const Files& files) {
         (motion.displacement - balance.phases.motion.displacement(times)).row(0).cwiseAbs();
     distance.add({name, time, error});
     if (functions > 31) continue;
-    for (const solvers::ContactPhase& phase : balance.phases.motion.phases)
+    for (const solvers::ForceInterval& phase : balance.phases.motion.phases)
       force.rectangles.push_back({phase.begin, 0.0, phase.end, 1.6});
     const Eigen::VectorXd computed = 1e-6 * motion.force.row(0);
     const Eigen::VectorXd phases = 1e-6 * balance.phases.motion.force(times).row(0);
@@ -264,7 +264,7 @@ void draw_phase_errors(const Files& files) {
 
 // Displacements of a contact whose rigid stop gives way elastically: about each impact half a sine beyond the
 // gap.
-Eigen::MatrixXd with_penetrations(const solvers::PhaseMotion& motion, const Eigen::VectorXd& times,
+Eigen::MatrixXd with_penetrations(const solvers::ExactSolution& motion, const Eigen::VectorXd& times,
                                   double gap, double natural) {
   Eigen::MatrixXd u = motion.displacement(times);
   for (const solvers::Impact& impact : motion.impacts)
@@ -294,7 +294,7 @@ void draw_stiff_stops(const Files& files) {
     if (!rigid.converged) throw std::runtime_error(file + ": " + rigid.status);
     const double gap = scene.contact.gap, frequency = scene.forcing.frequency,
                  mobility = solvers::inverse_contact_mass(*model.contact_dynamics())(0, 0);
-    const solvers::PhaseMotion& motion = rigid.impacts->motion;
+    const solvers::ExactSolution& motion = rigid.impacts->motion;
     const Eigen::MatrixXd exact_motion = motion.displacement(times);
     std::vector<double> stiffnesses, distances;
     for (double stiffness = 1e3; stiffness < 2e8; stiffness *= std::sqrt(10.0)) {

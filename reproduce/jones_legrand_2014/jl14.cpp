@@ -106,7 +106,7 @@ std::vector<app::Response> Case::solve_all(bool whole_structure) {
 app::Response by_phases(const app::Scene& scene, int structure_points) {
   app::ResponseOptions options;
   options.structure_points = structure_points;
-  app::Response motion = app::phases_response(scene, options);
+  app::Response motion = app::exact_response(scene, options);
   if (!motion.converged) throw report::NotConverged("exact periodic solution: " + motion.status);
   return motion;
 }

@@ -60,7 +60,7 @@ Series modulus_curve(const std::string& label, const app::Sweep& sweep);
 /// Every `every`-th point of a pair's curve from `first` on, in the colour and with the symbol of the pair.
 void add_points(app::Panel& panel, const Pair& pair, const std::string& label, const app::Sweep& sweep,
                 int first, int every);
-/// The special points of a sweep with its stability.
+/// The bifurcation and grazing points of a sweep with its stability.
 void add_special_points(app::Panel& panel, const app::Sweep& sweep);
 
 /// Columns trial, weight, frequency_Hz, max_displacement_m, rms_displacement_m, max_abs_displacement_m,
@@ -70,7 +70,7 @@ Table sweeps_table(const Resonance& resonance);
 void append_sweep(Table& table, const Pair& pair, int functions, const app::Sweep& sweep);
 /// The turning points of a sweep, as rows of that table: its stability need not be known.
 void append_turning_points(Table& table, const std::string& curve, const app::Sweep& sweep);
-/// Adds the special points of a sweep: curve, type, frequency_Hz, max_displacement_m.
+/// Adds the bifurcation and grazing points of a sweep: curve, type, frequency_Hz, max_displacement_m.
 Table special_points_table();
 void append_special_points(Table& table, const std::string& curve, const app::Sweep& sweep);
 

@@ -1,5 +1,5 @@
 // The count of unstable multipliers against the monodromy, on random structures with a given stiffness of
-// contact, which no scene has. Those of responses are held against matrix exponentials by pytest.
+// contact, which no scene has. Those of responses are compared with matrix exponentials by pytest.
 #include <gtest/gtest.h>
 
 #include <cstdio>

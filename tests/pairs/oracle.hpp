@@ -79,7 +79,7 @@ class Oracle {
     const Eigen::VectorXd found = stacked(problem_.full_coefficients(zero), functions_);
     EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
     const Eigen::VectorXd samples = dense_.contact_displacement(expected);
-    EXPECT_LE((problem_.contact_free_response() - samples).norm(), tolerance * samples.norm());
+    EXPECT_LE((problem_.linear_response() - samples).norm(), tolerance * samples.norm());
   }
 
   // R(u) = u - u0 + K f(u) is what G^-1 leaves of the assembled residual at the contact.
@@ -95,7 +95,7 @@ class Oracle {
       const Eigen::VectorXd expected = dense_.contact_displacement(dense_.solve(dense_.residual(state)));
       system.evaluate(dense_.contact_displacement(state));
       EXPECT_LE((system.residual() - expected).norm(),
-                tolerance * (expected.norm() + problem_.contact_free_response().norm()));
+                tolerance * (expected.norm() + problem_.linear_response().norm()));
     }
   }
 
@@ -126,7 +126,7 @@ class Oracle {
     EXPECT_LE((found - expected).norm(), tolerance * expected.norm());
     const Eigen::VectorXd u = dense_.contact_displacement(expected);
     EXPECT_LE((u - rigid.displacement).norm(), 10.0 * tolerance * u.norm());
-    const double size = problem_.contact_free_response().cwiseAbs().maxCoeff();
+    const double size = problem_.linear_response().cwiseAbs().maxCoeff();
     const int points = problem_.points();
     for (int c = 0; c < gaps.size(); ++c) {
       const Eigen::VectorXd force = rigid.contact_force.segment(c * points, points);

@@ -12,7 +12,7 @@
 #include <numeric>
 
 #include "analysis/response_parts.hpp"
-#include "wavebalance/app/analysis/sweep_phases.hpp"
+#include "wavebalance/app/analysis/exact_along_sweep.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
@@ -82,13 +82,13 @@ double balance_bytes(const Sizes& s) {
          16.0 * s.active * s.active + 16.0 * coarse * coarse + 100.0 * s.contacts * coarse;
 }
 
-bool seeks_phases(const Scene& scene) {
-  return solves_by_phases(scene) || scene.analysis.phases || scene.analysis.exact;
+bool seeks_exact(const Scene& scene) {
+  return solves_exactly(scene) || scene.analysis.phases || scene.analysis.exact;
 }
 
 /// Newton's matrix, its factors, and the influences of forces on displacements and velocities that it is made
 /// of, with one phase of 24 nodes for each contact.
-double phases_bytes(const Sizes& s) {
+double exact_bytes(const Sizes& s) {
   constexpr double unknowns = 26.0, matrices = 8.0;
   return 8.0 * matrices * std::pow(unknowns * s.contacts, 2);
 }
@@ -134,7 +134,7 @@ void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost
   };
   const double contacts = sizes.contacts;
   const double panels = std::max(3.0 * contacts, std::min(cut_panels, contacts * contacts));
-  const double allowed = 2.0 * most_operations_of_phases(contact_count(scene));
+  const double allowed = 2.0 * most_operations_of_exact(contact_count(scene));
   const double most = std::min(most_steps * step(most_nodes * panels), allowed) / rate;
   if (most < 1.0) return;
   cost.least_exact_seconds = std::min(least_steps * step((nodes + 2.0) * contacts), allowed) / rate;
@@ -163,9 +163,9 @@ CostEstimate estimate_cost(const Scene& scene) {
   const Sizes sizes = sizes_of(scene);
   CostEstimate cost;
   cost.bytes = structure_bytes(scene, sizes) + output_bytes(scene, sizes);
-  if (seeks_phases(scene)) cost.bytes += phases_bytes(sizes);
+  if (seeks_exact(scene)) cost.bytes += exact_bytes(sizes);
   cost.unforeseen = names_friction(scene.contact);
-  if (!is_balance(scene) || solves_by_phases(scene) || scene.analysis.exact || scene.time.tolerance > 0.0) {
+  if (!is_balance(scene) || solves_exactly(scene) || scene.analysis.exact || scene.time.tolerance > 0.0) {
     cost.seconds = std::numeric_limits<double>::quiet_NaN();
     return cost;
   }

@@ -58,7 +58,7 @@ class MotionsOfCurve {
           model_.plane * problem_.structure_motion(response, scene_.analysis.output_points).displacement;
     motion.stability.status.clear();
     if (!motion.converged || !(scene_.analysis.stability || scene_.analysis.phases)) return motion;
-    std::optional<solvers::ResponsePhases> near = solvers::near_phases(problem_, response);
+    std::optional<solvers::ExactNearResponse> near = solvers::exact_near(problem_, response);
     if (near) motion.phases = {near->motion.status, near->displacement_error, near->force_error, {}, 0, {}};
     if (scene_.analysis.stability)
       motion.stability = problem_.stability(response, near ? &near->motion : nullptr);

@@ -14,6 +14,6 @@ Sweep sweep_of(const solvers::ExactCurve& curve, const Scene& scene, const solve
 solvers::ContactProblem exact_problem(const Scene& scene, const StructureModel& model);
 
 /// The contacts at so many points of the motion's period; between impacts alone there are no forces.
-solvers::Motion contacts_of(const solvers::PhaseMotion& motion, int points);
+solvers::Motion contacts_of(const solvers::ExactSolution& motion, int points);
 
 }  // namespace wavebalance::app

@@ -13,7 +13,7 @@
 namespace wavebalance::app {
 namespace {
 
-using solvers::ExactCurve, solvers::ExactEvent, solvers::ExactPoint, solvers::PhaseMotion;
+using solvers::ExactCurve, solvers::ExactEvent, solvers::ExactPoint, solvers::ExactSolution;
 
 /// What a curve's points are measured by.
 struct Measure {
@@ -23,7 +23,7 @@ struct Measure {
   Eigen::VectorXd times;
   bool impulses;  ///< what an impact passes on is an impulse and not a force, so that points have none
 
-  solvers::SweepPoint operator()(double value, const PhaseMotion& motion) const {
+  solvers::SweepPoint operator()(double value, const ExactSolution& motion) const {
     const Eigen::MatrixXd u = motion.displacement(times);
     solvers::SweepPoint point;
     const bool over_frequency = parameter == solvers::SweepParameter::frequency;
@@ -44,9 +44,9 @@ struct Measure {
   }
 
  private:
-  static double contact_share(const PhaseMotion& motion, int contact) {
+  static double contact_share(const ExactSolution& motion, int contact) {
     double share = 0.0;
-    for (const solvers::ContactPhase& phase : motion.phases)
+    for (const solvers::ForceInterval& phase : motion.phases)
       if (phase.contact == contact) share += phase.length();
     return share;
   }
@@ -59,26 +59,26 @@ solvers::PointStability stability_of(const ExactPoint& point, const Measure& mea
   stability.unstable = point.unstable;
   const auto phases = std::count_if(
       point.motion.phases.begin(), point.motion.phases.end(),
-      [&](const solvers::ContactPhase& phase) {  // contacts with friction have phases in all their states
+      [&](const solvers::ForceInterval& phase) {  // contacts with friction have phases in all their states
         return measure.laws.begins(phase.contact) && !measure.laws[phase.contact].friction();
       });
   stability.contacts = static_cast<int>(measure.impulses ? point.motion.impacts.size() : std::size_t(phases));
   return stability;
 }
 
-FrictionShares friction_of(const PhaseMotion& motion, const std::vector<SceneContact>& places) {
+FrictionShares friction_of(const ExactSolution& motion, const std::vector<SceneContact>& places) {
   std::vector<ContactFriction> each;
   for (const solvers::FrictionCycle& cycle : motion.cycles)
     each.push_back(friction_at(places[std::size_t(cycle.row)], cycle));
   return FrictionShares(std::move(each));
 }
 
-SweepPhases::Point phases_of(const PhaseMotion& motion) {
-  return solvers::PointPhases{motion.status, motion.estimated_error, solvers::missing};
+ExactAlongSweep::Point phases_of(const ExactSolution& motion) {
+  return solvers::ExactAtPoint{motion.status, motion.estimated_error, solvers::missing};
 }
 
 /// The impacts of a motion over several periods of the load.
-PointImpacts impacts_of(const PhaseMotion& motion, int periods) {
+PointImpacts impacts_of(const ExactSolution& motion, int periods) {
   PointImpacts result;
   result.count = static_cast<int>(motion.impacts.size());
   for (const solvers::Impact& impact : motion.impacts) {
@@ -133,13 +133,13 @@ void copy_impacts(const ExactCurve& traced, int periods, Sweep& sweep) {
 }
 
 void copy_motions(const ExactCurve& traced, Sweep& sweep) {
-  std::vector<PhaseMotion>& motions = sweep.exact_motions.emplace_back();
+  std::vector<ExactSolution>& motions = sweep.exact_motions.emplace_back();
   for (const ExactPoint& point : traced.points) motions.push_back(point.motion);
 }
 
 /// The errors and the stability of each point.
-SweepPhases sweep_phases(const ExactCurve& traced, const solvers::FrequencySweep& curve, bool stability) {
-  SweepPhases phases;
+ExactAlongSweep sweep_phases(const ExactCurve& traced, const solvers::FrequencySweep& curve, bool stability) {
+  ExactAlongSweep phases;
   for (const ExactPoint& point : traced.points) {
     phases.points.push_back(phases_of(point.motion));
     if (!stability) continue;
@@ -193,7 +193,7 @@ Sweep sweep_of(const ExactCurve& curve, const Scene& scene, const solvers::Conta
   copy_points(curve, measure, stability, sweep.curve, sweep.stability);
   copy_motions(curve, sweep);
   for (const std::size_t next : curve.unexplained) sweep.unexplained.push_back(curve.points[next].value);
-  if (curve.status == solvers::SweepStatus::no_start && curve.start != solvers::PhasesStatus::converged)
+  if (curve.status == solvers::SweepStatus::no_start && curve.start != solvers::ExactStatus::converged)
     sweep.start_status = to_string(curve.start);
   if (measure.impulses) {
     if (!curve.points.empty())

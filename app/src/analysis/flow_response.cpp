@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -15,13 +15,13 @@ using solvers::FlowMotion;
 void copy_structure(const solvers::CondensedProblem& problem, const FlowMotion& found, int points,
                     Response& result) {
   constexpr double of_rest = 1e-9, of_impacts = 1e-4, of_transient = 1e-3;  // whose harmonics do not decay
-  solvers::StructurePhasesOptions options;
+  solvers::ExactStructureOptions options;
   options.tolerance = found.impacts.empty() ? of_rest : of_impacts;
   if (!std::isfinite(found.closed)) {
     options.tolerance = of_transient;
     options.max_harmonics = 2 * options.first_harmonics;
   }
-  note_structure(result, solvers::structure_phases(problem, found.motion, points, options));
+  note_structure(result, solvers::exact_structure_motion(problem, found.motion, points, options));
 }
 
 }  // namespace

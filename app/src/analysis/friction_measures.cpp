@@ -80,7 +80,7 @@ contact::FrictionState state_of(State state) {
 
 /// The measures of an exact motion, and of one that was integrated in time.
 std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& places,
-                                             const solvers::PhaseMotion& motion, int points) {
+                                             const solvers::ExactSolution& motion, int points) {
   std::vector<FrictionMeasures> all;
   for (std::size_t i = 0; i < motion.cycles.size(); ++i) {
     FrictionMeasures& one =
@@ -136,7 +136,7 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response) {
   if (!response.moves || !has_friction(scene)) return {};
   if (response.flow) return exact_measures(contacts_of(scene), *response.flow);
-  if (is_by_phases(response) && response.phases->motion.parts != nullptr)
+  if (is_exact(response) && response.phases->motion.parts != nullptr)
     return exact_measures(contacts_of(scene), response.phases->motion, response.contacts.points());
   return friction_measures(scene, response.contacts, response.load_frequency);
 }

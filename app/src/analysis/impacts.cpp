@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -25,7 +25,7 @@ void solve(const Scene& scene, const StructureModel& model, const ResponseOption
   solvers::ContactProblem problem = exact_problem(scene, model);
   result.impacts = problem.impacts(scene.forcing.frequency, {.observer = options.observer});
   const solvers::ImpactResponse& found = *result.impacts;
-  const solvers::PhaseMotion& motion = found.motion;
+  const solvers::ExactSolution& motion = found.motion;
   result.status = to_string(motion.status);
   result.converged = motion.converged();
   result.moves = found.moves();
@@ -54,7 +54,7 @@ solvers::ContactProblem exact_problem(const Scene& scene, const StructureModel& 
   return compose_problem(paired, model);
 }
 
-solvers::Motion contacts_of(const solvers::PhaseMotion& motion, int points) {
+solvers::Motion contacts_of(const solvers::ExactSolution& motion, int points) {
   const Eigen::VectorXd times = time_fractions(points);
   return {motion.displacement(times), motion.velocity(times), motion.force(times)};
 }

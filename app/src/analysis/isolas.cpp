@@ -35,7 +35,7 @@ Sweep isola_of(const Scene& scene, const StructureModel& model, solvers::Isolate
   if (has_friction(alone)) isola.friction = {friction_along(alone, isola.curve)};
   if (isola.interrupted()) return isola;
   add_stability(alone, model, isola, observer);
-  add_phases(alone, model, isola, observer);
+  add_exact(alone, model, isola, observer);
   return isola;
 }
 
@@ -57,7 +57,7 @@ void note_search(Sweep& sweep, solvers::IsolatedCurves& found, int random_starts
 }
 
 /// The motion between two, uniform over the period, at a share of the way.
-solvers::Motion between(const solvers::PhaseMotion& a, const solvers::PhaseMotion& b, double share) {
+solvers::Motion between(const solvers::ExactSolution& a, const solvers::ExactSolution& b, double share) {
   const Eigen::VectorXd times = time_fractions(compared_points);
   solvers::Motion motion;
   motion.displacement = (1.0 - share) * a.displacement(times) + share * b.displacement(times);
@@ -68,7 +68,7 @@ solvers::Motion between(const solvers::PhaseMotion& a, const solvers::PhaseMotio
 /// Whether a motion at a frequency is one of an exact curve: of the motions of the curve there, which follow
 /// from its neighbours by collocation, one agrees with it.
 bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequency,
-           const solvers::PhaseMotion& motion) {
+           const solvers::ExactSolution& motion) {
   constexpr double same = 1e-3;  // of what vibrates
   const Eigen::MatrixXd wanted = motion.displacement(time_fractions(compared_points));
   const double vibration = (wanted.colwise() - wanted.rowwise().mean()).norm();
@@ -87,7 +87,7 @@ bool is_on(solvers::ContactProblem& problem, const Sweep& sweep, double frequenc
 }
 
 bool is_on_any(solvers::ContactProblem& problem, const Sweep& sweep, double frequency,
-               const solvers::PhaseMotion& motion) {
+               const solvers::ExactSolution& motion) {
   return is_on(problem, sweep, frequency, motion) ||
          std::any_of(sweep.isolas.begin(), sweep.isolas.end(),
                      [&](const Sweep& isola) { return is_on(problem, isola, frequency, motion); });
@@ -106,7 +106,7 @@ void add_exact_isola(const Scene& scene, solvers::ContactProblem& problem,
     Sweep isola = sweep_of(problem.exact_curve_from(at, near->motion, options), scene, problem);
     if (isola.curve.points.empty()) continue;
     isola.origin = {at, found.start, false};
-    const auto meets = [&](const solvers::SweepPoint& end, const solvers::PhaseMotion& motion) {
+    const auto meets = [&](const solvers::SweepPoint& end, const solvers::ExactSolution& motion) {
       return !isola.curve.closed_at_start && is_on_any(problem, sweep, end.frequency, motion);
     };
     isola.origin.meets_known = meets(isola.curve.points.front(), isola.exact_motions.front().front()) ||

@@ -100,7 +100,7 @@ double observed_order(std::span<const double> sizes, std::span<const double> err
   return -(centred * y).sum() / centred.square().sum();
 }
 
-double highest_at_impacts(const solvers::PhaseMotion& motion, std::optional<int> contact) {
+double highest_at_impacts(const solvers::ExactSolution& motion, std::optional<int> contact) {
   double largest = -std::numeric_limits<double>::infinity();
   for (const solvers::Impact& one : motion.impacts)
     if (!contact || one.contact == *contact)

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
@@ -15,7 +15,7 @@ namespace {
 FoundMotion sampled(solvers::CoexistingMotion found, solvers::ContactProblem& problem, const Scene& scene,
                     const StructureModel& model) {
   const bool struck = !found.motion.impacts.empty();  // harmonics then fall like 1 / n^2
-  solvers::StructurePhasesOptions how{.tolerance = struck ? 1e-4 : 1e-9};
+  solvers::ExactStructureOptions how{.tolerance = struck ? 1e-4 : 1e-9};
   if (struck) how.max_harmonics = 2048;
   FoundMotion result;
   result.contacts = contacts_of(found.motion, scene.analysis.output_points);
@@ -48,7 +48,7 @@ Motions coexisting_motions(const Scene& scene, const StructureModel& model,
   if (!events) options.tolerance = scene.time.tolerance;
   solvers::CoexistingMotions all = solvers::coexisting_motions(problem, scene.forcing.frequency, options);
   const bool unsettled =
-      all.first != solvers::PhasesStatus::converged && all.status == solvers::MotionsStatus::not_settled;
+      all.first != solvers::ExactStatus::converged && all.status == solvers::MotionsStatus::not_settled;
   Motions result{.status = std::string(unsettled ? to_string(all.first) : to_string(all.status)),
                  .unsolved = std::move(all.unsolved),
                  .starts = all.starts,

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/problem/phases_along.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
 #include "wavebalance/solvers/response/complementarity.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
@@ -23,14 +23,14 @@ namespace {
 constexpr int most_panels_cut = 60;  // beyond, they have unknowns for less than these operations
 
 /// The motion of the structure near the response, and how long that took. One farther away is another motion.
-void note_phases(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
-                 const ResponseOptions& options, Response& result) {
+void note_exact(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
+                const ResponseOptions& options, Response& result) {
   const WallClock clock;
-  solvers::ContactPhasesOptions phases;
-  phases.max_operations = most_operations_of_phases(problem.contacts());
+  solvers::CollocationOptions phases;
+  phases.max_operations = most_operations_of_exact(problem.contacts());
   phases.max_cut_panels = most_panels_cut;
   phases.observer = options.observer;
-  result.phases = solvers::near_phases(problem, found, {.phases = phases});
+  result.phases = solvers::exact_near(problem, found, {.phases = phases});
   result.phases_seconds = clock.seconds();
 }
 
@@ -43,10 +43,10 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   if (options.structure_points > 0)
     result.structure = problem.structure_motion(found, options.structure_points);
   if (!found.converged()) return;
-  if (options.phases) note_phases(problem, found, options, result);
+  if (options.phases) note_exact(problem, found, options, result);
   if (options.stability)
     result.stability = problem.stability(found, result.phases ? &result.phases->motion : nullptr);
-  note_settled(problem, scene, options.observer, result);
+  note_attractor(problem, scene, options.observer, result);
 }
 
 /// Whether the exact motion that time integration converges to is known now, in place of a balance.
@@ -54,8 +54,8 @@ bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResp
                    const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
   if (!options.exact_instead || found.settled == nullptr) return false;
-  solvers::ContactPhasesOptions phases;
-  phases.max_operations = most_operations_of_phases(problem.contacts());
+  solvers::CollocationOptions phases;
+  phases.max_operations = most_operations_of_exact(problem.contacts());
   phases.observer = options.observer;
   const auto motion = problem.phases(scene.forcing.frequency, *found.settled, phases);
   if (!motion || !motion->converged()) return false;
@@ -118,7 +118,7 @@ void require_digits(Response& result) {
 
 }  // namespace
 
-double most_operations_of_phases(int contacts) {
+double most_operations_of_exact(int contacts) {
   constexpr double of_few = 4e10, few_contacts = 16.0, most = 7.0;
   return of_few * std::clamp(contacts / few_contacts, 1.0, most);
 }
@@ -169,7 +169,7 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
   result.rigid = {held.max_penetration, held.min_force, held.product};
 }
 
-void note_structure(Response& result, solvers::StructurePhases whole) {
+void note_structure(Response& result, solvers::ExactStructureMotion whole) {
   result.structure = std::move(whole.motion);
   result.structure_harmonics = whole.harmonics;
   result.structure_left_out = whole.left_out;
@@ -202,7 +202,7 @@ Response weighted_residual_response(const Scene& scene, const ResponseOptions& o
 
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options) {
-  if (auto phases = phases_to_tolerance(scene, model, options)) return *std::move(phases);
+  if (auto phases = exact_to_tolerance(scene, model, options)) return *std::move(phases);
   const WallClock clock;
   Response result;
   result.solved_by = name_of(TimeMethod::balance);
@@ -224,12 +224,12 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
   return result;
 }
 
-void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
-                  Response& result) {
+void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
+                    Response& result) {
   const bool unstable = result.stability && result.stability->unstable > 0;
   if (!unstable || scene.analysis.subharmonic > 1) return;
-  const solvers::SettledMotion settled = problem.settle(scene.forcing.frequency, {.observer = observer});
-  SettledBeside& beside = result.settled.emplace();
+  const solvers::AttractorMotion settled = problem.settle(scene.forcing.frequency, {.observer = observer});
+  AttractorFromRest& beside = result.settled.emplace();
   beside.periods = settled.attractor_periods;
   if (!settled.integrated()) return;
   beside.max_displacement = settled.last.displacement.maxCoeff();

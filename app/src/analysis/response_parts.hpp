@@ -2,7 +2,7 @@
 #include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/solvers/phases/structure_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_structure_motion.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 
@@ -17,7 +17,7 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
 /// Operations allowed for the exact motion near a response: seconds of one processor for a few contacts,
 /// which take a thousandth of that or less where a motion is near, and less than a minute for 100, whose
 /// phases take as long.
-double most_operations_of_phases(int contacts);
+double most_operations_of_exact(int contacts);
 
 /// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
@@ -25,21 +25,21 @@ void copy_solution(Response& result, solvers::CondensedProblem& problem,
 
 /// Sets Response::settled where the response of the problem's load period at the scene's frequency is
 /// unstable.
-void note_settled(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
-                  Response& result);
+void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
+                    Response& result);
 
 /// Sets the numbers of an exact motion and, if there is one, what copy_motion() does. `load_periods` are
 /// those of its period.
-void copy_phases(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, int load_periods,
+void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
                  const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                  Response& result);
 
 /// Sets the contacts' exact motion, and what options ask for of it.
-void copy_motion(solvers::ContactProblem& problem, const solvers::PhaseMotion& motion, const Scene& scene,
+void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result);
 
 /// Sets the motion of the whole structure, and what is left out of it.
-void note_structure(Response& result, solvers::StructurePhases whole);
+void note_structure(Response& result, solvers::ExactStructureMotion whole);
 
 /// `time` with the pair, functions and points that a response to a tolerance chose.
 Time solved_time(Time time, const Response& response);

@@ -14,7 +14,7 @@
 #include "wavebalance/app/files/summary.hpp"
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -167,7 +167,7 @@ void require_start_fits(const StartMotion& start, const Scene& scene) {
        start.source + " has no frequency_Hz next to it; expected the results of a limit cycle"},
       {!cycle && (solves_by_impacts(scene) || moves_by_events(scene)),
        "not with impacts or friction that is solved exactly, whose solutions start from time integration"},
-      {!cycle && solves_by_phases(scene),
+      {!cycle && solves_exactly(scene),
        "not with time.method = \"exact\", which finds its own start; expected \"balance\""},
       {!cycle && scene.time.tolerance > 0.0,
        "not with time.tolerance, which finds its own start; expected time.functions"},

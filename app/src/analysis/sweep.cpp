@@ -117,7 +117,7 @@ std::string Sweep::status() const {
   return complete && misses_part() ? "missed_part" : std::string(to_string(curve.status));
 }
 
-const SweepPhases* Sweep::phases_of(std::size_t number) const {
+const ExactAlongSweep* Sweep::phases_of(std::size_t number) const {
   return number < phases.size() ? &phases[number] : nullptr;
 }
 

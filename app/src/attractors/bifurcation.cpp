@@ -51,7 +51,7 @@ class PassedValues {
 
   /// Nothing where the observer stops it.
   std::optional<DiagramValue> at(double value, bool forwards, double done, double share) {
-    const solvers::PhasesProblem problem = rows_.at(value);
+    const solvers::ExactProblem problem = rows_.at(value);
     auto flow = std::make_unique<solvers::ContactFlow>(problem);
     if (before_) flow->start(*before_);
     solvers::LongMotionOptions options;

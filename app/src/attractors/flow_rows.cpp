@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 
 namespace wavebalance::app {
 namespace {
@@ -77,7 +77,7 @@ FlowRows::FlowRows(const Scene& scene, const StructureModel& model)
       places_(places_of(scene)),
       problem_(make_problem(paired_scene(scene), model_)) {}
 
-solvers::PhasesProblem FlowRows::at(double value) {
+solvers::ExactProblem FlowRows::at(double value) {
   if (over_amplitude_)
     problem_.set_load_scale(value);
   else
@@ -85,6 +85,6 @@ solvers::PhasesProblem FlowRows::at(double value) {
   return here();
 }
 
-solvers::PhasesProblem FlowRows::here() { return solvers::phases_problem(problem_, laws_, *dynamics()); }
+solvers::ExactProblem FlowRows::here() { return solvers::exact_problem(problem_, laws_, *dynamics()); }
 
 }  // namespace wavebalance::app

@@ -6,7 +6,7 @@
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
 namespace wavebalance::app {
 
@@ -26,9 +26,9 @@ class FlowRows {
   bool has_outputs() const { return contacts_ < int(places_.size()); }
 
   /// The problem at a frequency (Hz) or, in a scene over the amplitude, at an amplitude of the load.
-  solvers::PhasesProblem at(double value);
+  solvers::ExactProblem at(double value);
   /// At the scene's own load and frequency.
-  solvers::PhasesProblem here();
+  solvers::ExactProblem here();
 
  private:
   bool over_amplitude_;

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "analysis/exact_parts.hpp"
-#include "analysis/phases_response.hpp"
+#include "analysis/exact_response.hpp"
 #include "analysis/response_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
@@ -18,7 +18,7 @@ solvers::LimitCycleOptions options_of(const Scene& scene, const StartMotion& sta
       .random_starts = scene.analysis.random_starts,
       .seed = static_cast<unsigned>(scene.analysis.seed),
       .max_periods = scene.analysis.max_periods};
-  options.motion.tolerance = scene.time.tolerance > 0.0 ? scene.time.tolerance : default_phases_tolerance;
+  options.motion.tolerance = scene.time.tolerance > 0.0 ? scene.time.tolerance : default_exact_tolerance;
   options.motion.observer = observer;
   return options;
 }
@@ -27,7 +27,7 @@ solvers::LimitCycleOptions options_of(const Scene& scene, const StartMotion& sta
 void copy_solution(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    LimitCycleResponse& result) {
   Response& response = result.response;
-  const solvers::PhaseMotion motion = std::exchange(result.found.motion, {});
+  const solvers::ExactSolution motion = std::exchange(result.found.motion, {});
   response.phases = {motion, solvers::missing, solvers::missing};
   response.iterations = motion.iterations;
   response.unknowns = motion.unknowns;
@@ -55,8 +55,7 @@ LimitCycleResponse limit_cycle_response(const Scene& scene, const StructureModel
   response.status = "no_modes";
   if (model.contact_dynamics() == nullptr) return result;
   solvers::ContactProblem problem = exact_problem(scene, model);
-  result.found =
-      solvers::limit_cycle(problem.phases_problem(any), options_of(scene, start, options.observer));
+  result.found = solvers::limit_cycle(problem.exact_problem(any), options_of(scene, start, options.observer));
   response.converged = result.found.status == solvers::LimitCycleStatus::converged;
   response.status = to_string(result.found.status);
   copy_solution(scene, model, options, result);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "wavebalance/app/analysis/response.hpp"
-#include "wavebalance/app/compare/phase_study.hpp"
+#include "wavebalance/app/compare/exact_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/files/table.hpp"
@@ -46,7 +46,7 @@ class ResponseComparison {
       found_.from_reference = !options_.start.contacts.empty() || !found_.reference.reached_directly;
       if (found_.from_reference) measured_.start = {"the reference", found_.reference.motion, 1};
       choose_measure();
-      const std::vector<SolvePoint> phases = phase_points();
+      const std::vector<SolvePoint> phases = collocation_points();
       found_.points = size_study(measured_, pairs.admissible, size_options());
       std::erase_if(found_.points, [](const SolvePoint& point) { return point.status == "not_run"; });
       found_.points.insert(found_.points.begin(), phases.begin(), phases.end());
@@ -54,7 +54,7 @@ class ResponseComparison {
       add_recommendations();
     }
     found_.pairs = pair_results(pairs.admissible, found_.points, reference_error());
-    add_phases_result();
+    add_exact_result();
     for (PairResult& other : pairs.others) found_.pairs.push_back(std::move(other));
     found_.wall_seconds = clock_.seconds();
     return std::move(found_);
@@ -94,9 +94,9 @@ class ResponseComparison {
   }
 
   /// Where they have found the reference.
-  std::vector<SolvePoint> phase_points() {
+  std::vector<SolvePoint> collocation_points() {
     if (found_.reference.kind != "phases") return {};
-    PhaseStudyOptions study;
+    ExactStudyOptions study;
     study.max_seconds = longest_share * phases_share * options_.budget;
     study.solve = timed_solves();
     const double end = clock_.seconds() + phases_share * options_.budget;
@@ -107,7 +107,7 @@ class ResponseComparison {
   }
 
   /// After the admissible pairs: what the phases did, or why they were not sought.
-  void add_phases_result() {
+  void add_exact_result() {
     const std::string& reason = found_.reference.without_phases;
     const BasisPair phases = BasisPair::phases();
     if (reason.empty() && points_of(phases, found_.points).empty()) return;

@@ -150,7 +150,7 @@ std::string without_choice(const Recommendation& found, const std::vector<SolveP
 }
 
 /// The time of the exact solution, and what a run can report of it.
-std::string phases_sentence(const Recommendation& found) {
+std::string exact_sentence(const Recommendation& found) {
   const SolvePoint& phases = *found.phases;
   return fmt::format(
       " The exact solution {}: {} from harmonic balance with {} functions and {} points ({}). "
@@ -211,7 +211,7 @@ void prefer_fourier(Recommendation& found, const std::vector<SolvePoint>& points
   if (steady && found.fourier->seconds <= noise * found.choice->seconds) found.choice = found.fourier;
 }
 
-void note_phases(Recommendation& found, const std::vector<SolvePoint>& points) {
+void note_exact(Recommendation& found, const std::vector<SolvePoint>& points) {
   for (const SolvePoint& point : points_of(BasisPair::phases(), points))
     if (point.converged && point.error <= found.error &&
         (!found.phases || point.seconds < found.phases->seconds))
@@ -264,11 +264,11 @@ Recommendation recommend(const std::vector<SolvePoint>& points, double error, do
     found.choice = cheapest(points, error);
     found.fourier = cheapest(points_of({"fourier", "fourier"}, points), error);
     prefer_fourier(found, points);
-    note_phases(found, points);
+    note_exact(found, points);
   }
   if (found.choice) note_near_misses(found, points);
   found.matters = matters_of(found, points);
-  const std::string of_phases = found.phases ? phases_sentence(found) : std::string();
+  const std::string of_phases = found.phases ? exact_sentence(found) : std::string();
   if (!found.choice) {
     found.sentences = without_choice(found, points, reference_error) + of_phases;
     return found;

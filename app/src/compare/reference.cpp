@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "compare/phase_reference.hpp"
+#include "compare/exact_reference.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
@@ -87,7 +87,7 @@ class ReferenceSearch {
 
   /// A reference near the motion of a coarse balance.
   std::optional<Reference> beside_guide() {
-    std::optional<Reference> found = rigid_phases();
+    std::optional<Reference> found = rigid_intervals();
     if (found) return found;
     if (!add_guide(balance(coarse_guide))) return std::nullopt;
     const std::size_t first = guides_.size() - 1;
@@ -111,9 +111,9 @@ class ReferenceSearch {
 
   /// A reference near the start.
   std::optional<Reference> beside_start() {
-    std::optional<Reference> found = phases_of_sizes(start_sizes);
+    std::optional<Reference> found = exact_of_sizes(start_sizes);
     if (found || guides_.size() < 2) return found;
-    if (without_phases_.empty()) without_phases_ = phases_refusal(model_);
+    if (without_exact_.empty()) without_exact_ = exact_refusal(model_);
     return by_balance(guides_[model_.contacts() <= few_contacts ? guides_.size() - 1 : 0]);
   }
 
@@ -123,7 +123,7 @@ class ReferenceSearch {
     if (model_.structure.is_free()) return std::nullopt;        // its position follows from contact
     const Scene three = discretised(scene_, {"fourier", "fourier"}, 3, 8);
     const solvers::CondensedProblem problem = make_problem(three, model_);
-    const Eigen::MatrixXd samples = solvers::by_contact(problem.contact_free_response(), model_.contacts());
+    const Eigen::MatrixXd samples = solvers::by_contact(problem.linear_response(), model_.contacts());
     // A cosine of 8 samples: its amplitude is that of its rms.
     const Eigen::VectorXd amplitude = std::sqrt(2.0 / 8.0) * samples.rowwise().norm();
     const bool open = scene_.contact.law == no_law || ((amplitude.array() < model_.gaps.array()).all() &&
@@ -163,13 +163,13 @@ class ReferenceSearch {
 
   /// Of rigid contact, from few functions: the force oscillates in finer balances, which then seem to have
   /// many phases.
-  std::optional<Reference> rigid_phases() {
-    if (!is_rigid(scene_.contact.law) || !phases_refusal(model_).empty()) return std::nullopt;
-    return phases_of_sizes(rigid_sizes);
+  std::optional<Reference> rigid_intervals() {
+    if (!is_rigid(scene_.contact.law) || !exact_refusal(model_).empty()) return std::nullopt;
+    return exact_of_sizes(rigid_sizes);
   }
 
   /// From balances with so many functions each; the error of each is its distance from the one before.
-  std::optional<Reference> phases_of_sizes(std::span<const int> sizes) {
+  std::optional<Reference> exact_of_sizes(std::span<const int> sizes) {
     allowed_ = phases_share * seconds_;
     for (const int functions : sizes) {
       std::optional<Guide> guide = sized_guide(scene_, model_, functions, observer_, start_motion_);
@@ -179,7 +179,7 @@ class ReferenceSearch {
       guides_.push_back(std::move(*guide));
     }
     const std::size_t starts = guides_.size();
-    refused_ = !phases_refusal(model_).empty();
+    refused_ = !exact_refusal(model_).empty();
     std::optional<Reference> found;
     for (std::size_t i = 0; i < starts && starts > 1 && !found && !refused_ && !interrupted_; ++i)
       found = phases_from(guides_[i], 1.0 / static_cast<double>(sizes.size()));
@@ -188,8 +188,8 @@ class ReferenceSearch {
 
   /// From the guide, and from finer ones where no motion is found near it.
   std::optional<Reference> phases() {
-    if (!refused_) without_phases_ = phases_refusal(model_);
-    refused_ = refused_ || !without_phases_.empty();
+    if (!refused_) without_exact_ = exact_refusal(model_);
+    refused_ = refused_ || !without_exact_.empty();
     std::optional<Reference> found;
     for (bool more = !refused_; more && !interrupted_; more = !found && !refused_ && add_finer_guide())
       found = phases_from(guides_.back(), 1.0);
@@ -199,10 +199,10 @@ class ReferenceSearch {
   /// In a part of the time that is left for them.
   std::optional<Reference> phases_from(Guide& start, double part) {
     allowed_ = clock_.seconds() + part * std::max(0.0, phases_share * seconds_ - clock_.seconds());
-    PhaseReference found = phase_reference(start, observer_);
+    ExactReference found = phase_reference(start, observer_);
     const bool known = found.missing_because.empty();
     if (known && is_of_guide(found.contacts)) return by_phases(std::move(found), start);
-    without_phases_ = known ? phrase_of(solvers::PhasesStatus::not_found) : found.missing_because;
+    without_exact_ = known ? phrase_of(solvers::ExactStatus::not_found) : found.missing_because;
     refused_ = found.refused;
     return std::nullopt;
   }
@@ -213,7 +213,7 @@ class ReferenceSearch {
            add_guide(balance(error > fine_guide ? fine_guide : finest_guide, phases_share));
   }
 
-  Reference by_phases(PhaseReference found, Guide& guide) {
+  Reference by_phases(ExactReference found, Guide& guide) {
     Reference reference =
         found_reference("phases", "the exact periodic solution", found.error, std::move(found.contacts));
     reference.force_error = found.force_error;
@@ -243,7 +243,7 @@ class ReferenceSearch {
       reference.force_error = force_error(guides_[guides_.size() - 2].contacts, last.contacts);
     if (scene_.analysis.stability && !interrupted_)
       reference.stability = counted.problem.stability(counted.response);
-    reference.without_phases = without_phases_;
+    reference.without_phases = without_exact_;
     return reference;
   }
 
@@ -265,7 +265,7 @@ class ReferenceSearch {
   WallClock clock_;
   solvers::Observer observer_;
   std::vector<Guide> guides_;  // of falling errors
-  std::string without_phases_;
+  std::string without_exact_;
   bool refused_ = false;  // phases, wherever they start
 };
 

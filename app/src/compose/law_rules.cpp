@@ -110,7 +110,7 @@ void check_friction_analysis(const Document& document, const Scene& scene) {
               "whose motions are solved for from event to event; expected none");
   if (kind_of(type).motions_by != MotionsBy::equations)
     check_elastic_planes(document, scene, "analysis.type", "\"forced_response\"");
-  if (solves_by_phases(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
+  if (solves_exactly(scene)) check_elastic_planes(document, scene, "time.method", "\"balance\"");
   if (scene.analysis.exact) check_elastic_planes(document, scene, "analysis.exact", "false");
 }
 

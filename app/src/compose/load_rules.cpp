@@ -26,9 +26,9 @@ void check_table_of_force(const Document& document, const Scene& scene) {
 }  // namespace
 
 void check_loads(const Document& document, const Scene& scene) {
-  const bool phases = solves_by_phases(scene) || solves_by_impacts(scene) || moves_by_events(scene);
+  const bool phases = solves_exactly(scene) || solves_by_impacts(scene) || moves_by_events(scene);
   const bool balanced = !integrates_in_time(scene.analysis.type) && (phases || scene.time.tolerance == 0.0);
-  const int functions = phases ? phases_starts.back() : scene.time.functions;
+  const int functions = phases ? exact_starts.back() : scene.time.functions;
   const int most = (functions - 1) / 2 / scene.analysis.subharmonic;
   for (const SceneContact& contact : contacts_of(scene))
     if (balanced && is_signal(contact) &&

@@ -245,7 +245,7 @@ void check_acceleration(const Document& document, const Scene& scene) {
         document, {"analysis.outputs"},
         "a mode of rigid contacts with mass has no finite acceleration where they close; expected velocities, "
         "or a stiff \"linear\" law");
-  const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_by_phases(scene) &&
+  const bool by_bases = !integrates_in_time(scene.analysis.type) && !solves_exactly(scene) &&
                         !scene.analysis.exact && !scene.time.trial.empty();
   if (by_bases && is_wavelet(scene.time.trial))
     fail_rule(document, {"analysis.outputs"},

@@ -74,7 +74,7 @@ bool holds_itself(solvers::CondensedProblem& problem, const solvers::PeriodicRes
   constexpr double rounding = 1e-13;  // of what each force alone would move
   Eigen::VectorXd moved;
   problem.apply(found.contact_force, moved);
-  const double left = (found.displacement - problem.contact_free_response() + moved).norm();
+  const double left = (found.displacement - problem.linear_response() + moved).norm();
   const Eigen::VectorXd forces =
       solvers::by_contact(found.contact_force, problem.contacts()).rowwise().norm();
   return left <= rounding * problem.contact_compliance().dot(forces);

@@ -103,7 +103,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
 /// Settling and phases of contact are those of structures with an equation in time and not too many modes.
 void check_coexisting(const Document& document, const Scene& scene) {
   if (scene.analysis.type != AnalysisType::motions || solves_by_impacts(scene)) return;
-  const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
+  const int most = solvers::AttractorOptions{}.max_size, size = reduced_size(scene);
   if (scene.structure.loss_factor > 0.0)
     fail_rule(
         document, {"structure.loss_factor", "analysis.type"},
@@ -138,7 +138,7 @@ void check_isolas(const Document& document, const Scene& scene) {
   if (std::abs(analysis.frequency_to - analysis.frequency_from) / analysis.isola_spacing > most_frequencies)
     fail_rule(document, {"analysis.isola_spacing"},
               "expected at most " + std::to_string(most_frequencies) + " frequencies in the interval");
-  const int most = solvers::SettlingOptions{}.max_size, size = reduced_size(scene);
+  const int most = solvers::AttractorOptions{}.max_size, size = reduced_size(scene);
   refuse(size > most, "structure.kept_modes",
          std::to_string(size) + " degrees of freedom; expected at most " + std::to_string(most) +
              " for time integration, which requires all modes; structure.kept_modes reduces them");
@@ -334,7 +334,7 @@ void check_scene_rules(const Document& document, Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   const bool stepping = integrates_in_time(type), mode = type == AnalysisType::nonlinear_mode;
   const bool sweep = is_sweep(type);
-  const bool events = moves_by_events(scene), phases = solves_by_phases(scene);
+  const bool events = moves_by_events(scene), phases = solves_exactly(scene);
   const bool balanced = !stepping && !mode && !phases && !events && !solves_by_impacts(scene);
   if (sweep && events) scene.analysis.exact = true;
   // The pair of the start names bases, by which an automatic mass would be redistributed.

@@ -197,7 +197,7 @@ std::string nyquist_text(const Time& time) {
                                                              : " (Nyquist coefficient kept)";
 }
 
-std::string phases_line(const Time& time) {
+std::string exact_time_line(const Time& time) {
   return fmt::format(
       "time       exact periodic solution to a relative error of {}, started from harmonic balance\n",
       short_number(time.tolerance));
@@ -232,11 +232,11 @@ std::string method_lines(const Scene& scene) {
   if (moves_by_events(scene))
     return "time       exact periodic solutions, started from event-driven time integration\n";
   if (scene.analysis.exact) return exact_line(scene);
-  return solves_by_phases(scene) ? phases_line(scene.time) : time_lines(scene.time);
+  return solves_exactly(scene) ? exact_time_line(scene.time) : time_lines(scene.time);
 }
 
 std::string size_line(const Scene& scene) {
-  const bool has_no_functions = solves_by_phases(scene) || solves_by_impacts(scene) || scene.analysis.exact;
+  const bool has_no_functions = solves_exactly(scene) || solves_by_impacts(scene) || scene.analysis.exact;
   if (has_no_functions || scene.time.tolerance > 0.0) return "";
   const std::int64_t functions = scene.time.functions;
   return fmt::format("size       {} unknowns after exact dynamic condensation ({} before)\n",

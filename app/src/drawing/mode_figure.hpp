@@ -28,7 +28,7 @@ Figure damped_figure(const Scene& scene, const Table& backbone, const ModeOutput
 Figure outputs_figure(const Scene& scene, const Table& backbone, const std::vector<ModeOutput>& outputs);
 
 /// Draws the stability of a backbone_table(), unstable parts dashed, in each panel of a figure of it, whose
-/// first series are frequencies, with the special points.
+/// first series are frequencies, with the bifurcation and grazing points.
 void draw_stability(Figure& figure, const Table& backbone, const solvers::BackboneStability& stability);
 
 }  // namespace wavebalance::app

@@ -6,7 +6,7 @@
 #include "drawing/period_window.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
 /// Panels of one motion beside its displacement and force.
 namespace wavebalance::app {

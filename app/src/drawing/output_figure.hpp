@@ -27,9 +27,9 @@ std::string vibration_title(const Output& output);
 /// Takes the amplitudes over which `figure` draws a sweep to a readable multiple of their unit.
 void scale_amplitudes(Figure& figure, const SweepAxis& axis);
 
-/// The vibration along a sweep, its branches and isolas with their special points: half the peak-to-peak
-/// value and the rms without the mean, of an output or, without one, of the contact that vibrates most, whose
-/// displacement has the unit `of_contacts`.
+/// The vibration along a sweep, its branches and isolas with their bifurcation and grazing points: half the
+/// peak-to-peak value and the rms without the mean, of an output or, without one, of the contact that
+/// vibrates most, whose displacement has the unit `of_contacts`.
 Panel vibration_panel(const Sweep& sweep, const SweepOutputs& outputs, std::optional<std::size_t> output,
                       const std::string& of_contacts);
 

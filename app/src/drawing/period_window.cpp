@@ -92,7 +92,7 @@ std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const R
                                                      const PeriodWindow& window) {
   std::vector<std::pair<double, double>> spans;
   if (!response.phases || response.phases->motion.parts == nullptr) return spans;
-  const solvers::PhaseMotion& motion = response.phases->motion;
+  const solvers::ExactSolution& motion = response.phases->motion;
   double closed = 0.0;
   const auto add = [&](double begin, double end) {
     closed += end - begin;
@@ -106,7 +106,7 @@ std::vector<std::pair<double, double>> contact_spans(const Scene& scene, const R
           part.state != solvers::FrictionPart::State::open)
         add(part.begin, part.end);
   if (motion.friction.empty())
-    for (const solvers::ContactPhase& phase : motion.phases)
+    for (const solvers::ForceInterval& phase : motion.phases)
       if (phase.contact == response.contact) add(phase.begin, phase.end);
   constexpr double always = 1.0 - 1e-9;
   if (closed > always) spans.clear();

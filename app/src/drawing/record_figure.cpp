@@ -165,7 +165,7 @@ std::string method_title(const Scene& scene) {
            ", m = " + std::to_string(scene.analysis.samples) + ", " + structure_title(scene);
   if (scene.analysis.type == AnalysisType::time_stepping) return "time stepping";
   if (solves_by_impacts(scene)) return "impacts, " + structure_title(scene);
-  if (solves_by_phases(scene) || scene.analysis.exact)
+  if (solves_exactly(scene) || scene.analysis.exact)
     return "exact periodic solution" + std::string(is_sweep(scene.analysis.type) ? "s" : "");
   return basis_title(scene.time.trial) + ":" + basis_title(scene.time.weight) + ", " +
          std::to_string(scene.time.functions) + " functions";

@@ -76,7 +76,7 @@ void append(std::vector<Piece>& pieces, Vertex from, Vertex to, bool unstable) {
   pieces.back().vertices.push_back(to);
 }
 
-/// Lines of a curve, cut at its special points.
+/// Lines of a curve, cut at its bifurcation and grazing points.
 std::vector<Piece> pieces_of(const Series& curve, const std::vector<bool>& points,
                              const std::vector<PlacedPoint>& special) {
   const std::vector<std::size_t> lines = lines_of(curve, special);

@@ -11,7 +11,7 @@
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
-#include "wavebalance/solvers/phases/structure_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_structure_motion.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::app {
@@ -56,7 +56,7 @@ std::vector<MeasuredPoint> along_curve(const Scene& scene, const StructureModel&
 MeasuredPoint exact_at_peak(const Scene& scene, const StructureModel& model,
                             const std::vector<Output>& outputs, const Sweep& sweep) {
   if (sweep.phases.empty() || scene.analysis.exact) return {};
-  const SweepPhases::Point& peak = sweep.phases.front().peak;
+  const ExactAlongSweep::Point& peak = sweep.phases.front().peak;
   if (!peak || !peak->motion || peak->place > 0) return {};
   PointMeasurer measurer(scene, model, outputs, compose_problem(scene, model), scene.analysis.subharmonic);
   return measurer(sweep.curve.points[peak_of(sweep.curve)], *peak->motion);

@@ -124,7 +124,7 @@ class PeakSolver {
     condensed.set_load_scale(condensed.full_load());
     if (sweep_.curve.parameter == solvers::SweepParameter::load_scale) condensed.set_load_scale(value(from));
     condensed.set_load_frequency(points[from].frequency);
-    const solvers::PhaseFamily family(condensed, problem_.laws(), *dynamics_, sweep_.curve.parameter);
+    const solvers::ProblemFamily family(condensed, problem_.laws(), *dynamics_, sweep_.curve.parameter);
     const solvers::ExactCurve near = solvers::exact_curve(family, sweep_.exact_motions[0][from], options);
     std::vector<Traced> traced;
     for (const solvers::ExactPoint& point : near.points)

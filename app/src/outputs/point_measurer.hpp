@@ -6,7 +6,7 @@
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"
-#include "wavebalance/solvers/phases/structure_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_structure_motion.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
 namespace wavebalance::app {
@@ -47,7 +47,7 @@ class PointMeasurer {
   }
 
   /// Of an exact motion. The force of an impact is not known.
-  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::PhaseMotion& motion) {
+  MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ExactSolution& motion) {
     const Eigen::VectorXd times = time_fractions(points_);
     const bool impulses = impacts_alone_ && motion.phases.empty();
     const solvers::Motion contacts{motion.displacement(times), {}, {}};
@@ -56,7 +56,7 @@ class PointMeasurer {
     solvers::Motion rows;
     if (!rows_.isZero(0.0)) {
       const solvers::Motion all =
-          solvers::structure_phases(problem, motion, points_, precision_of(motion)).motion;
+          solvers::exact_structure_motion(problem, motion, points_, precision_of(motion)).motion;
       rows.displacement = rows_ * all.displacement;
       rows.velocity = rows_ * all.velocity;
     }
@@ -67,7 +67,7 @@ class PointMeasurer {
  private:
   // Relative errors of the displacements of contacts by the harmonics left out, below what a picture shows.
   // Harmonics fall like 1 / n^4 with elastic contacts and like 1 / n^2 with impacts.
-  static solvers::StructurePhasesOptions precision_of(const solvers::PhaseMotion& motion) {
+  static solvers::ExactStructureOptions precision_of(const solvers::ExactSolution& motion) {
     if (motion.impacts.empty()) return {.tolerance = 1e-6};
     return {.tolerance = 1e-4, .max_harmonics = 2048};
   }

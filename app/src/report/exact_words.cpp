@@ -4,7 +4,7 @@
 
 namespace wavebalance::app {
 
-std::string phases_sentence(const std::string& status) {
+std::string exact_sentence(const std::string& status) {
   static const std::map<std::string, std::string> known{
       {"undetermined",
        "A body is free, and curves do not determine its position: a soft spring to ground does. A "

@@ -52,12 +52,13 @@ struct Overlay {
 /// Whether motions over their period are laid over each other, and no curves over the frequency.
 bool is_over_time(const Overlay& overlay);
 
-/// Reads sweep.csv, backbone.csv, envelope.csv or response.csv of each folder; motions are of the leading
-/// contact in the first. The quantity is one of OverlayQuantity::name or, where none is said, the output that
-/// leads in the first folder and that all have, else "max". Throws IoError for a folder without results or
-/// without that output, and std::invalid_argument for no quantity, and if one is of another structure than
-/// the first, which names the key: mass, stiffness and places of contact must agree; damping, reduction,
-/// load, law and gap may differ. All curves are over the frequency, or over the amplitude of the load.
+/// Reads sweep.csv, backbone.csv, envelope.csv or response.csv of each folder; motions are of the contact
+/// with the largest force in the first. The quantity is one of OverlayQuantity::name or, where none is said,
+/// the output that leads in the first folder and that all have, else "max". Throws IoError for a folder
+/// without results or without that output, and std::invalid_argument for no quantity, and if one is of
+/// another structure than the first, which names the key: mass, stiffness and places of contact must agree;
+/// damping, reduction, load, law and gap may differ. All curves are over the frequency, or over the amplitude
+/// of the load.
 Overlay read_overlay(std::span<const std::filesystem::path> folders, const std::string& quantity);
 
 /// All curves in one panel: modes black, sweeps coloured, dashed where unstable, responses beside curves as

@@ -61,7 +61,7 @@ std::string solution_sentence(const Summary& summary) {
            " The motions found up to there are solutions.";
   return "The scene was not solved (" + spaced_words(status) + ") after " + ending +
          (shown ? " The motion below is not a solution." : " There is no motion to show.") +
-         phases_sentence(status);
+         exact_sentence(status);
 }
 
 /// How far a displacement passes the gap; empty where there is none.
@@ -199,7 +199,7 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
 
 /// How far what was solved lies from the exact periodic solution that was found near it, where the record
 /// says it. An exact curve lies nowhere else.
-void append_phases(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
+void append_exact(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
   if (curve && text_in(summary, quantities::solved_by) == name_of(TimeMethod::exact)) return;
   const std::string status = text_in(summary, quantities::phases_status);
   const double error = number_in(summary, quantities::error_of_displacement),
@@ -379,7 +379,7 @@ std::vector<std::string> finding_sentences(const Summary& summary, double gap, c
 std::vector<std::string> accuracy_sentences(const Summary& summary) {
   std::vector<std::string> sentences;
   if (is_solved(summary)) sentences.push_back(solution_sentence(summary));
-  append_phases(sentences, summary, is_curve(summary));
+  append_exact(sentences, summary, is_curve(summary));
   if (const std::string others = other_motions_sentence(summary, is_curve(summary));
       !others.empty() && !others_were_sought(summary))
     sentences.push_back(others);

@@ -98,9 +98,9 @@ void append_energy_error(Record& record, double error) {
 
 /// Where contact lasts, and from when on, though no motion was found in which it does.
 void warn_of_lasting_contact(Record& record, const solvers::ImpactResponse& response, double frequency) {
-  using solvers::PhasesStatus;
-  const bool chatters = response.motion.status == PhasesStatus::chattering;
-  if (!chatters && response.motion.status != PhasesStatus::lasting_contact) return;
+  using solvers::ExactStatus;
+  const bool chatters = response.motion.status == ExactStatus::chattering;
+  if (!chatters && response.motion.status != ExactStatus::lasting_contact) return;
   warn(record,
        "{} at contact {} {} after the start of the integration. Then the contact stays "
        "closed. No periodic motion with sustained contact was found.",
@@ -113,7 +113,7 @@ Table lasting_table(const Scene& scene, const Response& response) {
   Table table({"contact", "begin", "end"});
   if (!response.phases) return table;
   const std::vector<SceneContact> contacts = contacts_of(scene);
-  for (const solvers::ContactPhase& one : response.phases->motion.phases)
+  for (const solvers::ForceInterval& one : response.phases->motion.phases)
     if (const SceneContact& contact = contacts.at(std::size_t(one.contact)); is_rigid(contact.law))
       table.append_row({std::int64_t{contact.number}, one.begin, one.end});
   return table;
@@ -124,7 +124,7 @@ double highest(const Response& response) {
   const double sampled = response.displacement().maxCoeff();
   const bool known = response.phases && response.phases->motion.parts;
   if (!known && !response.impacts) return sampled;
-  const solvers::PhaseMotion& motion = known ? response.phases->motion : response.impacts->motion;
+  const solvers::ExactSolution& motion = known ? response.phases->motion : response.impacts->motion;
   return std::max(sampled, highest_at_impacts(motion, response.contact));
 }
 
@@ -175,7 +175,7 @@ void append_endless(Record& record, const Response& response, double frequency) 
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
   if (!has_friction(scene)) return;
   const std::vector<FrictionMeasures> contacts = friction_measures(scene, response);
-  const bool exact = is_by_phases(response) || response.flow;  // beside which samples say nothing
+  const bool exact = is_exact(response) || response.flow;  // beside which samples say nothing
   double work = 0.0, wear = 0.0;
   bool wears = false;
   for (const FrictionMeasures& one : contacts) {

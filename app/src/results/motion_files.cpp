@@ -108,7 +108,7 @@ Summary motion_row(const Scene& scene, const CurveMotion& motion, const SweepAxi
                    motion.stability.unstable < 0 ? missing : double(motion.stability.unstable));
   row.emplace_back(quantities::residual, motion.residual);
   row.emplace_back(quantities::converged, motion.converged);
-  if (with_phases) append_phases(row, motion.phases);
+  if (with_phases) append_exact(row, motion.phases);
   return row;
 }
 

@@ -27,7 +27,7 @@ Sweep stable_sweep(const Scene& scene, const StructureModel& model, const Observ
   Sweep sweep = over_amplitude ? amplitude_sweep(scene, model, observer, start)
                                : frequency_sweep(scene, model, observer, start);
   if (!sweep.interrupted()) add_stability(scene, model, sweep, observer);
-  add_phases(scene, model, sweep, observer);
+  add_exact(scene, model, sweep, observer);
   add_isolas(scene, model, sweep, observer);
   return sweep;
 }
@@ -58,7 +58,7 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Anal
   options.phases = scene.analysis.phases;
   options.exact_instead = true;
   if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
-  if (solves_by_phases(scene)) return response_record(scene, model, phases_response(scene, model, options));
+  if (solves_exactly(scene)) return response_record(scene, model, exact_response(scene, model, options));
   if (!start.contacts.empty()) {
     StartSamples samples = start_samples(start, scene);
     options.guess = std::move(samples.displacement);

@@ -147,7 +147,8 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
   return before + "Whether it is aperiodic or still transient is not known: " + measured + ".";
 }
 
-/// What came out, of the leading contact and of the summary, which has no more than the scene's laws do.
+/// What came out, of the contact with the largest force and of the summary, which has no more than the
+/// scene's laws do.
 std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequency,
                                       const MotionPlace& contact, const Summary& summary) {
   const auto of = [&](const char* quantity) { return motion.of(contact.name, quantity); };

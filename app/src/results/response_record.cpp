@@ -109,9 +109,9 @@ void append_attractor(Record& record, const Scene& scene, const Response& respon
                         attractor, computed_by(scene, attractor)));
 }
 
-void append_settled(Record& record, const Scene& scene, const Response& response) {
+void append_attractor_from_rest(Record& record, const Scene& scene, const Response& response) {
   if (!response.settled) return;
-  const SettledBeside& beside = *response.settled;
+  const AttractorFromRest& beside = *response.settled;
   record.add(quantities::settled_periods, beside.periods);
   record.add(quantities::settled_max_displacement, beside.periods > 0 ? beside.max_displacement : missing);
   const std::string others =
@@ -139,7 +139,7 @@ void append_settled(Record& record, const Scene& scene, const Response& response
 
 void append_other_motions(Record& record, const Scene& scene, const Response& response) {
   if (!response.moves || scene.contact.law == no_law || !kind_of(scene.analysis.type).under_load) return;
-  const bool integrated = integrates_in_time(scene.analysis.type) && !is_by_phases(response);
+  const bool integrated = integrates_in_time(scene.analysis.type) && !is_exact(response);
   const bool from_rest = response.settled || (response.attractor_periods >= 0 && !integrated);
   record.add(quantities::other_motions, from_rest ? "settled_from_rest" : "not_sought");
 }
@@ -155,7 +155,7 @@ void append_dissipation(Summary& summary, const Scene& scene, const Response& re
 }
 
 /// The relative error of the vibration of the contact with the largest force; missing without a motion.
-double vibration_error(const solvers::PhaseMotion& motion, const Response& response) {
+double vibration_error(const solvers::ExactSolution& motion, const Response& response) {
   if (motion.parts == nullptr) return missing;
   const Eigen::MatrixXd exact = motion.displacement(time_fractions(response.contacts.points()));
   const double vibration = solvers::largest_vibration(exact.row(response.contact)).half_peak_to_peak;
@@ -163,10 +163,10 @@ double vibration_error(const solvers::PhaseMotion& motion, const Response& respo
          vibration;
 }
 
-void append_phases(Record& record, const Scene& scene, const Response& response) {
-  const solvers::ResponsePhases& found = *response.phases;
+void append_exact(Record& record, const Scene& scene, const Response& response) {
+  const solvers::ExactNearResponse& found = *response.phases;
   const bool known = found.motion.parts != nullptr;
-  if (is_by_phases(response)) {
+  if (is_exact(response)) {
     record.add(quantities::tolerance, phases_tolerance(scene));
     record.add(quantities::estimated_error, known ? found.motion.estimated_error : missing);
     record.add("start_functions", response.start_functions);
@@ -183,7 +183,7 @@ void append_phases(Record& record, const Scene& scene, const Response& response)
   record.add("phases_estimated_error", known ? found.motion.estimated_error : missing);
   record.add("phases_unknowns", found.motion.unknowns);
   record.add(quantities::phases, phases_table(scene, found.motion));
-  const bool none = found.motion.status == solvers::PhasesStatus::not_found && !is_by_phases(response);
+  const bool none = found.motion.status == solvers::ExactStatus::not_found && !is_exact(response);
   if (response.stability && !none)
     record.add(quantities::stability_by, response.stability->by_phases ? "phases" : "balance");
   if (!none) return;
@@ -226,7 +226,7 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   append_impacts(record, scene, response);
   record.add(quantities::analysis, name_of(scene.analysis.type));
   record.add(quantities::frequency, scene.forcing.frequency);
-  if ((scene.analysis.type == AnalysisType::forced_response || is_by_phases(response)) && !response.impacts)
+  if ((scene.analysis.type == AnalysisType::forced_response || is_exact(response)) && !response.impacts)
     record.add("strategy", response.strategy);
   if (!response.solved_by.empty()) record.add(quantities::solved_by, response.solved_by);
   warn_of_scene(record, scene);
@@ -245,16 +245,16 @@ Record response_record(const Scene& scene, const StructureModel& model, const Re
   if (!response.form.empty()) record.add(quantities::form, response.form);
   append_rigid(record.summary, response);
   if (response.phases)
-    append_phases(record, scene, response);
-  else if (scene.analysis.phases && response.converged && !is_by_phases(response))
+    append_exact(record, scene, response);
+  else if (scene.analysis.phases && response.converged && !is_exact(response))
     record.add(quantities::phases_status, "no_modes");
   if (response.stability) append_stability(record, *response.stability);
-  append_settled(record, scene, response);
+  append_attractor_from_rest(record, scene, response);
   append_other_motions(record, scene, response);
   append_condition(record, response.condition, response.rounding_error);
   if (response.refinement) append_refinement(record.summary, *response.refinement, scene.time.tolerance);
   if (response.structure_harmonics > 0) record.add("structure_left_out", response.structure_left_out);
-  if (scene.analysis.type == AnalysisType::forced_response && !is_by_phases(response) && !response.impacts)
+  if (scene.analysis.type == AnalysisType::forced_response && !is_exact(response) && !response.impacts)
     append_discretisation(record.summary, solved_time(scene.time, response));
   append_structure(record.summary, scene, model);
   append_rest(record, scene, model);

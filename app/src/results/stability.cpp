@@ -42,14 +42,14 @@ bool folds_are_known(const solvers::CurveStability& stability) {
          });
 }
 
-/// Rows of special points, each after `first`. Where the structure has no motion near there is no multiplier.
-/// `phases` are those of the curve, and empty where they were sought along others alone.
+/// Rows of bifurcation and grazing points, each after `first`. Where the structure has no motion near there
+/// is no multiplier. `phases` are those of the curve, and empty where they were sought along others alone.
 void append_special_points(std::vector<Summary>& rows, const Summary& first, const Sweep& sweep,
-                           const solvers::CurveStability& stability, const SweepPhases* phases) {
+                           const solvers::CurveStability& stability, const ExactAlongSweep* phases) {
   for (std::size_t i = 0; i < stability.special_points.size(); ++i) {
     const solvers::SpecialPoint& point = stability.special_points[i];
     const bool sought = phases != nullptr && i < phases->special_points.size();
-    const SweepPhases::Point near = sought ? phases->special_points[i] : SweepPhases::Point();
+    const ExactAlongSweep::Point near = sought ? phases->special_points[i] : ExactAlongSweep::Point();
     const bool none = was_not_found(near);
     const SweepAxis axis = sweep_axis(sweep);
     Summary& row = rows.emplace_back(first);
@@ -60,7 +60,7 @@ void append_special_points(std::vector<Summary>& rows, const Summary& first, con
     row.emplace_back("multiplier_imag", none ? missing : point.multiplier.imag());
     row.emplace_back(quantities::max_displacement, point.max_displacement);
     row.emplace_back(quantities::status, point.located ? "located" : "bracketed");
-    if (phases != nullptr) append_phases(row, near);
+    if (phases != nullptr) append_exact(row, near);
   }
 }
 
@@ -270,7 +270,7 @@ void append_isolas_found(Record& record, const Sweep& sweep) {
                "max_displacement_m", "max_contact_force_N", "points", "points_unstable", "status",
                "stability"});
   std::vector<Summary> special;
-  const SweepPhases none, *without = sweep.phases.empty() ? nullptr : &none;
+  const ExactAlongSweep none, *without = sweep.phases.empty() ? nullptr : &none;
   for (std::size_t i = 0; i < sweep.isolas.size(); ++i) {
     const Sweep& isola = sweep.isolas[i];
     table.append_row(isola_row(isola, i + 1));

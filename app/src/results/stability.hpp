@@ -10,8 +10,9 @@ namespace wavebalance::app {
 void append_stability(Record& record, const ResponseStability& stability,
                       std::string_view motion = "response");
 
-/// The turning points of a sweep, its stability and its special points. Where stability is known the turning
-/// points are folds of the motion; those of the samples alone are named apart, with a warning.
+/// The turning points of a sweep, its stability and its bifurcation and grazing points. Where stability is
+/// known the turning points are folds of the motion; those of the samples alone are named apart, with a
+/// warning.
 void append_stability(Record& record, const Scene& scene, const Sweep& sweep);
 
 /// The table `branches`, and a warning about each that was not followed to an end.

@@ -153,7 +153,7 @@ void append_period(Record& record, int periods, int motion_periods) {
 }
 
 /// Of contacts with friction all parts of the period, by what they do in them.
-Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion) {
+Table phases_table(const Scene& scene, const solvers::ExactSolution& motion) {
   const std::vector<SceneContact> places = contact_places(scene);
   const auto number_of = [&](int row) { return std::int64_t{places.at(std::size_t(row)).number}; };
   const bool named = !contact_labels(scene).empty();
@@ -166,7 +166,7 @@ Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion) {
     if (named) row.emplace_back("name", whole_name_of(places.at(std::size_t(contact))));
   };
   if (motion.friction.empty()) {
-    for (const solvers::ContactPhase& phase : motion.phases)
+    for (const solvers::ForceInterval& phase : motion.phases)
       if (places.at(std::size_t(phase.contact)).place == 0) add(phase.contact, "", phase.begin, phase.end);
     return rows.empty() ? Table({"contact", "begin", "end"}) : table_of(rows);
   }

@@ -59,6 +59,6 @@ void append_motion(Summary& summary, const Scene& scene, const solvers::Motion& 
 
 /// The phases of contact of a motion; of contacts with friction all parts of the period, by what they do in
 /// them.
-Table phases_table(const Scene& scene, const solvers::PhaseMotion& motion);
+Table phases_table(const Scene& scene, const solvers::ExactSolution& motion);
 
 }  // namespace wavebalance::app

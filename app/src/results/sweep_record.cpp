@@ -24,19 +24,19 @@ namespace {
 
 using solvers::SweepPoint;
 
-double displacement_error(const SweepPhases::Point& point) {
+double displacement_error(const ExactAlongSweep::Point& point) {
   return point ? point->displacement_error : missing;
 }
-double force_error(const SweepPhases::Point& point) { return point ? point->force_error : missing; }
+double force_error(const ExactAlongSweep::Point& point) { return point ? point->force_error : missing; }
 
 /// Over the curve and its branches.
-void append_phases_of_points(Record& record, const Sweep& sweep) {
-  std::vector<SweepPhases::Point> points;
-  for (const SweepPhases& curve : sweep.phases)
+void append_exact_of_points(Record& record, const Sweep& sweep) {
+  std::vector<ExactAlongSweep::Point> points;
+  for (const ExactAlongSweep& curve : sweep.phases)
     points.insert(points.end(), curve.points.begin(), curve.points.end());
   if (points.empty()) return;
-  const auto found = std::count_if(points.begin(), points.end(), [](const SweepPhases::Point& point) {
-    return point && point->status == solvers::PhasesStatus::converged;
+  const auto found = std::count_if(points.begin(), points.end(), [](const ExactAlongSweep::Point& point) {
+    return point && point->status == solvers::ExactStatus::converged;
   });
   const auto none = std::count_if(points.begin(), points.end(), was_not_found);
   const auto all = static_cast<std::int64_t>(points.size());
@@ -55,7 +55,7 @@ void append_phases_of_points(Record& record, const Sweep& sweep) {
 
 /// "the fold at 1312.3 Hz", of those without a motion near.
 void append_places(std::vector<std::string>& places, const std::vector<solvers::SpecialPoint>& points,
-                   const SweepPhases& phases, const Sweep& sweep) {
+                   const ExactAlongSweep& phases, const Sweep& sweep) {
   for (std::size_t i = 0; i < phases.special_points.size(); ++i) {
     if (!was_not_found(phases.special_points[i])) continue;
     const std::string type(to_string(points[i].type));
@@ -77,13 +77,13 @@ void warn_of_places(Record& record, const Sweep& sweep) {
        fmt::join(places, ", "));
 }
 
-void append_phases(Record& record, const Sweep& sweep) {
+void append_exact(Record& record, const Sweep& sweep) {
   if (sweep.phases.empty()) return;
-  const SweepPhases::Point& peak = sweep.phases.front().peak;
+  const ExactAlongSweep::Point& peak = sweep.phases.front().peak;
   record.add(quantities::phases_status, phases_status(peak));
   record.add(quantities::error_of_displacement, displacement_error(peak));
   record.add(quantities::error_of_force, force_error(peak));
-  append_phases_of_points(record, sweep);
+  append_exact_of_points(record, sweep);
   warn_of_places(record, sweep);
 }
 
@@ -154,7 +154,7 @@ int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sw
 
 }  // namespace
 
-void append_phases(Summary& row, const SweepPhases::Point& point) {
+void append_exact(Summary& row, const ExactAlongSweep::Point& point) {
   row.emplace_back(quantities::error_of_displacement, displacement_error(point));
   row.emplace_back(quantities::error_of_force, force_error(point));
   row.emplace_back(quantities::phases_status, phases_status(point));
@@ -199,7 +199,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   Record record;
   record.interrupted = sweep.stopped();
   record.converged = sweep.converged() && !record.interrupted;
-  const bool undetermined = sweep.start_status == to_string(solvers::PhasesStatus::undetermined);
+  const bool undetermined = sweep.start_status == to_string(solvers::ExactStatus::undetermined);
   record.status = record.interrupted ? "interrupted" : undetermined ? sweep.start_status : sweep.status();
   record.warnings = model.warnings;
   warn_of_unbalanced_load(record, model);
@@ -231,7 +231,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
   if (!sweep.by_impacts()) append_period(record, sweep.periods, sweep.motion_periods);
   append_impacts(record, sweep);
   append_stability(record, scene, sweep);
-  append_phases(record, sweep);
+  append_exact(record, sweep);
   if (scene.analysis.branches) append_branches(record, sweep);
   append_isolas(record, scene, sweep);
   append_motions(record, scene, model, sweep, motions);

@@ -18,7 +18,7 @@ Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep
 void leave_out_contact_fractions(const Scene& scene, Sweep& sweep);
 
 /// The errors of a point and the status of its phases.
-void append_phases(Summary& row, const SweepPhases::Point& point);
+void append_exact(Summary& row, const ExactAlongSweep::Point& point);
 
 /// How well the points of a curve resolve the highest of them.
 struct PeakResolution {

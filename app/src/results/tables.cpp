@@ -119,8 +119,8 @@ struct CurveRows {
     if (more.branches) put("period", periods);
     if (more.isolas) put(quantities::isola, isola);
     if (!more.phases) return row;
-    const SweepPhases* phases = sweep.phases_of(number);
-    append_phases(row, phases == nullptr ? SweepPhases::Point() : at(phases->points, i));
+    const ExactAlongSweep* phases = sweep.phases_of(number);
+    append_exact(row, phases == nullptr ? ExactAlongSweep::Point() : at(phases->points, i));
     if (more.stability) put(quantities::stability_by, i < stability.by.size() ? stability.by[i] : "none");
     return row;
   }
@@ -146,7 +146,7 @@ Table sweep_table(const solvers::FrequencySweep& curve) {
 }
 
 Table sweep_table(const Sweep& sweep, bool with_branches, const std::vector<SceneContact>& contacts) {
-  const SweepPhases* phases = sweep.phases_of(0);
+  const ExactAlongSweep* phases = sweep.phases_of(0);
   const MoreColumns more{with_branches || !sweep.stability.points.empty(),
                          phases != nullptr && !phases->points.empty(), with_branches,
                          !sweep.isola_search.frequencies.empty(), contacts};

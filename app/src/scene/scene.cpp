@@ -181,7 +181,7 @@ bool names_exact_method(const Scene& scene) {
           (type == AnalysisType::forced_response && scene.time.method == TimeMethod::exact));
 }
 
-bool solves_by_phases(const Scene& scene) {
+bool solves_exactly(const Scene& scene) {
   const AnalysisType type = scene.analysis.type;
   if (moves_by_events(scene))
     return type == AnalysisType::shooting || type == AnalysisType::forced_response ||

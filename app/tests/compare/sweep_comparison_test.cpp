@@ -1,4 +1,4 @@
-// Curves that are followed side by side, and how far they are apart.
+// Curves that are followed together, and how far they are apart.
 #include "wavebalance/app/compare/sweep_comparison.hpp"
 
 #include <gtest/gtest.h>

@@ -14,8 +14,8 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/tables.hpp"
 #include "wavebalance/report/rule.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
 
 namespace wavebalance::jl14 {
 namespace {
@@ -41,7 +41,7 @@ solvers::TimeSteppingResult from_rest(const app::Scene& scene, int max_periods) 
   }
   solvers::TimeSteppingOptions options;
   options.max_periods = max_periods;
-  return solvers::integrate_by_events(solvers::phases_problem(problem, app::make_laws(scene), dynamics),
+  return solvers::integrate_by_events(solvers::exact_problem(problem, app::make_laws(scene), dynamics),
                                       options, {}, states)
       .stepping;
 }
@@ -100,7 +100,7 @@ void note_agreement(report::Artefact& artefact, const app::Scene& scene, const a
       distance(app::system_energy(scene, stepping.structure), app::system_energy(scene, phases.structure))));
 }
 
-void note_phases(report::Artefact& artefact, const app::Response& phases) {
+void note_exact(report::Artefact& artefact, const app::Response& phases) {
   artefact.note(fmt::format(
       "Event-driven collocation represents the contact force by polynomials between the instants at which contact "
       "begins and ends: {} unknowns and {} Newton steps from a harmonic balance with {} functions. The error of the tip "
@@ -135,7 +135,7 @@ void reference(report::Artefact& artefact, int case_number) {
   state_repetition(artefact, stepped_scene, stepping);
   note_agreement(artefact, stepped_scene, stepping, phases);
   if (case_number == 2) state_transient(artefact);
-  note_phases(artefact, phases);
+  note_exact(artefact, phases);
 }
 
 }  // namespace wavebalance::jl14

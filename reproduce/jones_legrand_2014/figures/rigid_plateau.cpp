@@ -126,7 +126,7 @@ void append_rows(Table& table, const Study& study) {
 /// The force just after contact begins, over the amplitude of the load.
 double first_force(const Study& study) {
   constexpr double just = 1e-9;  // of the period
-  const solvers::PhaseMotion& motion = study.exact.phases->motion;
+  const solvers::ExactSolution& motion = study.exact.phases->motion;
   const Eigen::VectorXd time = Eigen::VectorXd::Constant(1, motion.phases.front().begin + just);
   return motion.force(time)(0, 0) / study.scene.forcing.amplitude;
 }

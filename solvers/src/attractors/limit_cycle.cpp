@@ -37,7 +37,7 @@ double slowest_period(const ContactDynamics& dynamics) {
 }
 
 // The speed of the surface along each row, m/s.
-Eigen::VectorXd surface_speeds(const PhasesProblem& problem) {
+Eigen::VectorXd surface_speeds(const ExactProblem& problem) {
   Eigen::VectorXd speeds = Eigen::VectorXd::Zero(problem.dynamics.contacts());
   for (int row = 0; row < speeds.size(); row += problem.laws[row].rows())
     if (const auto friction = problem.laws[row].friction())
@@ -46,11 +46,11 @@ Eigen::VectorXd surface_speeds(const PhasesProblem& problem) {
 }
 
 // A length that motions have: of static loads and friction, gaps, and surfaces that move in a radian.
-double typical_length(const PhasesProblem& problem, double period) {
+double typical_length(const ExactProblem& problem, double period) {
   const Eigen::VectorXd speeds = surface_speeds(problem);
   const Eigen::MatrixXcd at_rest =
       problem.dynamics.compliance(0.0, Eigen::VectorXd::Zero(1), false).compliance;
-  double length = std::max(problem.contact_free.col(0).cwiseAbs().maxCoeff(),
+  double length = std::max(problem.linear_motion.col(0).cwiseAbs().maxCoeff(),
                            speeds.cwiseAbs().maxCoeff() * period / two_pi);
   if (const double gap = problem.laws.largest_gap(); std::isfinite(gap)) length = std::max(length, gap);
   for (int row = 0; row < speeds.size(); row += problem.laws[row].rows()) {
@@ -113,12 +113,12 @@ std::optional<double> Trace::returns(double near) const {
 
 class CycleSearch {
  public:
-  CycleSearch(const PhasesProblem& problem, const LimitCycleOptions& options)
+  CycleSearch(const ExactProblem& problem, const LimitCycleOptions& options)
       : options_(options),
         period_(slowest_period(problem.dynamics)),
         length_(typical_length(problem, period_)),
-        problem_{problem.dynamics, problem.laws, problem.contact_free.leftCols(1), 1.0 / period_},
-        flow_(problem_, {.tolerance = settling_tolerance, .length = length_}),
+        problem_{problem.dynamics, problem.laws, problem.linear_motion.leftCols(1), 1.0 / period_},
+        flow_(problem_, {.tolerance = attractor_tolerance, .length = length_}),
         random_(options.seed) {}
 
   LimitCycle run() {
@@ -140,16 +140,16 @@ class CycleSearch {
   }
 
  private:
-  static constexpr double settling_tolerance = 1e-6, share_of_calm = 0.375;
+  static constexpr double attractor_tolerance = 1e-6, share_of_calm = 0.375;
   enum class End { goes_on, rest, grows, found, lost };
 
   bool done() const { return cancelled() || (result_.motion.converged() && is_stable_); }
   bool cancelled() const { return result_.status == LimitCycleStatus::cancelled; }
 
-  // Newton's method from a cycle nearby, and where it fails what the motion settles to from there.
+  // Newton's method from a cycle nearby, and where it fails what the motion converges to from there.
   void begin_near(const CycleNearby& near) {
     ++result_.starts;
-    const PhasesProblem own{problem_.dynamics, problem_.laws, problem_.contact_free, near.frequency};
+    const ExactProblem own{problem_.dynamics, problem_.laws, problem_.linear_motion, near.frequency};
     const PeriodStart begin = detail::start_near(own, near.displacement, near.force, share_of_calm);
     const Eigen::VectorXd range =
         near.displacement.rowwise().maxCoeff() - near.displacement.rowwise().minCoeff();
@@ -228,8 +228,8 @@ class CycleSearch {
     return take(cycle_near(begin, *repeats, trace->amplitude()));
   }
 
-  End take(PhaseMotion motion) {
-    if (motion.status == PhasesStatus::cancelled) result_.status = LimitCycleStatus::cancelled;
+  End take(ExactSolution motion) {
+    if (motion.status == ExactStatus::cancelled) result_.status = LimitCycleStatus::cancelled;
     if (motion.parts == nullptr) return End::goes_on;
     is_stable_ = motion.converged() && motion.count_unstable() <= 0;
     if (!result_.motion.converged() || is_stable_) result_.motion = std::move(motion);
@@ -252,16 +252,16 @@ class CycleSearch {
   }
 
   // One that is as large as what was seen, since a state of rest comes back, too.
-  PhaseMotion cycle_near(const PeriodStart& begin, double repeats, double amplitude) const {
+  ExactSolution cycle_near(const PeriodStart& begin, double repeats, double amplitude) const {
     constexpr double alike = 0.5;
-    const PhasesProblem own{problem_.dynamics, problem_.laws, problem_.contact_free, 1.0 / repeats};
-    const FlowOptions how{.tolerance = settling_tolerance, .length = length_};
+    const ExactProblem own{problem_.dynamics, problem_.laws, problem_.linear_motion, 1.0 / repeats};
+    const FlowOptions how{.tolerance = attractor_tolerance, .length = length_};
     ContactFlow flow(own, how);
     flow.start(begin.state, begin.contacts);
     if (flow.advance_period() != FlowStatus::converged) return {};
     const auto start = detail::calmed(own, begin, flow.events(), share_of_calm, how);
     if (!start) return {};
-    PhaseMotion motion = autonomous_motion_from(own, {0.0, start->state, start->contacts}, options_.motion);
+    ExactSolution motion = autonomous_motion_from(own, {0.0, start->state, start->contacts}, options_.motion);
     if (motion.parts == nullptr) return motion;
     const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(256, 0.0, 1.0 - 1.0 / 256.0);
     const Eigen::MatrixXd moved = motion.displacement(times),
@@ -269,13 +269,13 @@ class CycleSearch {
     const auto vibration = [](const Eigen::MatrixXd& all) {
       return 0.5 * (all.rowwise().maxCoeff() - all.rowwise().minCoeff()).maxCoeff();
     };
-    return std::max(vibration(moved), vibration(speed)) > alike * amplitude ? motion : PhaseMotion();
+    return std::max(vibration(moved), vibration(speed)) > alike * amplitude ? motion : ExactSolution();
   }
 
   const LimitCycleOptions& options_;
   double period_, length_;  // s, m
   FlowStatus ended_ = FlowStatus::converged;
-  PhasesProblem problem_;
+  ExactProblem problem_;
   ContactFlow flow_;
   std::mt19937 random_;
   LimitCycle result_;
@@ -302,11 +302,11 @@ void LimitCycleOptions::validate() const {
   motion.validate();
 }
 
-LimitCycle limit_cycle(const PhasesProblem& problem, const LimitCycleOptions& options) {
+LimitCycle limit_cycle(const ExactProblem& problem, const LimitCycleOptions& options) {
   options.validate();
-  if (!problem.contact_free.rightCols(problem.contact_free.cols() - 1).isZero(0.0))
+  if (!problem.linear_motion.rightCols(problem.linear_motion.cols() - 1).isZero(0.0))
     throw std::invalid_argument(
-        "limit_cycle: contact_free has harmonics of a periodic load; it must be static");
+        "limit_cycle: linear_motion has harmonics of a periodic load; it must be static");
   for (const Eigen::MatrixXd* rows : {&options.near.displacement, &options.near.force})
     if (options.near.frequency > 0.0 && rows->rows() != problem.dynamics.contacts())
       throw std::invalid_argument("limit_cycle: the cycle nearby has " + std::to_string(rows->rows()) +

@@ -192,7 +192,7 @@ void CondensedProblem::synthesize(const Eigen::MatrixXcd& spectra, Eigen::Vector
   samples /= points();
 }
 
-const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
+const Eigen::VectorXd& CondensedProblem::linear_response_slope() {
   if (slope_is_current_) return free_response_slope_;
   Eigen::MatrixXcd slope = combine_loads(condensed_.load_response_slope, load_);
   if (!structure_->forces.empty()) {
@@ -205,7 +205,7 @@ const Eigen::VectorXd& CondensedProblem::contact_free_response_slope() {
   return free_response_slope_;
 }
 
-Eigen::VectorXd CondensedProblem::contact_free_response_by_scale() {
+Eigen::VectorXd CondensedProblem::linear_response_by_scale() {
   Eigen::MatrixXcd varying = (unit_loads_ - static_loads_) / full_load_;
   for (Eigen::Index l = 1; l < varying.cols(); ++l) varying.col(l) *= growth_of_load(l).value;
   Eigen::VectorXd samples;
@@ -291,7 +291,7 @@ Eigen::MatrixXcd CondensedProblem::coefficients(const Eigen::VectorXd& force) {
   return coefficients(condensed_.compliance, force);
 }
 
-// The errors of the contact-free response, (M/2 + 1) x C.
+// The errors of the linear response, (M/2 + 1) x C.
 Eigen::MatrixXd CondensedProblem::load_errors() const {
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(load_.rows(), contacts());
   for (Eigen::Index l = 0; l < load_.cols(); ++l)

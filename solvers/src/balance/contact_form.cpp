@@ -21,7 +21,7 @@ constexpr double relative_epsilon = 30.0;
 // The automatic choice takes the force form where a law is more than this many times as stiff as its contact.
 constexpr double stiff = 1e4;
 
-// The slope of a law at the penetration that the contact-free response causes through a spring as flexible as
+// The slope of a law at the penetration that the linear response causes through a spring as flexible as
 // the structure.
 double working_stiffness(const AnyContactLaw& law, const Eigen::VectorXd& free, double flexibility) {
   if (!std::isfinite(law.gap())) return 0.0;
@@ -33,7 +33,7 @@ double working_stiffness(const AnyContactLaw& law, const Eigen::VectorXd& free, 
 }
 
 Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
-  return problem.contact_free_response().segment(contact * problem.points(), problem.points());
+  return problem.linear_response().segment(contact * problem.points(), problem.points());
 }
 
 // Friction is exact where the springs are those that the structure itself has there at high frequencies, with

@@ -109,7 +109,7 @@ double ContactSystem::evaluate(const Eigen::VectorXd& displacement) {
   return evaluate_residual(displacement);
 }
 
-double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces) {
+double ContactSystem::evaluate(const Eigen::VectorXd& displacement, const LawSegments& pieces) {
   evaluate_laws(displacement);
   for (int l = 0; l < displacement.size(); ++l) {
     const std::span<const LawKink> kinks = kinks_at(l);
@@ -168,7 +168,7 @@ void ContactSystem::add_law_slope(Eigen::VectorXd& slope) {
 }
 
 double ContactSystem::evaluate_residual(const Eigen::VectorXd& displacement) {
-  const Eigen::VectorXd& free = operator_.problem().contact_free_response();
+  const Eigen::VectorXd& free = operator_.problem().linear_response();
   if (forces_.force.isZero(0.0)) {
     product_.setZero(displacement.size());
   } else {

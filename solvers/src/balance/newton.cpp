@@ -51,7 +51,7 @@ double force_defect(ContactSystem& system, const Eigen::VectorXd& u) {
   constexpr double eps = std::numeric_limits<double>::epsilon();
   const double largest = system.force().cwiseAbs().maxCoeff();
   if (!(largest > 0.0)) return 0.0;
-  const Eigen::VectorXd& free = system.problem().contact_free_response();
+  const Eigen::VectorXd& free = system.problem().linear_response();
   const double share = safe_norm(u - free) / (safe_norm(u) + safe_norm(free));
   const auto error = system.residual().cwiseAbs() + eps * u.cwiseAbs();
   return share * system.tangent().cwiseProduct(error).maxCoeff() / largest;

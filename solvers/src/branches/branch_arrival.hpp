@@ -17,7 +17,7 @@ Eigen::VectorXd alternating_part(const Eigen::VectorXd& samples, int contacts);
 /// The rms of that part over the rms of the samples; 0 of a motion at rest.
 double alternating_share(const Eigen::VectorXd& samples, int contacts);
 
-/// A curve whose special points begin branches, with its index as in Branch::parent.
+/// A curve whose bifurcation and grazing points begin branches, with its index as in Branch::parent.
 struct Parent {
   int index = 0;
   int periods = 1;
@@ -55,9 +55,9 @@ class Arrival {
   bool operator()(const CurvePoint& before, const CurvePoint& after);
   /// After a branch was lost at `last`: whether that is beside the curve that it left.
   bool is_beside(const CurvePoint& last) const;
-  /// Takes as the end the special point nearest to the last one, within `reach`.
+  /// Takes as the end the bifurcation or grazing point nearest to the last one, within `reach`.
   void note_nearest(const CurvePoint& last, double reach);
-  /// Index among the special points of the parent; -1 for none.
+  /// Index among the bifurcation and grazing points of the parent; -1 for none.
   int end_point() const { return end_point_; }
   double step() const { return step_; }  ///< length of the last step
 

@@ -130,8 +130,8 @@ class Branches {
     return perturbation(exact, times, pair).unknown(parent.curve->series_flexibility);
   }
 
-  // The first point of a branch: a small multiple of the direction away from the special point, and on the
-  // curve.
+  // The first point of a branch: a small multiple of the direction away from the bifurcation or grazing
+  // point, and on the curve.
   bool begin(const Parent& parent, const SpecialPoint& from, int times, double side,
              CondensedProblem& problem, const Scales& scales, SweepStart& start) {
     const Eigen::VectorXd way = side * direction(parent, from, times, problem.pair());
@@ -202,7 +202,8 @@ class Branches {
     for (std::size_t i = last + 1; i < curve.size(); ++i) counts[i].unstable = counts[last].unstable;
   }
 
-  // The special points at which a branch begins and ends are points of it, with the counts beside them.
+  // The bifurcation and grazing points at which a branch begins and ends are points of it, with the counts
+  // beside them.
   void add_ends(const Parent& parent, CondensedProblem& problem, Branch& branch) {
     ContactSystem system(problem, laws_, parent.curve->series_flexibility);
     TrialEvaluator evaluator(problem.pair().trial(), options_.sweep.output_points * branch.periods, 0);

@@ -25,16 +25,16 @@ class Search {
     return response.converged() && periods(response) == wanted_;
   }
 
-  /// From the motion that the structure settles to; nothing where that has fewer periods. `attractor` and
+  /// From the attractor; nothing where that has fewer periods. `attractor` and
   /// `cancelled` are set.
   std::optional<PeriodicResponse> settled(int& attractor, bool& cancelled) {
-    SettlingOptions how = options_.response.settling;
+    AttractorOptions how = options_.response.settling;
     how.observer = options_.response.observer;
     how.longest = std::max(how.longest, wanted_);
-    const SettledMotion motion = settle(problem_, laws_, how);
+    const AttractorMotion motion = settle(problem_, laws_, how);
     attractor = motion.attractor_periods;
     cancelled = motion.cancelled;
-    // What it does not settle to after this number of periods may be any motion.
+    // What it does not converge to after this number of periods may be any motion.
     if (attractor != wanted_ || cancelled) return std::nullopt;
     const double start = motion.start - problem_.pair().first_sample();
     return near(resample(motion.last.displacement, problem_.points(), start),
@@ -106,7 +106,7 @@ PeriodicResponse subharmonic_response(CondensedProblem& problem, const ContactLa
   if (load_periods(problem) == 1 || !touches || search.is_found(best) ||
       best.status == SolveStatus::cancelled)
     return best;
-  int attractor = SettledMotion::unknown;
+  int attractor = AttractorMotion::unknown;
   bool cancelled = false;
   const auto settled = search.settled(attractor, cancelled);
   if (settled && settled->converged() && (search.is_found(*settled) || !best.converged())) best = *settled;

@@ -20,7 +20,7 @@ void FrequencyParameter::set(ContactSystem& system, double p) const {
 
 void FrequencyParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
   system.problem().apply_slope(system.force(), slope);
-  slope -= system.problem().contact_free_response_slope();
+  slope -= system.problem().linear_response_slope();
   system.add_velocity_slope(slope);
   system.add_law_slope(slope);
   slope /= system.problem().periods();
@@ -31,7 +31,7 @@ bool LoadScaleParameter::contains(double p) const { return std::isfinite(p); }
 void LoadScaleParameter::set(ContactSystem& system, double p) const { system.problem().set_load_scale(p); }
 
 void LoadScaleParameter::slope(ContactSystem& system, Eigen::VectorXd& slope) const {
-  slope = -system.problem().contact_free_response_by_scale();
+  slope = -system.problem().linear_response_by_scale();
 }
 
 void ArcLengthOptions::validate() const {
@@ -71,7 +71,7 @@ detail::ResponseEquations::ResponseEquations(ContactSystem& contacts, const Curv
   scales.setConstant(system.problem().contacts(), options.displacement_scale);
 }
 
-double detail::ResponseEquations::evaluate(const CurvePoint& point, const LawPieces* sides) {
+double detail::ResponseEquations::evaluate(const CurvePoint& point, const LawSegments* sides) {
   if (!parameter.contains(point.parameter) || system.operations() > operation_limit)
     return std::numeric_limits<double>::infinity();
   parameter.set(system, point.parameter);
@@ -154,8 +154,8 @@ int ArcLength::kink_at(const CurvePoint& point, int sample) const {
 }
 
 // The pieces of the laws on which the curve continues. The tangent decides for a sample at a kink.
-LawPieces ArcLength::sides_of(const CurvePoint& point) const {
-  LawPieces sides(point.displacement.size());
+LawSegments ArcLength::sides_of(const CurvePoint& point) const {
+  LawSegments sides(point.displacement.size());
   for (int l = 0; l < sides.size(); ++l) {
     const int kink = kink_at(point, l);
     sides[l] = kink < 0 ? system_.piece_at(l, point.displacement[l])
@@ -165,7 +165,7 @@ LawPieces ArcLength::sides_of(const CurvePoint& point) const {
 }
 
 // Whether a sample is in contact or, of a law that acts everywhere, beyond a kink.
-bool ArcLength::touches(const LawPieces& pieces) const {
+bool ArcLength::touches(const LawSegments& pieces) const {
   for (int l = 0; l < pieces.size(); ++l)
     if (pieces[l] != system_.rest_piece(l)) return true;
   return false;
@@ -230,7 +230,7 @@ bool ArcLength::turn_corner() {
       if (!next) next = point_from_corner(length, backwards, other);
   if (!next) next = std::move(other);
   if (!next) return false;
-  accept(std::move(*next), LawPieces());
+  accept(std::move(*next), LawSegments());
   step_ = options_.min_step;
   return true;
 }
@@ -251,7 +251,7 @@ double ArcLength::growth(int corrections, double turn) const {
   return std::min(factor, std::max(least, share * max_turn() / turn));
 }
 
-void ArcLength::accept(CurvePoint&& candidate, const LawPieces& sides) {
+void ArcLength::accept(CurvePoint&& candidate, const LawSegments& sides) {
   last_step_ = inner(point_, chord(point_, candidate));
   last_sides_ = sides;
   orientation_unknown_ = orientation_unknown_ || candidate.orientation * point_.orientation < 0;
@@ -276,7 +276,7 @@ ArcLength::Status ArcLength::advance() {
 // True if the step contains a turning point at a grazing event, or the first or the last contact. The curve
 // is then followed piece by piece.
 bool ArcLength::skips_grazing_turn(const CurvePoint& candidate) const {
-  const LawPieces here = sides_of(point_), there = sides_of(candidate);
+  const LawSegments here = sides_of(point_), there = sides_of(candidate);
   if ((here == there).all()) return false;
   return point_.parameter_tangent * candidate.parameter_tangent <= 0.0 || touches(here) != touches(there);
 }
@@ -305,7 +305,7 @@ bool ArcLength::step_far() {
       return StepAttempt::lost;
     }
     const double turn = std::acos(std::min(1.0, inner(point_, candidate)));
-    accept(std::move(candidate), LawPieces());
+    accept(std::move(candidate), LawSegments());
     step_ = std::clamp(step_ * growth(corrections, turn), options_.min_step, options_.max_step);
     return StepAttempt::taken;
   });
@@ -332,7 +332,7 @@ bool ArcLength::locate(const std::function<double(const CurvePoint&)>& value, do
     return true;
   }
   int corrections = 0;
-  const LawPieces* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
+  const LawSegments* sides = last_sides_.size() > 0 ? &last_sides_ : nullptr;
   const Eigen::VectorXd scales = std::exchange(curve().scales, previous_scales_);
   const auto value_at = [&](double fraction) -> std::optional<double> {
     if (!correct(previous_, fraction * last_step_, sides, point, corrections)) return std::nullopt;

@@ -24,7 +24,7 @@ ArcLength::Crossing ArcLength::crossing_ahead(double& distance) const {
 }
 
 // A sample that has left its piece at the candidate; none if none has.
-ArcLength::Crossing ArcLength::passed(const CurvePoint& candidate, const LawPieces& sides) const {
+ArcLength::Crossing ArcLength::passed(const CurvePoint& candidate, const LawSegments& sides) const {
   for (int l = 0; l < sides.size(); ++l) {
     const int piece = system_.piece_at(l, candidate.displacement[l]);
     if (sides[l] == piece) continue;
@@ -37,7 +37,7 @@ ArcLength::Crossing ArcLength::passed(const CurvePoint& candidate, const LawPiec
 // One step within the piece that point_ lies on, at most to the end of the piece.
 bool ArcLength::step_in_piece() {
   constexpr double shortest = 1e-4;  // times min_step
-  const LawPieces sides = sides_of(point_);
+  const LawSegments sides = sides_of(point_);
   CurvePoint candidate;
   for (double length = step_; length >= shortest * options_.min_step;) {
     double distance = length;
@@ -57,7 +57,7 @@ bool ArcLength::step_in_piece() {
 }
 
 // At a branch point within the piece the orientation changes. A short step is then accepted.
-bool ArcLength::step_smoothly(double step, const LawPieces& sides, CurvePoint& candidate) {
+bool ArcLength::step_smoothly(double step, const LawSegments& sides, CurvePoint& candidate) {
   int corrections = 0;
   if (!correct(point_, step, &sides, candidate, corrections) || !is_ahead(candidate, options_.max_angle))
     return false;
@@ -65,7 +65,7 @@ bool ArcLength::step_smoothly(double step, const LawPieces& sides, CurvePoint& c
 }
 
 // Ends the piece where a sample reaches a kink. False if that point is not found, or no tangent leaves it.
-bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const LawPieces& sides) {
+bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const LawSegments& sides) {
   constexpr int attempts = 10;
   Plane plane{Eigen::VectorXd::Zero(sides.size()), 0.0, 0.0, 1e-9 * options_.displacement_scale};
   int corrections = 0;
@@ -92,7 +92,7 @@ bool ArcLength::pass_grazing_event(Crossing crossing, double distance, const Law
 
 // True if the piece leads from point_ to the event without a large change of direction. Sets its tangent
 // there.
-bool ArcLength::leads_to(Crossing crossing, const LawPieces& sides, CurvePoint& event) {
+bool ArcLength::leads_to(Crossing crossing, const LawSegments& sides, CurvePoint& event) {
   const bool upwards = sides[crossing.sample] <= crossing.kink;
   return tangent_through(crossing.sample, upwards, event) && is_ahead(event, options_.max_angle);
 }

@@ -10,7 +10,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-// p scales the residual of the start, which is added to the contact-free response.
+// p scales the residual of the start, which is added to the linear response.
 class ResidualParameter final : public CurveParameter {
  public:
   explicit ResidualParameter(Eigen::VectorXd start_residual) : start_residual_(std::move(start_residual)) {}
@@ -46,8 +46,7 @@ HomotopyStatus follow(ContactSystem& system, Eigen::VectorXd& u, const ResidualH
   ArcLengthOptions arc;
   arc.displacement_scale = std::max(safe_norm(u) / std::sqrt(double(u.size())), system.laws().largest_gap());
   if (arc.displacement_scale == 0.0)
-    arc.displacement_scale =
-        safe_norm(system.problem().contact_free_response()) / std::sqrt(double(u.size()));
+    arc.displacement_scale = safe_norm(system.problem().linear_response()) / std::sqrt(double(u.size()));
   arc.parameter_scale = 1.0;
   arc.initial_step = 0.1;
   arc.max_step = 0.5;

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collocation/collocation_refinement.hpp"
 #include "linalg/index.hpp"
 #include "linalg/root.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
 
-// At least so many instants of a period at which motions are held against their phases.
+// At least so many instants of a period at which motions are compared with their phases.
 constexpr Index samples = 256;
 
 }  // namespace
@@ -19,7 +19,8 @@ double vibration_of(const Eigen::MatrixXd& displacement) {
   return rms_of(displacement.colwise() - displacement.rowwise().mean());
 }
 
-CurvePath::CurvePath(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options)
+CurvePath::CurvePath(const ProblemFamily& family, const ExactSolution& first,
+                     const ExactCurveOptions& options)
     : family_(family),
       options_(options),
       times_(Eigen::VectorXd::LinSpaced(samples, 0.0, 1.0 - 1.0 / double(samples))),

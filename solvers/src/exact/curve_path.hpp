@@ -14,7 +14,7 @@ struct CurvePoint {
   double slope = 0.0;            ///< of the parameter by arc length, forwards along the curve
   Eigen::VectorXd displacement;  ///< m, of all contacts at times l / N
   double vibration = 0.0;        ///< m, rms of the displacement about its mean
-  PhaseMotion motion;
+  ExactSolution motion;
   bool agrees = true;  ///< whether it is a motion of the structure
 };
 
@@ -23,12 +23,12 @@ using PointOnCurve = std::shared_ptr<const CurvePoint>;
 /// What does not change along a curve.
 class CurvePath {
  public:
-  CurvePath(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+  CurvePath(const ProblemFamily& family, const ExactSolution& first, const ExactCurveOptions& options);
   CurvePath(const CurvePath&) = delete;
   CurvePath& operator=(const CurvePath&) = delete;
   virtual ~CurvePath() = default;
 
-  const PhaseFamily& family() const { return family_; }
+  const ProblemFamily& family() const { return family_; }
   const ExactCurveOptions& options() const { return options_; }
   double parameter_scale() const { return parameter_scale_; }
 
@@ -51,7 +51,7 @@ class CurvePath {
   const Observer& observer() const { return observer_; }
 
  private:
-  const PhaseFamily& family_;
+  const ProblemFamily& family_;
   const ExactCurveOptions& options_;
   double length_, vibration_, parameter_scale_;
   Eigen::VectorXd times_;

@@ -18,7 +18,7 @@ void reverse(ExactCurve& curve) {
 
 }  // namespace
 
-ExactCurve exact_curve_through(const PhaseFamily& family, double value, const PhaseMotion& motion,
+ExactCurve exact_curve_through(const ProblemFamily& family, double value, const ExactSolution& motion,
                                const ExactCurveOptions& options) {
   options.validate();
   ExactCurveOptions one_way = options;

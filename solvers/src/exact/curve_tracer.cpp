@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collocation/collocation_refinement.hpp"
 #include "linalg/multipliers.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
 

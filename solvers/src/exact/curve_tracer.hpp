@@ -22,7 +22,8 @@ class CurveTracer {
   /// About so many floating-point operations a point took.
   virtual double operations_of(const CurvePoint& point) const = 0;
   virtual bool same_unknowns(const CurvePoint& a, const CurvePoint& b) const = 0;
-  /// Adds the special points between the last point and the next at which contacts change what they do.
+  /// Adds the bifurcation and grazing points between the last point and the next at which contacts change
+  /// what they do.
   virtual void append_changes(const CurvePoint& next, std::vector<PlacedEvent>& events);
 
   const ExactCurveOptions& options() const { return path_.options(); }
@@ -30,7 +31,7 @@ class CurveTracer {
   /// The last ones with the same unknowns.
   std::deque<PointOnCurve>& points() { return points_; }
   const std::deque<PointOnCurve>& points() const { return points_; }
-  /// Notes the special points between the last point and the next.
+  /// Notes the bifurcation and grazing points between the last point and the next.
   void note_events(const CurvePoint& next);
   bool within(double value) const;
   Eigen::VectorXcd multipliers_of(const CurvePoint& point) const;

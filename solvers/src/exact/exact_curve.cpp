@@ -5,15 +5,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "collocation/collocation_newton.hpp"
+#include "collocation/collocation_refinement.hpp"
+#include "collocation/exact_solution_parts.hpp"
 #include "exact/curve_tracer.hpp"
 #include "exact/impact_curve.hpp"
+#include "exact/interval_switch.hpp"
 #include "exact/map_curve.hpp"
-#include "exact/phase_switch.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
-#include "phases/phase_motion_parts.hpp"
-#include "phases/phase_newton.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -22,9 +22,9 @@ using detail::CurvePoint, detail::Held, detail::PathModel, detail::PathPoint, de
     detail::Prediction, detail::Switch;
 
 // Follows a curve by phases of contact.
-class PhaseTracer : public detail::CurveTracer {
+class IntervalTracer : public detail::CurveTracer {
  public:
-  PhaseTracer(PathModel& model, ExactCurve& curve, PathPoint first)
+  IntervalTracer(PathModel& model, ExactCurve& curve, PathPoint first)
       : CurveTracer(model, curve, std::make_shared<PathPoint>(std::move(first))), model_(model) {}
 
  private:
@@ -137,7 +137,7 @@ class PhaseTracer : public detail::CurveTracer {
 };
 
 // Whether it is one of impact_motion().
-bool is_of_impacts(const PhaseFamily& family, const PhaseMotion& motion) {
+bool is_of_impacts(const ProblemFamily& family, const ExactSolution& motion) {
   return motion.parts != nullptr && !motion.parts->start && motion.phases.empty() &&
          family.laws().have_impacts_alone(family.dynamics().contacts());
 }
@@ -161,13 +161,13 @@ void ExactCurveOptions::validate() const {
     detail::reject("exact_curve", "max_operations", max_operations, "a number above 0");
 }
 
-double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& dynamics) {
+double exact_point_operations(const ExactSolution& motion, const ContactDynamics& dynamics) {
   constexpr double of_motion = 8.0, of_multipliers = 25.0;
   const double n = motion.unknowns, s = double(dynamics.poles().size());
   return of_motion * detail::step_operations(n, s) + of_multipliers * s * s * s;
 }
 
-ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
+ExactCurve exact_curve(const ProblemFamily& family, const ExactSolution& first,
                        const ExactCurveOptions& options) {
   options.validate();
   if (first.parts == nullptr)
@@ -181,9 +181,9 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
       model.solve(options.from, first.parts->iterate, Held{}, options.to > options.from ? 1.0 : -1.0);
   if (model.cancelled()) curve.status = SweepStatus::cancelled;
   if (start && start->agrees)
-    PhaseTracer(model, curve, std::move(*start)).run();
+    IntervalTracer(model, curve, std::move(*start)).run();
   else
-    curve.start = PhasesStatus::not_found;
+    curve.start = ExactStatus::not_found;
   // Phases of forces of the velocity often end where a force vanishes, where the equations of phases have no
   // switch.
   if (curve.status == SweepStatus::lost && family.laws().depend_on_velocity()) {
@@ -194,7 +194,7 @@ ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first,
   return curve;
 }
 
-ExactCurve doubled_curve(const PhaseFamily& family, const ExactEvent& event,
+ExactCurve doubled_curve(const ProblemFamily& family, const ExactEvent& event,
                          const ExactCurveOptions& options) {
   options.validate();
   if (event.type != SpecialPointType::period_doubling || !is_of_impacts(family, event.motion))

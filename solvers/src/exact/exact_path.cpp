@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collocation/collocation_refinement.hpp"
+#include "collocation/exact_solution_parts.hpp"
 #include "linalg/index.hpp"
 #include "linalg/root.hpp"
-#include "phases/phase_motion_parts.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -25,7 +25,7 @@ double farthest_passage(const Layout& from, const Layout& to) {
   return farthest;
 }
 
-double& passage_of(PhaseIterate& iterate, Index i) {
+double& passage_of(CollocationIterate& iterate, Index i) {
   return iterate.layout.passages[static_cast<std::size_t>(i)].time;
 }
 
@@ -43,7 +43,7 @@ double weighted_force(const std::vector<const PathPoint*>& points, const Eigen::
   double sum = 0.0;
   for (std::size_t j = 0; j < points.size(); ++j) {
     const Layout& layout = points[j]->iterate.layout;
-    const Phase& own = layout.phases[static_cast<std::size_t>(phase)];
+    const LayoutInterval& own = layout.phases[static_cast<std::size_t>(phase)];
     const double begin = layout.begin(own), time = begin + share * (layout.end(own) - begin);
     sum += weights[Index(j)] * points[j]->iterate.forces.in_phase(phase, time);
   }
@@ -118,9 +118,9 @@ double PathModel::distance(const Prediction& expected, const PathPoint& found) c
 }
 
 PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const {
-  const PhaseModel model(family().at(solution.value), length());
+  const CollocationModel model(family().at(solution.value), length());
   const ContactMotion free = model.free_motion(times());
-  const PhaseSolution own(model, std::move(solution.newton), nodes, times(), free);
+  const CollocationSolution own(model, std::move(solution.newton), nodes, times(), free);
   const bool fine = error <= options().phases.tolerance;
   PathPoint point;
   point.value = solution.value;
@@ -128,12 +128,12 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   point.direction = std::move(solution.direction);
   point.displacement = own.motion.displacement.reshaped();
   point.vibration = vibration_of(own.motion.displacement);
-  point.phases_of_motion = own.phases_of_motion;
+  point.intervals_of_motion = own.intervals_of_motion;
   point.agrees = own.agrees();
   if (own.newton.iterate.forces.coefficients().size() > 0)
     point.force_size = own.newton.iterate.forces.coefficients().cwiseAbs().maxCoeff();
   point.slope = point.motion_of_parameter() / speed(point);
-  point.motion.status = fine ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
+  point.motion.status = fine ? ExactStatus::converged : ExactStatus::tolerance_missed;
   point.motion.residual = own.newton.residual;
   point.motion.iterations = own.newton.iterations;
   point.motion.unknowns = static_cast<int>(point.direction.size());
@@ -142,18 +142,18 @@ PathPoint PathModel::point_of(HeldSolution solution, const LegendreNodes& nodes,
   return point;
 }
 
-PhaseIterate PathModel::coarser(const PathPoint& last, PhaseIterate start) const {
+CollocationIterate PathModel::coarser(const PathPoint& last, CollocationIterate start) const {
   constexpr double much_better = 1e-3;
   const Index q = start.forces.coefficients().rows();
   if (q == 0 || !(last.motion.estimated_error < much_better * options().phases.tolerance)) return start;
   const Index fewer = std::max<Index>(options().phases.nodes, q - q / 4);
   if (fewer == q)
-    for (Phase& phase : start.layout.phases)
+    for (LayoutInterval& phase : start.layout.phases)
       if (phase.begin >= 0) phase.cuts.clear();
   return with_nodes(start, LegendreNodes(fewer));
 }
 
-bool PathModel::affords(const PhaseIterate& iterate, const LegendreNodes& nodes) const {
+bool PathModel::affords(const CollocationIterate& iterate, const LegendreNodes& nodes) const {
   constexpr double fewest_steps = 3.0;
   const double unknowns = double(nodes.count()) * double(iterate.layout.grid().panels.size()) +
                           double(iterate.layout.passages.size());
@@ -161,7 +161,7 @@ bool PathModel::affords(const PhaseIterate& iterate, const LegendreNodes& nodes)
          options().phases.max_operations;
 }
 
-std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, const Held& held,
+std::optional<PathPoint> PathModel::solve(double value, CollocationIterate start, const Held& held,
                                           double forwards) const {
   constexpr double rounding = 1e-13;
   constexpr int most_refinements = 12;
@@ -185,7 +185,7 @@ std::optional<PathPoint> PathModel::solve(double value, PhaseIterate start, cons
   }
 }
 
-PhaseIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force) {
+CollocationIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force) {
   CellGrid grid = layout.grid();
   Eigen::VectorXd values(nodes.count() * Index(grid.panels.size()));
   for (std::size_t p = 0; p < grid.panels.size(); ++p)
@@ -194,7 +194,7 @@ PhaseIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceI
   return {std::move(layout), PanelForces(std::move(grid), nodes, values)};
 }
 
-PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes) {
+CollocationIterate with_nodes(const CollocationIterate& iterate, const LegendreNodes& nodes) {
   return with_forces(iterate.layout, nodes, [&](const Panel& panel, double time) {
     return iterate.forces.in_phase(panel.phase, time);
   });
@@ -227,7 +227,7 @@ Prediction through(const std::vector<const PathPoint*>& points, double place) {
   const Index q = points.back()->iterate.forces.coefficients().rows();
   if (q == 0) return result;
   const auto force = [&](const Panel& panel, double time) {
-    const Phase& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
+    const LayoutInterval& phase = layout.phases[static_cast<std::size_t>(panel.phase)];
     const double begin = layout.begin(phase), length = layout.end(phase) - begin;
     return weighted_force(points, weights, panel.phase, (time - begin) / length);
   };

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "collocation/interval_agreement.hpp"
 #include "exact/curve_path.hpp"
 #include "exact/held_newton.hpp"
-#include "phases/phase_agreement.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -15,10 +15,10 @@ inline constexpr double passage_scale = 0.05;
 
 /// A motion of a curve by its phases, and how the curve goes on from it.
 struct PathPoint : CurvePoint {
-  PhaseIterate iterate;
-  Eigen::VectorXd direction;  ///< as of HeldSolution, forwards along the curve
-  double force_size = 1.0;    ///< N
-  Layout phases_of_motion;    ///< others than those of the iterate where it is no motion of the structure
+  CollocationIterate iterate;
+  Eigen::VectorXd direction;   ///< as of HeldSolution, forwards along the curve
+  double force_size = 1.0;     ///< N
+  Layout intervals_of_motion;  ///< others than those of the iterate where it is no motion of the structure
 
   Eigen::Index passages() const { return static_cast<Eigen::Index>(iterate.layout.passages.size()); }
   Eigen::Index forces() const { return direction.size() - 1 - passages(); }
@@ -35,7 +35,7 @@ struct PathPoint : CurvePoint {
 /// What is expected at another place of the curve.
 struct Prediction {
   double value = 0.0;
-  PhaseIterate iterate;
+  CollocationIterate iterate;
 };
 
 /// A curve by phases of contact.
@@ -61,27 +61,28 @@ class PathModel : public CurvePath {
 
   /// A start with fewer panels or nodes, where those of the last point resolve it far better than they have
   /// to.
-  PhaseIterate coarser(const PathPoint& last, PhaseIterate start) const;
+  CollocationIterate coarser(const PathPoint& last, CollocationIterate start) const;
 
   /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs and
   /// max_operations of its options allow.
   /// `forwards`: the sign of the change of the unknown held along the curve. Nothing where Newton's method
   /// does not converge, and at once after the observer has returned false.
-  std::optional<PathPoint> solve(double value, PhaseIterate start, const Held& held, double forwards) const;
+  std::optional<PathPoint> solve(double value, CollocationIterate start, const Held& held,
+                                 double forwards) const;
 
  private:
   PathPoint point_of(HeldSolution solution, const LegendreNodes& nodes, double error) const;
   /// Whether a few steps with these panels and nodes stay below max_operations.
-  bool affords(const PhaseIterate& iterate, const LegendreNodes& nodes) const;
+  bool affords(const CollocationIterate& iterate, const LegendreNodes& nodes) const;
   Eigen::VectorXd change(const PathPoint& from, double value, const Layout& layout) const;
   double cosine(const Eigen::VectorXd& way, const PathPoint& at) const;
 };
 
 /// A layout with the forces that `force` gives at times of its panels, by these nodes.
 using ForceInPanel = std::function<double(const Panel& panel, double time)>;
-PhaseIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force);
+CollocationIterate with_forces(Layout layout, const LegendreNodes& nodes, const ForceInPanel& force);
 /// The same forces by other nodes, and by the panels of the layout.
-PhaseIterate with_nodes(const PhaseIterate& iterate, const LegendreNodes& nodes);
+CollocationIterate with_nodes(const CollocationIterate& iterate, const LegendreNodes& nodes);
 
 /// Along the tangent, to first order.
 Prediction along_tangent(const PathPoint& at, double distance, double speed);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collocation/exact_solution_parts.hpp"
 #include "linalg/index.hpp"
 #include "linalg/root.hpp"
-#include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -31,11 +31,11 @@ const Passage& passage(const Layout& layout, int number) {
 }
 
 // The phases on both sides of an interval become one; where they are the same, one that lasts the period.
-void join(std::vector<Phase>& phases, const Interval& interval) {
-  const auto before =
-      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.end == interval.from; });
-  const auto after =
-      std::find_if(phases.begin(), phases.end(), [&](const Phase& p) { return p.begin == interval.to; });
+void join(std::vector<LayoutInterval>& phases, const Interval& interval) {
+  const auto before = std::find_if(phases.begin(), phases.end(),
+                                   [&](const LayoutInterval& p) { return p.end == interval.from; });
+  const auto after = std::find_if(phases.begin(), phases.end(),
+                                  [&](const LayoutInterval& p) { return p.begin == interval.to; });
   if (before == phases.end() || after == phases.end()) return;
   if (before == after) {
     *before = {before->contact, before->piece, -1, -1, 1.0, {0.25, 0.5, 0.75}};
@@ -48,7 +48,7 @@ void join(std::vector<Phase>& phases, const Interval& interval) {
 
 // The whole turns that bring the end of each phase behind its begin.
 void set_turns(Layout& layout) {
-  for (Phase& phase : layout.phases) {
+  for (LayoutInterval& phase : layout.phases) {
     if (phase.begin < 0) continue;
     const double length = passage(layout, phase.end).time - passage(layout, phase.begin).time;
     phase.turns = 1.0 - std::ceil(length);
@@ -58,7 +58,7 @@ void set_turns(Layout& layout) {
 
 void erase_passage(Layout& layout, int number) {
   layout.passages.erase(layout.passages.begin() + number);
-  for (Phase& phase : layout.phases) {
+  for (LayoutInterval& phase : layout.phases) {
     if (phase.begin > number) --phase.begin;
     if (phase.end > number) --phase.end;
   }
@@ -89,7 +89,7 @@ double growth(const PathPoint& at, const Interval& interval) {
 
 Layout with_cuts_of(const Layout& other, Layout layout) {
   constexpr double least = 1e-3;  // of a phase, between cuts
-  for (Phase& phase : layout.phases) {
+  for (LayoutInterval& phase : layout.phases) {
     const double begin = layout.begin(phase), length = layout.end(phase) - begin;
     const auto add = [&](double time) {
       const double share = (time - std::floor(time - begin) - begin) / length;
@@ -97,7 +97,7 @@ Layout with_cuts_of(const Layout& other, Layout layout) {
                                       [&](double cut) { return std::abs(cut - share) < least; });
       if (share > least && share < 1.0 - least && apart) phase.cuts.push_back(share);
     };
-    for (const Phase& one : other.phases)
+    for (const LayoutInterval& one : other.phases)
       if (one.contact == phase.contact && one.piece == phase.piece)
         for (const double cut : one.cuts) add(other.begin(one) + cut * (other.end(one) - other.begin(one)));
     std::sort(phase.cuts.begin(), phase.cuts.end());
@@ -109,7 +109,7 @@ Layout without(Layout layout, std::vector<Interval> intervals) {
   const Layout before = layout;
   std::vector<int> numbers;
   for (const Interval& interval : intervals) {
-    std::erase_if(layout.phases, [&](const Phase& phase) {
+    std::erase_if(layout.phases, [&](const LayoutInterval& phase) {
       return phase.begin == interval.from && phase.end == interval.to;
     });
     join(layout.phases, interval);
@@ -129,7 +129,7 @@ Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& in
   return {interval.contact, breakpoint, middle, interval.length, there > breakpoint};
 }
 
-double passed_by(const PhaseMotion& motion, const Grazing& grazing) {
+double passed_by(const ExactSolution& motion, const Grazing& grazing) {
   constexpr double least = 1e-3, most = 0.1;
   const auto velocity = [&](double time) {
     return motion.velocity(Eigen::VectorXd::Constant(1, time))(grazing.contact, 0);
@@ -144,7 +144,7 @@ double passed_by(const PhaseMotion& motion, const Grazing& grazing) {
   return missing;
 }
 
-PhaseIterate with_layout(const PathPoint& at, Layout layout) {
+CollocationIterate with_layout(const PathPoint& at, Layout layout) {
   const PanelForces& old = at.iterate.forces;
   const LegendreNodes nodes(std::max<Index>(4, old.coefficients().rows()));
   return with_forces(std::move(layout), nodes,

@@ -37,9 +37,9 @@ struct Grazing {
 Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& interval);
 
 /// By how much the extremum passes the breakpoint, m; NaN where there is none.
-double passed_by(const PhaseMotion& motion, const Grazing& grazing);
+double passed_by(const ExactSolution& motion, const Grazing& grazing);
 
 /// The start of a solution with other phases, its forces those of the point.
-PhaseIterate with_layout(const PathPoint& at, Layout layout);
+CollocationIterate with_layout(const PathPoint& at, Layout layout);
 
 }  // namespace wavebalance::solvers::detail

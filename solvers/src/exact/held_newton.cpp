@@ -12,11 +12,11 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-Eigen::VectorXd slope_by_parameter(const PhaseFamily& family, double length, double value,
-                                   const PhaseIterate& at, const Evaluation& now,
+Eigen::VectorXd slope_by_parameter(const ProblemFamily& family, double length, double value,
+                                   const CollocationIterate& at, const Evaluation& now,
                                    const LegendreNodes& nodes) {
   const double change = 1e-7 * value;
-  const PhaseModel beside(family.at(value + change), length);
+  const CollocationModel beside(family.at(value + change), length);
   return (evaluate(beside, at, nodes).residual - now.residual) / change;
 }
 
@@ -42,7 +42,7 @@ Eigen::VectorXd ordered(Eigen::VectorXd solved, Index held, double own) {
   return solved;
 }
 
-double part_of_step(const PhaseIterate& at, const Eigen::VectorXd& step, Index forces, double value) {
+double part_of_step(const CollocationIterate& at, const Eigen::VectorXd& step, Index forces, double value) {
   constexpr double largest_change = 0.05;
   const Index passages = step.size() - 1 - forces;
   const double change = std::abs(step[step.size() - 1] / value);
@@ -59,11 +59,11 @@ Index Held::number(Index forces, Index passages) const {
 
 // A matrix serves as long as the residual falls by it as Newton's method would have it fall, since it takes
 // far longer than a residual. The last one is that of the solution.
-HeldSolution solve_held(const PhaseFamily& family, double length, double value, PhaseIterate start,
+HeldSolution solve_held(const ProblemFamily& family, double length, double value, CollocationIterate start,
                         const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits) {
   constexpr double enough = 1e-2;  // of a step, to go on with its matrix
   HeldSolution result{{}, value, {}};
-  PhaseIterate& at = result.newton.iterate;
+  CollocationIterate& at = result.newton.iterate;
   at = std::move(start);
   double before = std::numeric_limits<double>::infinity();
   Influence influence;
@@ -74,7 +74,7 @@ HeldSolution solve_held(const PhaseFamily& family, double length, double value, 
                             {"exact curve", result.newton.iterations, result.newton.residual});
   };
   for (; goes_on(); ++result.newton.iterations) {
-    const PhaseModel model(family.at(result.value), length);
+    const CollocationModel model(family.at(result.value), length);
     const Evaluation now = evaluate(model, at, nodes);
     const Index n = now.force.size(), m = now.passing.size(), number = held.number(n, m);
     result.newton.residual = now.error();

@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "phases/phase_newton.hpp"
-#include "wavebalance/solvers/exact/phase_family.hpp"
+#include "collocation/collocation_newton.hpp"
+#include "wavebalance/solvers/exact/problem_family.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -18,7 +18,7 @@ struct Held {
 
 /// A solution with one unknown held.
 struct HeldSolution {
-  PhaseNewtonResult newton;
+  CollocationResult newton;
   double value = 0.0;  ///< of the parameter
   /// How all unknowns change along the curve of solutions: n forces at fixed times, the passages, the
   /// parameter. That of the unknown held is 1. Empty where it is not known.
@@ -26,8 +26,8 @@ struct HeldSolution {
 };
 
 /// Newton's method on the forces at q nodes of each panel, the passages and the parameter but the unknown
-/// held. `length`, m: as of PhaseModel. The derivative by the parameter is a difference.
-HeldSolution solve_held(const PhaseFamily& family, double length, double value, PhaseIterate start,
+/// held. `length`, m: as of CollocationModel. The derivative by the parameter is a difference.
+HeldSolution solve_held(const ProblemFamily& family, double length, double value, CollocationIterate start,
                         const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits);
 
 }  // namespace wavebalance::solvers::detail

@@ -7,7 +7,7 @@
 #include "exact/curve_tracer.hpp"
 #include "exact/impact_switch.hpp"
 #include "linalg/index.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -26,7 +26,7 @@ std::vector<int> contacts_of(const std::vector<Impact>& impacts) {
 /// The points with the same impacts, of which one tracer goes over to the next.
 class ImpactCurvePath : public CurvePath {
  public:
-  ImpactCurvePath(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options,
+  ImpactCurvePath(const ProblemFamily& family, const ExactSolution& first, const ExactCurveOptions& options,
                   int periods)
       : CurvePath(family, first, options), scales{periods, 1.0, parameter_scale()} {}
 
@@ -156,7 +156,7 @@ class ImpactTracer : public CurveTracer {
 };
 
 // The first place, with its tangent towards options.to.
-std::optional<ImpactPlace> first_place(ImpactCurvePath& path, const PhaseMotion& first,
+std::optional<ImpactPlace> first_place(ImpactCurvePath& path, const ExactSolution& first,
                                        const ExactCurveOptions& options) {
   std::optional<ImpactPlace> place = path.now->at_value(path.now->unknowns_of(first.impacts), options.from);
   if (!place || !place->solution.converged() ||
@@ -177,7 +177,7 @@ std::vector<Impact> twice(const std::vector<Impact>& impacts) {
 }
 
 // The periods of the load that a motion at a value takes; 0 where it is not one of the family there.
-int periods_of(const PhaseFamily& family, const PhaseMotion& motion, double value) {
+int periods_of(const ProblemFamily& family, const ExactSolution& motion, double value) {
   constexpr double rounding = 1e-9;
   const double ratio = family.at(value).frequency / motion.frequency(), periods = std::round(ratio);
   return std::abs(ratio - periods) <= rounding * ratio ? int(periods) : 0;
@@ -185,7 +185,7 @@ int periods_of(const PhaseFamily& family, const PhaseMotion& motion, double valu
 
 }  // namespace
 
-ExactCurve impact_curve(const PhaseFamily& family, const PhaseMotion& first,
+ExactCurve impact_curve(const ProblemFamily& family, const ExactSolution& first,
                         const ExactCurveOptions& options) {
   ExactCurve curve;
   const int periods = periods_of(family, first, options.from);
@@ -196,11 +196,11 @@ ExactCurve impact_curve(const PhaseFamily& family, const PhaseMotion& first,
   if (place)
     ImpactTracer(path, curve, path.point_at(std::move(*place), 0.0)).run();
   else
-    curve.start = PhasesStatus::not_found;
+    curve.start = ExactStatus::not_found;
   return curve;
 }
 
-ExactCurve doubled_impacts(const PhaseFamily& family, const ExactEvent& event,
+ExactCurve doubled_impacts(const ProblemFamily& family, const ExactEvent& event,
                            const ExactCurveOptions& options) {
   ImpactCurvePath path(family, event.motion, options, 2 * periods_of(family, event.motion, event.value));
   const std::vector<Impact> impacts = twice(event.motion.impacts);

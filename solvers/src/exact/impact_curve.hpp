@@ -12,11 +12,11 @@ namespace wavebalance::solvers::detail {
 /// grazing motion the curve goes on with one impact less, or more, on the side on which the motions are ones
 /// of the structure. Where two impacts of different contacts pass each other, it goes on in the other order.
 /// O(K^2 poles + K^3) for each step of Newton's method, and the multipliers for each point.
-ExactCurve impact_curve(const PhaseFamily& family, const PhaseMotion& first,
+ExactCurve impact_curve(const ProblemFamily& family, const ExactSolution& first,
                         const ExactCurveOptions& options);
 
 /// doubled_curve() from such a curve.
-ExactCurve doubled_impacts(const PhaseFamily& family, const ExactEvent& event,
+ExactCurve doubled_impacts(const ProblemFamily& family, const ExactEvent& event,
                            const ExactCurveOptions& options);
 
 }  // namespace wavebalance::solvers::detail

@@ -6,7 +6,7 @@
 #include "continuation/bordered.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -15,7 +15,7 @@ constexpr double instant_scale = 0.05;  // periods
 
 }  // namespace
 
-ImpactCurveEquations::ImpactCurveEquations(const PhaseFamily& family, const ImpactPathScales& scales,
+ImpactCurveEquations::ImpactCurveEquations(const ProblemFamily& family, const ImpactPathScales& scales,
                                            std::vector<int> contacts)
     : family_(family), scales_(scales), contacts_(std::move(contacts)) {}
 
@@ -30,8 +30,8 @@ double ImpactCurveEquations::evaluate(const ImpactPoint& at, const Pieces*) {
   equations_.emplace(*model_, contacts_, scales_.impulse);
   equations_->evaluate(at.displacement);
   const double step = share * (at.parameter == 0.0 ? scales_.parameter : at.parameter);
-  const Eigen::MatrixXcd after = problem_at(at.parameter + step).contact_free,
-                         before = problem_at(at.parameter - step).contact_free;
+  const Eigen::MatrixXcd after = problem_at(at.parameter + step).linear_motion,
+                         before = problem_at(at.parameter - step).linear_motion;
   slope_ = equations_->by_parameter(
       {(after - before) / (2.0 * step), over_frequency ? model_->problem().frequency / at.parameter : 0.0});
   double largest = 0.0;
@@ -81,7 +81,7 @@ ImpactPoint impact_point(Eigen::VectorXd unknowns, double value) {
   return point;
 }
 
-ImpactPath::ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
+ImpactPath::ImpactPath(const ProblemFamily& family, const ImpactPathScales& scales, std::vector<int> contacts)
     : CurveCorrector(ImpactCurveEquations(family, scales, std::move(contacts))), scales_(scales) {}
 
 Eigen::VectorXd ImpactPath::lengths(const Eigen::VectorXd& unknowns) const {

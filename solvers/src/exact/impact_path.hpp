@@ -7,7 +7,7 @@
 #include "impacts/impact_equations.hpp"
 #include "impacts/impact_parts.hpp"
 #include "wavebalance/solvers/continuation/curve_corrector.hpp"
-#include "wavebalance/solvers/exact/phase_family.hpp"
+#include "wavebalance/solvers/exact/problem_family.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -27,7 +27,8 @@ class ImpactCurveEquations {
  public:
   struct Pieces {};
 
-  ImpactCurveEquations(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
+  ImpactCurveEquations(const ProblemFamily& family, const ImpactPathScales& scales,
+                       std::vector<int> contacts);
 
   double evaluate(const ImpactPoint& at, const Pieces*);
   const Eigen::VectorXd& residual() const { return equations_->residual(); }
@@ -49,7 +50,7 @@ class ImpactCurveEquations {
   ImpactSolution solution(const ImpactPoint& at) const;
 
  private:
-  const PhaseFamily& family_;
+  const ProblemFamily& family_;
   ImpactPathScales scales_;
   std::vector<int> contacts_;
   std::shared_ptr<const ImpactModel> model_;
@@ -69,7 +70,7 @@ struct ImpactPlace {
 /// The curve of K impacts.
 class ImpactPath : private CurveCorrector<ImpactCurveEquations> {
  public:
-  ImpactPath(const PhaseFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
+  ImpactPath(const ProblemFamily& family, const ImpactPathScales& scales, std::vector<int> contacts);
 
   const std::vector<int>& contacts() const { return curve().contacts(); }
   /// The unknowns of impacts in ascending order.

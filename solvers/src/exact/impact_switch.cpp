@@ -200,11 +200,11 @@ std::optional<ImpactSwitch> passing(const ImpactStep& step) {
 
 std::optional<ImpactSwitch> switch_of(const ImpactStep& step) {
   switch (step.next.solution.status) {
-    case PhasesStatus::pulling:
+    case ExactStatus::pulling:
       return vanishing(step);
-    case PhasesStatus::penetrating:
+    case ExactStatus::penetrating:
       return appearing(step);
-    case PhasesStatus::wrong_order:
+    case ExactStatus::wrong_order:
       return passing(step);
     default:
       return std::nullopt;

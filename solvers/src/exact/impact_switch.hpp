@@ -15,7 +15,7 @@ struct ImpactSwitch {
 
 /// A step along a path, from a place with a tangent to one that is no motion of the structure.
 struct ImpactStep {
-  const PhaseFamily& family;
+  const ProblemFamily& family;
   const ImpactPathScales& scales;
   ImpactPath& path;
   const ImpactPlace &last, &next;

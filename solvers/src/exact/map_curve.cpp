@@ -5,10 +5,10 @@
 #include <functional>
 #include <optional>
 
+#include "collocation/collocation_refinement.hpp"
 #include "exact/curve_tracer.hpp"
 #include "exact/map_path.hpp"
 #include "linalg/index.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -253,17 +253,18 @@ bool is_undetermined(const MapPoint& point) {
 
 }  // namespace
 
-ExactCurve map_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options) {
+ExactCurve map_curve(const ProblemFamily& family, const ExactSolution& first,
+                     const ExactCurveOptions& options) {
   ExactCurve curve;
   MapPath path(family, first, options);
   const auto start = path.first(options.from, first, options.to > options.from ? 1.0 : -1.0);
   if (path.cancelled()) curve.status = SweepStatus::cancelled;
   if (start && is_undetermined(*start))
-    curve.start = PhasesStatus::undetermined;
+    curve.start = ExactStatus::undetermined;
   else if (start)
     MapTracer(path, curve, start).run();
   else
-    curve.start = PhasesStatus::not_found;
+    curve.start = ExactStatus::not_found;
   return curve;
 }
 

@@ -3,7 +3,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// exact_curve() by the map of a period of the flow, with laws of all kinds side by side.
-ExactCurve map_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+/// exact_curve() by the map of a period of the flow, with laws of all kinds together.
+ExactCurve map_curve(const ProblemFamily& family, const ExactSolution& first,
+                     const ExactCurveOptions& options);
 
 }  // namespace wavebalance::solvers::detail

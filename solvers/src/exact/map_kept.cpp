@@ -1,5 +1,5 @@
 #include "exact/map_path.hpp"
-#include "flow/flow_phases.hpp"
+#include "flow/flow_intervals.hpp"
 
 namespace wavebalance::solvers::detail {
 

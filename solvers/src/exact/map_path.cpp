@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "collocation/collocation_refinement.hpp"
 #include "flow/closed_period.hpp"
-#include "flow/flow_phases.hpp"
+#include "flow/flow_intervals.hpp"
 #include "flow/flow_start.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
-#include "phases/phase_refinement.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -305,7 +305,7 @@ std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::Ve
         safety * (other->displacement.reshaped() - point->displacement).norm() / point->displacement.norm();
     point->motion.estimated_error = std::max(error, 1e-13);
     const bool met = error <= options().phases.tolerance;
-    point->motion.status = met ? PhasesStatus::converged : PhasesStatus::tolerance_missed;
+    point->motion.status = met ? ExactStatus::converged : ExactStatus::tolerance_missed;
     if (met) return point;
     if (tolerance_ < 1.1 * finest) return error < known ? point : nullptr;
   }
@@ -316,7 +316,7 @@ MapStart MapPath::near_start(double value, const Eigen::MatrixXd& displacement,
   return {start_near(family().at(value), displacement, force, share_of_calm), value};
 }
 
-std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion, double forwards) const {
+std::shared_ptr<MapPoint> MapPath::first(double value, const ExactSolution& motion, double forwards) const {
   const std::optional<PeriodStart>& known = motion.parts->start;
   const MapStart from = known ? MapStart{*known, value}
                               : near_start(value, motion.displacement(times()), motion.force(times()));
@@ -324,7 +324,7 @@ std::shared_ptr<MapPoint> MapPath::first(double value, const PhaseMotion& motion
 }
 
 std::shared_ptr<MapPoint> MapPath::begun_anew(const MapPoint& point) const {
-  const PhasesProblem problem = family().at(point.value);
+  const ExactProblem problem = family().at(point.value);
   const auto from =
       point.events.empty()
           ? start_near(problem, point.motion.displacement(times()), point.motion.force(times()), 0.0)

@@ -57,7 +57,7 @@ class MapPath : public CurvePath {
 
   /// The point near a motion, from a time far from all events; `forwards`: the sign of the change of the
   /// parameter.
-  std::shared_ptr<MapPoint> first(double value, const PhaseMotion& motion, double forwards) const;
+  std::shared_ptr<MapPoint> first(double value, const ExactSolution& motion, double forwards) const;
   /// The same point from a time farther from all events.
   std::shared_ptr<MapPoint> begun_anew(const MapPoint& point) const;
   /// The point near a start on the plane through it across the direction of a point beside.
@@ -72,7 +72,7 @@ class MapPath : public CurvePath {
                                                                    double share) const;
 
   /// CurvePoint::displacement of a motion.
-  Eigen::VectorXd displacement_of(const PhaseMotion& motion) const {
+  Eigen::VectorXd displacement_of(const ExactSolution& motion) const {
     return motion.displacement(times()).reshaped();
   }
   double arc_scale(const CurvePoint& at) const { return std::max(vibration(), at.vibration); }

@@ -26,8 +26,8 @@ int coarsest_level(const detail::ContactPoles& poles, int panels) {
 }
 
 // Of the motion without contact about its mean, or a gap.
-double moving_length(const PhasesProblem& problem) {
-  const Eigen::MatrixXcd& free = problem.contact_free;
+double moving_length(const ExactProblem& problem) {
+  const Eigen::MatrixXcd& free = problem.linear_motion;
   if (free.size() == 0) return std::max(problem.laws.largest_gap(), 1e-300);
   const double whole = free.rowwise().norm().maxCoeff(),
                moving = free.cols() > 1 ? free.rightCols(free.cols() - 1).rowwise().norm().maxCoeff() : 0.0;
@@ -36,10 +36,10 @@ double moving_length(const PhasesProblem& problem) {
 
 // Where almost nothing holds a structure it rests on its contacts, and its static deflection without them
 // says nothing but how large rounding is.
-double length_of(const PhasesProblem& problem, const FlowOptions& options) {
+double length_of(const ExactProblem& problem, const FlowOptions& options) {
   constexpr double rounding = 1e-4;
   if (options.length > 0.0) return options.length;
-  const Eigen::MatrixXcd& free = problem.contact_free;
+  const Eigen::MatrixXcd& free = problem.linear_motion;
   const double whole = free.size() == 0 ? 0.0 : free.rowwise().norm().maxCoeff();
   return std::max(moving_length(problem), rounding * whole);
 }
@@ -63,9 +63,9 @@ void FlowOptions::validate() const {
   if (!(length >= 0.0)) detail::reject(who, "length", length, "0 for none or positive");
 }
 
-ContactFlow::Engine::Engine(const PhasesProblem& problem, const FlowOptions& options)
+ContactFlow::Engine::Engine(const ExactProblem& problem, const FlowOptions& options)
     : options_(options),
-      poles_(problem.dynamics, problem.contact_free, problem.frequency),
+      poles_(problem.dynamics, problem.linear_motion, problem.frequency),
       machines_(machines_of(problem.laws, problem.dynamics, length_of(problem, options), problem.frequency)),
       contacts_(machines_),
       nodes_(detail::panel_nodes),
@@ -106,7 +106,7 @@ Eigen::VectorXd ContactFlow::Engine::least_states(const Eigen::VectorXd& displac
 }
 
 void ContactFlow::Engine::start() {
-  const auto free = poles_.contact_free(Eigen::VectorXd::Zero(1));
+  const auto free = poles_.linear_motion(Eigen::VectorXd::Zero(1));
   states_ = poles_.complex_of(least_states(rest_position_ - free[0].col(0), -free[1].col(0))).col(0);
   now_.state.clear();
   now_.memory.assign(std::size_t(contacts_.memories()), 0.0);
@@ -131,7 +131,7 @@ void ContactFlow::Engine::start(const Eigen::VectorXd& state, const std::vector<
 
 void ContactFlow::Engine::start(const Engine& before) {
   const Eigen::VectorXd now = Eigen::VectorXd::Zero(1);
-  const auto there = before.poles_.contact_free(now), here = poles_.contact_free(now);
+  const auto there = before.poles_.linear_motion(now), here = poles_.linear_motion(now);
   states_ =
       before.states_ +
       poles_.complex_of(least_states(there[0].col(0) - here[0].col(0), there[1].col(0) - here[1].col(0)))
@@ -328,7 +328,7 @@ FlowStatus ContactFlow::Engine::advance_to(double time) {
   return FlowStatus::converged;
 }
 
-ContactFlow::ContactFlow(const PhasesProblem& problem, const FlowOptions& options) {
+ContactFlow::ContactFlow(const ExactProblem& problem, const FlowOptions& options) {
   options.validate();
   engine_ = std::make_unique<Engine>(problem, options);
 }

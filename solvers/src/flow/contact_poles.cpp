@@ -35,7 +35,7 @@ double fastest_turn(const Eigen::VectorXcd& exponents, const Eigen::MatrixXcd& o
 
 }  // namespace
 
-ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free,
+ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& linear_motion,
                            double frequency)
     : RealStates(exponents_of(dynamics)),
       period_(1.0 / frequency),
@@ -49,12 +49,12 @@ ContactPoles::ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixX
         "be viscous");
   const Index rows = dynamics.contacts();
   constexpr Index few = 64;  // harmonics, which are summed at once for all contacts
-  for (Index n = 0; n < contact_free.cols(); ++n)
-    if (!contact_free.col(n).isZero(0.0)) harmonics_.push_back(n);
-  if (Index(harmonics_.size()) <= few) keep_harmonics(contact_free);
+  for (Index n = 0; n < linear_motion.cols(); ++n)
+    if (!linear_motion.col(n).isZero(0.0)) harmonics_.push_back(n);
+  if (Index(harmonics_.size()) <= few) keep_harmonics(linear_motion);
   for (Index row = 0; row < (Index(harmonics_.size()) > few ? rows : 0); ++row)
-    free_.emplace_back(contact_free.row(row).transpose(), 2.0 * std::numbers::pi * frequency);
-  if (contact_free.size() > 0) free_scale_ = contact_free.rowwise().norm().maxCoeff();
+    free_.emplace_back(linear_motion.row(row).transpose(), 2.0 * std::numbers::pi * frequency);
+  if (linear_motion.size() > 0) free_scale_ = linear_motion.rowwise().norm().maxCoeff();
   outputs_[0] = shapes_of(dynamics);
   for (std::size_t d = 1; d < levels; ++d) outputs_[d] = outputs_[d - 1] * exponents_.asDiagonal();
   for (std::size_t i = 0; i < levels; ++i) {
@@ -73,13 +73,13 @@ const Eigen::MatrixXd& ContactPoles::feed(int level, int k) const {
 }
 
 // Amplitudes of all derivatives, real and imaginary parts beside each other.
-void ContactPoles::keep_harmonics(const Eigen::MatrixXcd& contact_free) {
+void ContactPoles::keep_harmonics(const Eigen::MatrixXcd& linear_motion) {
   const auto count = Index(harmonics_.size());
   for (std::size_t d = 0; d < levels; ++d) {
-    amplitudes_[d].resize(contact_free.rows(), 2 * count);
+    amplitudes_[d].resize(linear_motion.rows(), 2 * count);
     for (Index i = 0; i < count; ++i) {
       const double n = double(harmonics_[std::size_t(i)]);
-      const Eigen::VectorXcd own = contact_free.col(harmonics_[std::size_t(i)]) *
+      const Eigen::VectorXcd own = linear_motion.col(harmonics_[std::size_t(i)]) *
                                    std::pow(Complex(0.0, 2.0 * std::numbers::pi * n / period_), int(d));
       amplitudes_[d].col(2 * i) = own.real();
       amplitudes_[d].col(2 * i + 1) = -own.imag();
@@ -87,7 +87,7 @@ void ContactPoles::keep_harmonics(const Eigen::MatrixXcd& contact_free) {
   }
 }
 
-std::array<Eigen::MatrixXd, levels> ContactPoles::contact_free(const Eigen::VectorXd& times) const {
+std::array<Eigen::MatrixXd, levels> ContactPoles::linear_motion(const Eigen::VectorXd& times) const {
   std::array<Eigen::MatrixXd, levels> result;
   if (free_.empty()) {
     Eigen::MatrixXd waves(2 * Index(harmonics_.size()), times.size());

@@ -21,9 +21,9 @@ struct Signals : std::array<Eigen::MatrixXd, kinds> {
 /// the moments H_i = Re(c r^i b) and the flexibility of contacts without mass. Times in s.
 class ContactPoles : public RealStates {
  public:
-  /// Keeps no reference. contact_free is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
+  /// Keeps no reference. linear_motion is C x (H + 1), m: the n-th column belongs to Re(a exp(2 pi i n t)), t
   /// in periods. Throws std::invalid_argument for structural damping.
-  ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& contact_free, double frequency);
+  ContactPoles(const ContactDynamics& dynamics, const Eigen::MatrixXcd& linear_motion, double frequency);
 
   Index rows() const { return inputs_.cols(); }
   Index poles() const { return exponents_.size(); }
@@ -47,7 +47,7 @@ class ContactPoles : public RealStates {
   /// rad/s, of the fastest pole that rings and has more than a share of 1e-7 in the flexibility.
   double fastest() const { return fastest_; }
   /// The motion without contact at times, derivatives 0 to 3: R x N each.
-  std::array<Eigen::MatrixXd, levels> contact_free(const Eigen::VectorXd& times) const;
+  std::array<Eigen::MatrixXd, levels> linear_motion(const Eigen::VectorXd& times) const;
   double displacement_scale() const {
     return free_scale_;
   }  ///< m, the largest rms of the motion without contact
@@ -55,7 +55,7 @@ class ContactPoles : public RealStates {
  private:
   double period_, holding_, fastest_ = 0.0, free_scale_ = 0.0;
   Eigen::VectorXcd exponents_;
-  void keep_harmonics(const Eigen::MatrixXcd& contact_free);
+  void keep_harmonics(const Eigen::MatrixXcd& linear_motion);
 
   std::vector<HarmonicSeries> free_;                // of each row, of many harmonics
   std::vector<Index> harmonics_;                    // of the motion without contact, else

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "flow/closed_period.hpp"
-#include "flow/flow_phases.hpp"
+#include "flow/flow_intervals.hpp"
 #include "flow/flow_start.hpp"
 #include "flow/law_machines.hpp"
 #include "linalg/index.hpp"
@@ -18,32 +18,32 @@ namespace {
 
 using namespace detail;
 
-PhasesStatus refusal_of(const PhasesProblem& problem, bool free_period = false) {
+ExactStatus refusal_of(const ExactProblem& problem, bool free_period = false) {
   const ContactDynamics& dynamics = problem.dynamics;
   for (int row = 0; row < dynamics.contacts(); row += problem.laws[row].rows()) {
     const AnyContactLaw& law = problem.laws[row];
     const auto constants = law.friction();
     if (constants && constants->tangents > 1 && std::isinf(constants->tangential_stiffness))
-      return PhasesStatus::slip_in_a_plane;
-    if (!constants && !law.coupled() && law.acts_over_period()) return PhasesStatus::law_over_period;
+      return ExactStatus::slip_in_a_plane;
+    if (!constants && !law.coupled() && law.acts_over_period()) return ExactStatus::law_over_period;
     if (!constants && law.is_rigid() && !law.restitution() && inverse_mass_of(dynamics, row) > 0.0)
-      return PhasesStatus::rigid_contact;
+      return ExactStatus::rigid_contact;
   }
-  if (dynamics.structurally_damped()) return PhasesStatus::structural_damping;
-  if (free_period) return PhasesStatus::converged;
+  if (dynamics.structurally_damped()) return ExactStatus::structural_damping;
+  if (free_period) return ExactStatus::converged;
   constexpr double least = 1e-9;
   for (const ContactPole& pole : dynamics.poles())
-    if (!(std::abs(1.0 - std::exp(pole.exponent / problem.frequency)) > least)) return PhasesStatus::resonant;
-  return PhasesStatus::converged;
+    if (!(std::abs(1.0 - std::exp(pole.exponent / problem.frequency)) > least)) return ExactStatus::resonant;
+  return ExactStatus::converged;
 }
 
-void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
+void require_sizes(const ExactProblem& problem, const Eigen::MatrixXd& start,
                    const Eigen::MatrixXd& start_force) {
   const int rows = problem.dynamics.contacts();
   problem.laws.require(rows);
-  if (problem.contact_free.rows() != rows || problem.contact_free.cols() < 1)
-    throw std::invalid_argument("flow_motion: contact_free has " +
-                                std::to_string(problem.contact_free.rows()) + " rows; the structure has " +
+  if (problem.linear_motion.rows() != rows || problem.linear_motion.cols() < 1)
+    throw std::invalid_argument("flow_motion: linear_motion has " +
+                                std::to_string(problem.linear_motion.rows()) + " rows; the structure has " +
                                 std::to_string(rows) + " contact directions");
   if (start.rows() != rows || start.cols() < 8 || !start.allFinite())
     throw std::invalid_argument("flow_motion: start is " + std::to_string(start.rows()) + " x " +
@@ -60,9 +60,9 @@ void require_sizes(const PhasesProblem& problem, const Eigen::MatrixXd& start,
 
 // The least error of any solution, relative to the rms of the displacements: a large static deflection
 // without contact is rounded before contacts take it back.
-double rounding_of(const PhasesProblem& problem, const Eigen::MatrixXd& displacement) {
+double rounding_of(const ExactProblem& problem, const Eigen::MatrixXd& displacement) {
   const double size = displacement.norm() / std::sqrt(double(displacement.cols()));
-  return std::numeric_limits<double>::epsilon() * problem.contact_free.rowwise().norm().maxCoeff() / size;
+  return std::numeric_limits<double>::epsilon() * problem.linear_motion.rowwise().norm().maxCoeff() / size;
 }
 
 // Where a flow begins, in periods, in a motion without load whose time 0 is the first instant at which a
@@ -80,8 +80,8 @@ double begin_by_event(const ContactFlow& flow) {
 
 class MotionSearch {
  public:
-  MotionSearch(const PhasesProblem& problem, PeriodStart start, Index points,
-               const ContactPhasesOptions& options, bool free_period = false)
+  MotionSearch(const ExactProblem& problem, PeriodStart start, Index points,
+               const CollocationOptions& options, bool free_period = false)
       : original_(problem),
         free_period_(free_period),
         from_(std::move(start)),
@@ -92,7 +92,7 @@ class MotionSearch {
       length_ = ContactFlow(problem_).displacements_by_state().cwiseProduct(from_.state).norm();
   }
 
-  PhaseMotion run() {
+  ExactSolution run() {
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
       const bool refined = refine(tolerance);
       // Rounding may leave no digits to the last one, of tables with many points above all.
@@ -108,11 +108,11 @@ class MotionSearch {
     motion_.residual = found_.distance;
     motion_.iterations = iterations_;
     motion_.estimated_error = error_;
-    motion_.status = cancelled_                     ? PhasesStatus::cancelled
-                     : !found && exhausted_         ? PhasesStatus::too_many_phases
-                     : !found                       ? PhasesStatus::not_found
-                     : error_ <= options_.tolerance ? PhasesStatus::converged
-                                                    : PhasesStatus::tolerance_missed;
+    motion_.status = cancelled_                     ? ExactStatus::cancelled
+                     : !found && exhausted_         ? ExactStatus::too_many_phases
+                     : !found                       ? ExactStatus::not_found
+                     : error_ <= options_.tolerance ? ExactStatus::converged
+                                                    : ExactStatus::tolerance_missed;
     return std::move(motion_);
   }
 
@@ -151,7 +151,7 @@ class MotionSearch {
     exhausted_ = exhausted_ || int(flow.panels().size()) >= most_panels;
     if (!closed.found) return false;
     const double begin = free_period_ ? begin_by_event(flow) : from_.begin;
-    motion_ = motion_of({original_.dynamics, original_.laws, original_.contact_free, 1.0 / closed.period},
+    motion_ = motion_of({original_.dynamics, original_.laws, original_.linear_motion, 1.0 / closed.period},
                         flow, {begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
     const double rounded = rounding_of(problem_, now);
@@ -166,17 +166,17 @@ class MotionSearch {
     return true;
   }
 
-  const PhasesProblem& original_;
+  const ExactProblem& original_;
   bool free_period_;
   double length_ = 0.0;  // m, or 0
   PeriodStart from_;
-  PhasesProblem problem_;  // from the time at which the flow begins
-  const ContactPhasesOptions& options_;
+  ExactProblem problem_;  // from the time at which the flow begins
+  const CollocationOptions& options_;
   Eigen::VectorXd times_;
   // What was found.
   std::optional<ContactFlow> flow_;
   ClosedPeriod found_;
-  PhaseMotion motion_;
+  ExactSolution motion_;
   Eigen::MatrixXd displacement_;
   double error_ = std::numeric_limits<double>::infinity(), operations_left_ = options_.max_operations;
   int iterations_ = 0;
@@ -185,15 +185,15 @@ class MotionSearch {
 
 }  // namespace
 
-PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                        const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
+ExactSolution flow_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
+                          const CollocationOptions& options, const Eigen::MatrixXd& start_force) {
   options.validate();
   require_sizes(problem, start, start_force);
-  PhaseMotion refused;
+  ExactSolution refused;
   refused.status = refusal_of(problem);
   if (!refused.converged()) return refused;
   const Eigen::MatrixXd force = start_force.size() > 0 ? start_force : problem.laws.force(start);
-  PhaseMotion motion =
+  ExactSolution motion =
       MotionSearch(problem, start_near(problem, start, force, 0.5), start.cols(), options).run();
   if (motion.parts == nullptr) return motion;
   const Eigen::MatrixXd found =
@@ -202,29 +202,29 @@ PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& sta
   return motion;
 }
 
-PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& start,
-                             const ContactPhasesOptions& options) {
+ExactSolution flow_motion_from(const ExactProblem& problem, const PeriodStart& start,
+                               const CollocationOptions& options) {
   constexpr Index points = 1024;  // at which two solutions are compared
   options.validate();
-  PhaseMotion refused;
+  ExactSolution refused;
   refused.status = refusal_of(problem);
   return refused.converged() ? MotionSearch(problem, start, points, options).run() : refused;
 }
 
-PhaseMotion autonomous_motion_from(const PhasesProblem& problem, const PeriodStart& start,
-                                   const ContactPhasesOptions& options) {
+ExactSolution autonomous_motion_from(const ExactProblem& problem, const PeriodStart& start,
+                                     const CollocationOptions& options) {
   constexpr Index points = 1024;
   options.validate();
-  PhaseMotion refused;
+  ExactSolution refused;
   refused.status = refusal_of(problem, true);
   return refused.converged() ? MotionSearch(problem, start, points, options, true).run() : refused;
 }
 
-PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                         const ContactPhasesOptions& options, const Eigen::MatrixXd& start_force) {
-  using enum PhasesStatus;
+ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
+                           const CollocationOptions& options, const Eigen::MatrixXd& start_force) {
+  using enum ExactStatus;
   if (problem.laws.act_over_period()) return flow_motion(problem, start, options, start_force);
-  PhaseMotion motion = contact_phases(problem, start, options, start_force);
+  ExactSolution motion = collocation_motion(problem, start, options, start_force);
   const bool failed =
       motion.status == not_found || motion.status == too_many_phases || motion.status == tolerance_missed;
   if (!failed) return motion;
@@ -233,7 +233,7 @@ PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& st
         Eigen::VectorXd::LinSpaced(start.cols(), 0.0, 1.0 - 1.0 / double(start.cols()));
     if (rounding_of(problem, motion.displacement(times)) > options.tolerance) return motion;
   }
-  PhaseMotion other = flow_motion(problem, start, options, start_force);
+  ExactSolution other = flow_motion(problem, start, options, start_force);
   if (other.status == cancelled) motion.status = cancelled;  // nothing is known of what was not tried
   const bool better =
       other.parts != nullptr && (motion.parts == nullptr || other.estimated_error < motion.estimated_error);

@@ -13,7 +13,7 @@ namespace wavebalance::solvers {
 /// What ContactFlow keeps.
 class ContactFlow::Engine {
  public:
-  Engine(const PhasesProblem& problem, const FlowOptions& options);
+  Engine(const ExactProblem& problem, const FlowOptions& options);
 
   void start();
   void start(const Eigen::VectorXd& state, const std::vector<int>& contacts);
@@ -68,7 +68,7 @@ class ContactFlow::Engine {
   detail::PanelMotion motion(const detail::PanelShape& shape) const {
     return {poles_, shape, time_, states_, now_.memory};
   }
-  void set_small_force(const PhasesProblem& problem);
+  void set_small_force(const ExactProblem& problem);
   const detail::PanelShape& shape(int level);
   /// Whether memories turn as fast as forces tell, and at what rate others settle, 1/s.
   struct Moving {

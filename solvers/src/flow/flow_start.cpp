@@ -85,7 +85,7 @@ Eigen::MatrixXcd harmonics_of(const Eigen::MatrixXd& samples) {
 
 }  // namespace
 
-PeriodStart start_near(const PhasesProblem& problem, const Eigen::MatrixXd& displacement,
+PeriodStart start_near(const ExactProblem& problem, const Eigen::MatrixXd& displacement,
                        const Eigen::MatrixXd& force, double share_of_calm) {
   const auto machines =
       machines_of(problem.laws, problem.dynamics, displacement.cwiseAbs().maxCoeff(), problem.frequency);
@@ -110,7 +110,7 @@ Calm longest_calm(const std::vector<FlowEvent>& events, double whole) {
   return longest;
 }
 
-std::optional<PeriodStart> calmed(const PhasesProblem& problem, const PeriodStart& start,
+std::optional<PeriodStart> calmed(const ExactProblem& problem, const PeriodStart& start,
                                   const std::vector<FlowEvent>& events, double share_of_calm,
                                   const FlowOptions& options) {
   if (events.empty()) return start;
@@ -123,9 +123,9 @@ std::optional<PeriodStart> calmed(const PhasesProblem& problem, const PeriodStar
   return PeriodStart{std::fmod(start.begin + later / whole, 1.0), flow.state(), flow.contact_states()};
 }
 
-PhasesProblem begun_at(PhasesProblem problem, double begin) {
-  for (Index n = 0; n < problem.contact_free.cols(); ++n)
-    problem.contact_free.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * begin);
+ExactProblem begun_at(ExactProblem problem, double begin) {
+  for (Index n = 0; n < problem.linear_motion.cols(); ++n)
+    problem.linear_motion.col(n) *= std::polar(1.0, 2.0 * std::numbers::pi * double(n) * begin);
   return problem;
 }
 

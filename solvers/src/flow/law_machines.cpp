@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "collocation/law_segments.hpp"
 #include "flow/law_machines.hpp"
-#include "phases/law_pieces.hpp"
 #include "wavebalance/solvers/flow/law_machine.hpp"
 
 namespace wavebalance::solvers {
@@ -33,9 +33,9 @@ RowForce no_force() { return {}; }
 
 /// A law of the displacement, or of displacement and velocity: a state for each of its pieces, and where it
 /// does not pull one more for each piece that is left before the displacement comes back.
-class PieceMachine final : public LawMachine {
+class SegmentMachine final : public LawMachine {
  public:
-  PieceMachine(AnyContactLaw law, double length)
+  SegmentMachine(AnyContactLaw law, double length)
       : pulls_(!law.depends_on_velocity() || !law.unilateral()), law_(std::move(law), length, 0.0, {}) {
     for (int state = 0; state < 2 * law_.count(); ++state) ways_.push_back(ways_of(state));
   }
@@ -109,7 +109,7 @@ class PieceMachine final : public LawMachine {
   }
 
   bool pulls_;
-  detail::LawPieces law_;
+  detail::LawSegments law_;
   std::vector<std::vector<Way>> ways_;  // by state
 };
 
@@ -184,7 +184,7 @@ std::shared_ptr<const LawMachine> machine_of(const AnyContactLaw& law, const Con
   if (law.acts_over_period())
     throw std::invalid_argument("machines_of: contact " + std::to_string(row) +
                                 " has a law over a period without states");
-  if (!law.is_rigid()) return std::make_shared<PieceMachine>(law, length);
+  if (!law.is_rigid()) return std::make_shared<SegmentMachine>(law, length);
   const bool mass = inverse_mass_of(dynamics, row) > 0.0;
   const auto restitution = mass ? law.restitution() : std::nullopt;
   if (!mass || restitution) return std::make_shared<RigidMachine>(law.gap(), restitution, rate);

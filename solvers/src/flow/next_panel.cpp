@@ -13,7 +13,7 @@ namespace wavebalance::solvers {
 
 // Forces that move no contact by a thousandth of its length in a period need few digits of their own. The
 // first ones of a power law, which rise as d^1.5 where it is touched, have none on any panel.
-void ContactFlow::Engine::set_small_force(const PhasesProblem& problem) {
+void ContactFlow::Engine::set_small_force(const ExactProblem& problem) {
   constexpr double share = 1e-3;
   const double rate = 2.0 * std::numbers::pi * problem.frequency;
   double mobility = 0.0;  // 1/kg

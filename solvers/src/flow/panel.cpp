@@ -140,7 +140,7 @@ Signals PanelMotion::at(const PoleWaves& waves, const NodeValues& values) const 
   Signals signals;
   for (int k = 0; k < kinds - force_kind; ++k)
     signals[std::size_t(force_kind + k)] = product_transposed(force, waves.forces[std::size_t(k)]);
-  const auto free = poles.contact_free(Eigen::VectorXd(begin + shape.half() * (waves.points.array() + 1.0)));
+  const auto free = poles.linear_motion(Eigen::VectorXd(begin + shape.half() * (waves.points.array() + 1.0)));
   for (int d = 0; d < levels; ++d) {
     Eigen::MatrixXd& own = signals[std::size_t(d)];
     own = product(poles.real_outputs(d), real_states) + free[std::size_t(d)];

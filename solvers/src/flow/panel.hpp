@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "collocation/legendre_integrals.hpp"
 #include "flow/contact_poles.hpp"
-#include "phases/legendre_integrals.hpp"
 
 namespace wavebalance::solvers::detail {
 

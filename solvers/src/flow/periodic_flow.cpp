@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "flow/closed_period.hpp"
-#include "flow/flow_phases.hpp"
+#include "flow/flow_intervals.hpp"
 #include "linalg/index.hpp"
 #include "period/past_periods.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -35,14 +35,14 @@ FlowStatus sampled_period(ContactFlow& flow, Motion& motion, PeriodStart& begin,
 }
 
 // Periods one after the other until the motion repeats.
-TimeSteppingStatus run(ContactFlow& flow, const PhasesProblem& problem, const TimeSteppingOptions& options,
+TimeSteppingStatus run(ContactFlow& flow, const ExactProblem& problem, const TimeSteppingOptions& options,
                        PeriodStart& begin, FlowMotion& result) {
   constexpr double flow_errors = 1e-8;  // of a period
   constexpr double rounding = 1e-7;     // of the motion without contact, where a contact rests
   TimeSteppingResult& stepping = result.stepping;
   const Index rows = problem.dynamics.contacts();
   PastPeriods past(options.longest, options.period_tolerance,
-                   rounding * problem.contact_free.norm() * std::sqrt(options.output_points));
+                   rounding * problem.linear_motion.norm() * std::sqrt(options.output_points));
   double nearest = std::numeric_limits<double>::infinity();
   while (stepping.periods < options.max_periods) {
     Motion period = empty_motion(rows, options.output_points);
@@ -87,7 +87,7 @@ void close(ContactFlow& flow, FlowMotion& result) {
 
 }  // namespace
 
-FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
+FlowMotion integrate_by_events(const ExactProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow_options, const Eigen::VectorXcd& poles) {
   options.validate();
   ContactFlow flow(problem, flow_options);
@@ -112,7 +112,7 @@ FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingO
 FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,
                                const ContactLaws& laws, const TimeSteppingOptions& options,
                                const FlowOptions& flow) {
-  return integrate_by_events(phases_problem(problem, laws, dynamics), options, flow);
+  return integrate_by_events(exact_problem(problem, laws, dynamics), options, flow);
 }
 
 }  // namespace wavebalance::solvers

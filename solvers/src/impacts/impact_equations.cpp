@@ -88,15 +88,15 @@ Eigen::VectorXd ImpactEquations::by_parameter(const ParameterSlopes& slopes) con
   const double length = model_.displacement_scale(), speed = model_.velocity_scale();
   const double frequency = model_.problem().frequency,
                period_slope = -slopes.frequency / (frequency * frequency);
-  const Eigen::MatrixXcd& free = model_.problem().contact_free;
+  const Eigen::MatrixXcd& free = model_.problem().linear_motion;
   Eigen::VectorXd slope = Eigen::VectorXd::Zero(2 * k);
   for (Index i = 0; i < k; ++i) {
     const int c = contacts_[static_cast<std::size_t>(i)];
     for (Index n = 0; n < free.cols(); ++n) {
       const std::complex<double> phase = std::polar(1.0, turn * double(n) * unknowns_[i]);
       const std::complex<double> rate =
-          turn * double(n) * (frequency * slopes.contact_free(c, n) + slopes.frequency * free(c, n));
-      slope[i] += (slopes.contact_free(c, n) * phase).real() / length;
+          turn * double(n) * (frequency * slopes.linear_motion(c, n) + slopes.frequency * free(c, n));
+      slope[i] += (slopes.linear_motion(c, n) * phase).real() / length;
       slope[k + i] += (rate * phase).imag() / speed;
     }
     slope[i] -= period_slope * value_by_period_.row(i).sum();

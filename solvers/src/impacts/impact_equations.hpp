@@ -8,8 +8,8 @@ namespace wavebalance::solvers::detail {
 
 /// The motion without contact by a parameter of a curve: slopes by it.
 struct ParameterSlopes {
-  Eigen::MatrixXcd contact_free;  ///< C x (H + 1), m per unit
-  double frequency = 0.0;         ///< Hz per unit
+  Eigen::MatrixXcd linear_motion;  ///< C x (H + 1), m per unit
+  double frequency = 0.0;          ///< Hz per unit
 };
 
 /// The 2 K equations of K impacts in ascending order: displacement less gap over the scale of displacements,

@@ -57,7 +57,7 @@ bool ImpactFlow::rebound(int contact) {
   const double pressing = model_.motion(state_, time_).acceleration[contact];
   const bool vanishes = before <= vanishing * fastest_;
   if (!(pressing > 0.0) || !(restitution == 0.0 || (vanishes && restitution < 1.0))) return true;
-  end_ = restitution == 0.0 ? PhasesStatus::lasting_contact : PhasesStatus::chattering;
+  end_ = restitution == 0.0 ? ExactStatus::lasting_contact : ExactStatus::chattering;
   end_contact_ = contact;
   end_time_ = time_ + 2.0 * restitution * before / ((1.0 - restitution) * pressing * model_.period());
   return false;
@@ -93,8 +93,8 @@ bool ImpactFlow::advance_to(double time) {
     Flight flight(model_, state_, time_, length, allowed_penetration(model_));
     const Touch touch = flight.first_touch();
     if (touch.kind == Touch::Kind::unresolved) {
-      end_ = comes_to_rest(time_ + touch.time / model_.period()) ? PhasesStatus::chattering
-                                                                 : PhasesStatus::grazing;
+      end_ = comes_to_rest(time_ + touch.time / model_.period()) ? ExactStatus::chattering
+                                                                 : ExactStatus::grazing;
       return false;
     }
     const bool free = touch.kind == Touch::Kind::none;
@@ -103,7 +103,7 @@ bool ImpactFlow::advance_to(double time) {
     if (free) return state_.allFinite();
     if (!rebound(touch.contact)) return false;
   }
-  end_ = PhasesStatus::too_many_impacts;
+  end_ = ExactStatus::too_many_impacts;
   return false;
 }
 

@@ -24,7 +24,7 @@ class ImpactFlow {
   /// Goes on for a period, after which the time is again what it was before, and those of all events are one
   /// less. False where it ends within, by what end() says.
   bool advance_period();
-  PhasesStatus end() const { return end_; }
+  ExactStatus end() const { return end_; }
   /// When chattering ends, or lasting contact begins.
   double end_time() const { return end_time_; }
   int end_contact() const { return end_contact_; }
@@ -43,7 +43,7 @@ class ImpactFlow {
   Eigen::VectorXcd state_;
   double time_ = 0.0, fastest_ = 0.0;
   std::vector<Event> events_;
-  PhasesStatus end_ = PhasesStatus::not_settled;
+  ExactStatus end_ = ExactStatus::not_settled;
   double end_time_ = missing;
   int end_contact_ = -1;
 };

@@ -20,16 +20,16 @@ using Complex = std::complex<double>;
 constexpr double turn = 2.0 * std::numbers::pi;
 
 // The sum of the moduli of a derivative's harmonics.
-double magnitude_of(const PhasesProblem& problem, int c, int derivative) {
+double magnitude_of(const ExactProblem& problem, int c, int derivative) {
   double sum = 0.0;
-  for (Index n = 0; n < problem.contact_free.cols(); ++n)
-    sum += std::pow(turn * double(n) * problem.frequency, derivative) * std::abs(problem.contact_free(c, n));
+  for (Index n = 0; n < problem.linear_motion.cols(); ++n)
+    sum += std::pow(turn * double(n) * problem.frequency, derivative) * std::abs(problem.linear_motion(c, n));
   return sum;
 }
 
 }  // namespace
 
-FreeScales free_scales(const PhasesProblem& problem) {
+FreeScales free_scales(const ExactProblem& problem) {
   FreeScales scales;
   for (int c = 0; c < problem.dynamics.contacts(); ++c) {
     const double gap = std::abs(problem.laws[c].gap());
@@ -41,7 +41,7 @@ FreeScales free_scales(const PhasesProblem& problem) {
   return scales;
 }
 
-ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
+ImpactModel::ImpactModel(const ExactProblem& problem, const ImpactModel* like)
     : problem_(problem),
       gaps_(problem.laws.gaps(problem.dynamics.contacts())),
       restitution_(problem.laws.restitution(problem.dynamics.contacts())),
@@ -62,7 +62,7 @@ ImpactModel::ImpactModel(const PhasesProblem& problem, const ImpactModel* like)
   free_third_.resize(contacts());
   for (int c = 0; c < contacts(); ++c) {
     free_third_[c] = free_magnitude(c, 3);
-    free_.emplace_back(problem.contact_free.row(c).transpose(), turn * problem.frequency);
+    free_.emplace_back(problem.linear_motion.row(c).transpose(), turn * problem.frequency);
   }
 }
 
@@ -131,13 +131,13 @@ ContactsAt ImpactModel::motion(const Eigen::VectorXcd& state, double time) const
   return result;
 }
 
-void require_impacts(const PhasesProblem& problem) {
+void require_impacts(const ExactProblem& problem) {
   const char* who = "impact_motion";
   const ContactDynamics& dynamics = problem.dynamics;
   require_positive(who, "frequency", problem.frequency);
   const int contacts = dynamics.contacts();
-  if (problem.contact_free.rows() != contacts || problem.contact_free.cols() < 1)
-    throw std::invalid_argument("impact_motion: there are " + std::to_string(problem.contact_free.rows()) +
+  if (problem.linear_motion.rows() != contacts || problem.linear_motion.cols() < 1)
+    throw std::invalid_argument("impact_motion: there are " + std::to_string(problem.linear_motion.rows()) +
                                 " motions without contact for " + std::to_string(contacts) +
                                 " contacts; there must be one each");
   problem.laws.require(contacts);

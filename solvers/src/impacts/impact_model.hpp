@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "flow/contact_poles.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 
@@ -25,7 +25,7 @@ struct GreenValues {
 struct FreeScales {
   double displacement = 0.0, velocity = 0.0;
 };
-FreeScales free_scales(const PhasesProblem& problem);
+FreeScales free_scales(const ExactProblem& problem);
 
 /// What does not change while impacts of one period are sought: the poles of the contacts, y' = lambda y
 /// between impacts and y -> y - p left at one, with the displacements Re(shapes y) beside the motion without
@@ -34,9 +34,9 @@ class ImpactModel {
  public:
   /// Keeps no reference but that to the dynamics. What belongs to these alone is taken from a model that has
   /// the same ones.
-  explicit ImpactModel(const PhasesProblem& problem, const ImpactModel* like = nullptr);
+  explicit ImpactModel(const ExactProblem& problem, const ImpactModel* like = nullptr);
 
-  const PhasesProblem& problem() const { return problem_; }
+  const ExactProblem& problem() const { return problem_; }
   const Eigen::VectorXd& gaps() const { return gaps_; }                ///< C, m
   const Eigen::VectorXd& restitution() const { return restitution_; }  ///< C
   double period() const { return period_; }                            ///< s
@@ -74,7 +74,7 @@ class ImpactModel {
  private:
   std::complex<double> periodic(Eigen::Index pole, double share) const;
 
-  PhasesProblem problem_;
+  ExactProblem problem_;
   Eigen::VectorXd gaps_, restitution_;
   double period_;
   std::vector<HarmonicSeries> free_;  // of each contact
@@ -87,6 +87,6 @@ class ImpactModel {
 };
 
 /// Throws std::invalid_argument as impact_motion() does for a problem.
-void require_impacts(const PhasesProblem& problem);
+void require_impacts(const ExactProblem& problem);
 
 }  // namespace wavebalance::solvers::detail

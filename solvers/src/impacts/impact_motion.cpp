@@ -7,13 +7,13 @@
 #include <numbers>
 #include <numeric>
 
+#include "collocation/exact_solution_parts.hpp"
 #include "impacts/impact_equations.hpp"
 #include "impacts/impact_parts.hpp"
 #include "linalg/damped_newton.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/index.hpp"
 #include "linalg/option_checks.hpp"
-#include "phases/phase_motion_parts.hpp"
 
 namespace wavebalance::solvers {
 
@@ -55,9 +55,9 @@ class ImpactSystem {
   const Observer& observer_;
 };
 
-PhasesStatus status_of(detail::NewtonEnd end) {
-  if (end == detail::NewtonEnd::solved) return PhasesStatus::converged;
-  return end == detail::NewtonEnd::cancelled ? PhasesStatus::cancelled : PhasesStatus::not_found;
+ExactStatus status_of(detail::NewtonEnd end) {
+  if (end == detail::NewtonEnd::solved) return ExactStatus::converged;
+  return end == detail::NewtonEnd::cancelled ? ExactStatus::cancelled : ExactStatus::not_found;
 }
 
 // Steps that gain what rounding leaves, after the equations hold to their rounding errors.
@@ -76,7 +76,7 @@ void polish(ImpactSystem& system, Eigen::VectorXd& unknowns) {
   }
 }
 
-void check_start(const PhasesProblem& problem, const std::vector<ImpactGuess>& start) {
+void check_start(const ExactProblem& problem, const std::vector<ImpactGuess>& start) {
   for (const ImpactGuess& guess : start) {
     if (guess.contact < 0 || guess.contact >= problem.dynamics.contacts())
       detail::reject("impact_motion", "contact", guess.contact, "a contact of the structure");
@@ -93,7 +93,7 @@ void check_flights(detail::ImpactSolution& motion) {
     const detail::Touch touch = flight.first_touch();
     if (touch.kind == detail::Touch::Kind::none) continue;
     const bool unknown = touch.kind == detail::Touch::Kind::unresolved;
-    motion.status = unknown ? PhasesStatus::grazing : PhasesStatus::penetrating;
+    motion.status = unknown ? ExactStatus::grazing : ExactStatus::penetrating;
     if (unknown) return;
     const auto peak = flight.peak_after(touch);
     if (!(peak.height > allowed) || peak.height <= motion.penetration) continue;
@@ -190,11 +190,11 @@ ImpactSolution solution_of(std::shared_ptr<const ImpactModel> model, const Impac
   found.states = states_after(*model, found.impacts);
   found.model = std::move(model);
   const auto pulls = [](const Impact& impact) { return !(impact.impulse > 0.0); };
-  found.status = PhasesStatus::converged;
+  found.status = ExactStatus::converged;
   if (!in_order(unknowns))
-    found.status = PhasesStatus::wrong_order;
+    found.status = ExactStatus::wrong_order;
   else if (std::ranges::any_of(found.impacts, pulls))
-    found.status = PhasesStatus::pulling;
+    found.status = ExactStatus::pulling;
   else
     check_flights(found);
   // The first impact of the period is the first of the list.
@@ -246,7 +246,7 @@ ContactsAt ImpactSolution::at(double time) const {
       model->growth(since * model->period()).cwiseProduct(states.col(last - impacts.begin())), share);
 }
 
-ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
+ImpactSolution impact_solution(const ExactProblem& problem, const std::vector<ImpactGuess>& start,
                                const Observer& observer) {
   constexpr double smallest_step = 1e-6;
   constexpr int most_steps = 40;
@@ -254,7 +254,7 @@ ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<I
   const auto model = std::make_shared<const ImpactModel>(problem);
   ImpactSolution found;
   if (!start.empty() && model->is_resonant()) {
-    found.status = PhasesStatus::resonant;
+    found.status = ExactStatus::resonant;
     return found;
   }
   ImpactUnknowns unknowns = unknowns_of(*model, start);
@@ -271,8 +271,8 @@ ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<I
   return found;
 }
 
-PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution) {
-  PhaseMotion motion;
+ExactSolution motion_of(std::shared_ptr<const ImpactSolution> solution) {
+  ExactSolution motion;
   motion.status = solution->status;
   motion.impacts = solution->impacts;
   motion.unknowns = 2 * int(solution->impacts.size());
@@ -280,8 +280,8 @@ PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution) {
   motion.residual = solution->residual;
   if (!solution->converged()) return motion;
   constexpr int nodes = 2;  // of no panels
-  const PhasesProblem& problem = solution->model->problem();
-  PhaseMotion::Parts parts{PhaseModel(problem, 1.0), {}, LegendreNodes(nodes), {}, {}};
+  const ExactProblem& problem = solution->model->problem();
+  ExactSolution::Parts parts{CollocationModel(problem, 1.0), {}, LegendreNodes(nodes), {}, {}};
   CellGrid grid = grid_of(motion.impacts, problem.frequency);
   if (!motion.impacts.empty())
     grid.begin = {grid.cells() - 1, parts.model.response.states(solution->states.rightCols(1))};
@@ -290,14 +290,14 @@ PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution) {
     parts.multipliers = [known = std::async(std::launch::deferred, [solution] {
                                    return multipliers_of(*solution);
                                  }).share()] { return known.get(); };
-  motion.parts = PhaseMotion::Parts::complete(std::move(parts));
+  motion.parts = ExactSolution::Parts::complete(std::move(parts));
   return motion;
 }
 
 }  // namespace detail
 
-PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                          const Observer& observer) {
+ExactSolution impact_motion(const ExactProblem& problem, const std::vector<ImpactGuess>& start,
+                            const Observer& observer) {
   detail::require_impacts(problem);
   return detail::motion_of(
       std::make_shared<const detail::ImpactSolution>(detail::impact_solution(problem, start, observer)));

@@ -12,7 +12,7 @@ namespace wavebalance::solvers::detail {
 
 /// A solution of the equations of impacts, and whether it is a motion of the structure.
 struct ImpactSolution {
-  PhasesStatus status = PhasesStatus::not_found;
+  ExactStatus status = ExactStatus::not_found;
   std::vector<Impact> impacts;  ///< by time
   int iterations = 0;
   /// Largest error of the equations over the scales of displacement and velocity.
@@ -24,17 +24,17 @@ struct ImpactSolution {
   std::shared_ptr<const ImpactModel> model;
   Eigen::MatrixXcd states;  ///< poles x impacts: right after each impact
 
-  bool converged() const { return status == PhasesStatus::converged; }
+  bool converged() const { return status == ExactStatus::converged; }
   /// The whole motion of the contacts at a time in periods; right after an impact at one.
   ContactsAt at(double time) const;
 };
 
 /// impact_motion() as a solution.
-ImpactSolution impact_solution(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
+ImpactSolution impact_solution(const ExactProblem& problem, const std::vector<ImpactGuess>& start,
                                const Observer& observer = {});
 
 /// The motion of a solution, if it is one.
-PhaseMotion motion_of(std::shared_ptr<const ImpactSolution> solution);
+ExactSolution motion_of(std::shared_ptr<const ImpactSolution> solution);
 
 /// The Floquet multipliers of a motion with impacts over its period, by falling modulus. Those that the
 /// longest flight leaves no more of than rounding are left out. Empty where they are not found. O(K s n +

@@ -11,7 +11,7 @@ void ImpactResponseOptions::validate() const {
   detail::require_positive("ImpactResponseOptions", "near", near);
 }
 
-ImpactResponse impact_response(const PhasesProblem& problem, const ImpactResponseOptions& options) {
+ImpactResponse impact_response(const ExactProblem& problem, const ImpactResponseOptions& options) {
   detail::require_impacts(problem);
   options.validate();
   if (options.start.size() != 0 && options.start.size() != Eigen::Index(problem.dynamics.poles().size()))

@@ -7,7 +7,7 @@
 #include "impacts/impact_parts.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -18,7 +18,7 @@ Eigen::VectorXd velocity_weights(const ImpactModel& model) {
 
 }  // namespace
 
-ImpactSearch::ImpactSearch(const PhasesProblem& problem, const ImpactResponseOptions& options)
+ImpactSearch::ImpactSearch(const ExactProblem& problem, const ImpactResponseOptions& options)
     : problem_(problem),
       options_(options),
       model_(problem),
@@ -31,14 +31,14 @@ ImpactResponse ImpactSearch::run() {
   flow_.start(options_.start);
   states_.push_front(flow_.state());
   for (period_ = 1; period_ <= options_.max_periods; ++period_) {
-    if (!goes_on(options_.observer, progress())) return ended(PhasesStatus::cancelled);
+    if (!goes_on(options_.observer, progress())) return ended(ExactStatus::cancelled);
     if (!flow_.advance_period()) return ended(flow_.end());
     states_.push_front(flow_.state());
     if (states_.size() > best_.size() + 1) states_.pop_back();
     flow_.forget_before(flow_.time() - options_.longest);
     if (look_back()) return finished(found_);
   }
-  return ended(PhasesStatus::not_settled);
+  return ended(ExactStatus::not_settled);
 }
 
 Progress ImpactSearch::progress() const {
@@ -109,19 +109,19 @@ void ImpactSearch::set_multipliers(ImpactResponse& response) {
 }
 
 // The exact motion with contact that lasts, from the first state.
-ImpactResponse ImpactSearch::resting(PhasesStatus status) const {
+ImpactResponse ImpactSearch::resting(ExactStatus status) const {
   TimeSteppingOptions stepping;
   stepping.max_periods = options_.max_periods;
   stepping.longest = options_.longest;
   stepping.observer = options_.observer;
   ImpactFlow clear(model_);
   clear.start(options_.start);
-  SettledExact settled = settled_motion(problem_, stepping, {.observer = options_.observer},
-                                        PoleStart{clear.time(), clear.state()});
+  ExactAttractor settled = attractor_motion(problem_, stepping, {.observer = options_.observer},
+                                            PoleStart{clear.time(), clear.state()});
   ImpactResponse response = none(status);
   response.integrated = settled.settled.stepping.periods;
   response.load_periods = settled.load_periods;
-  if (settled.motion.status == PhasesStatus::cancelled) response.motion.status = PhasesStatus::cancelled;
+  if (settled.motion.status == ExactStatus::cancelled) response.motion.status = ExactStatus::cancelled;
   if (settled.motion.parts == nullptr) return response;
   response.motion = std::move(settled.motion);
   set_multipliers(response);
@@ -145,12 +145,12 @@ ImpactResponse ImpactSearch::finished(ImpactResponse response) const {
 }
 
 // Without a stable motion: one that is unstable, or one near the closest returns, or none.
-ImpactResponse ImpactSearch::ended(PhasesStatus status) {
-  const bool named = status == PhasesStatus::chattering || status == PhasesStatus::lasting_contact ||
-                     status == PhasesStatus::grazing;
-  if (status == PhasesStatus::cancelled) return none(status);
+ImpactResponse ImpactSearch::ended(ExactStatus status) {
+  const bool named = status == ExactStatus::chattering || status == ExactStatus::lasting_contact ||
+                     status == ExactStatus::grazing;
+  if (status == ExactStatus::cancelled) return none(status);
   const ImpactResponse rests = named ? resting(status) : none(status);
-  if (rests.motion.converged() || rests.motion.status == PhasesStatus::cancelled) return rests;
+  if (rests.motion.converged() || rests.motion.status == ExactStatus::cancelled) return rests;
   for (const NearReturn& start : best_) {
     if (found_.motion.converged()) break;
     if (!std::isfinite(start.distance) || start.impacts.empty()) continue;
@@ -162,10 +162,10 @@ ImpactResponse ImpactSearch::ended(PhasesStatus status) {
   return better ? finished(found_) : rests;
 }
 
-ImpactResponse ImpactSearch::none(PhasesStatus status) const {
+ImpactResponse ImpactSearch::none(ExactStatus status) const {
   ImpactResponse response;
   response.motion.status = status;
-  const bool lasts = status == PhasesStatus::chattering || status == PhasesStatus::lasting_contact;
+  const bool lasts = status == ExactStatus::chattering || status == ExactStatus::lasting_contact;
   if (lasts) {
     response.chattering_end = period_ + flow_.end_time();
     response.chattering_contact = flow_.end_contact();

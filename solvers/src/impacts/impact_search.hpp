@@ -19,7 +19,7 @@ struct NearReturn {
 class ImpactSearch {
  public:
   /// Both must outlive it.
-  ImpactSearch(const PhasesProblem& problem, const ImpactResponseOptions& options);
+  ImpactSearch(const ExactProblem& problem, const ImpactResponseOptions& options);
 
   /// From the state of the options on.
   ImpactResponse run();
@@ -34,12 +34,12 @@ class ImpactSearch {
   bool is_motion(const NearReturn& start);
   ImpactResponse solve(const NearReturn& start) const;
   static void set_multipliers(ImpactResponse& response);
-  ImpactResponse resting(PhasesStatus status) const;
+  ImpactResponse resting(ExactStatus status) const;
   ImpactResponse finished(ImpactResponse response) const;
-  ImpactResponse ended(PhasesStatus status);
-  ImpactResponse none(PhasesStatus status) const;
+  ImpactResponse ended(ExactStatus status);
+  ImpactResponse none(ExactStatus status) const;
 
-  const PhasesProblem& problem_;
+  const ExactProblem& problem_;
   const ImpactResponseOptions& options_;
   ImpactModel model_;
   ImpactFlow flow_;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "period/contact_free_motion.hpp"
+#include "period/linear_motion.hpp"
 #include "period/modal_flow.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
@@ -57,7 +57,7 @@ class ModalMap {
   Period advance(const PeriodState& begin, const StepControl& control);
   double operations() const { return operations_; }  ///< of all periods so far
 
-  const ContactFreeMotion& free_motion() const { return free_; }
+  const LinearMotion& free_motion() const { return free_; }
 
  private:
   using Ticks = std::int64_t;
@@ -78,7 +78,7 @@ class ModalMap {
 
   const ContactLaws& laws_;
   int steps_;
-  ContactFreeMotion free_;
+  LinearMotion free_;
   std::vector<ModalFlow> flows_;  // of the steps halved 0, 1, 2, ... times
   Eigen::VectorXd free_state_;
   Eigen::VectorXd clear_below_;  // C, m: no force at or below

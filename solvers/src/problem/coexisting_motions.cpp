@@ -22,7 +22,7 @@ namespace {
 using detail::MotionSamples, detail::points_of_period;
 
 // What is told of a motion by its integration.
-UnsolvedMotion unsolved_of(const SettledMotion& settled, int periods, PhasesStatus status) {
+UnsolvedMotion unsolved_of(const AttractorMotion& settled, int periods, ExactStatus status) {
   return {status, periods, settled.last.displacement.maxCoeff(), settled.last.force.maxCoeff(), 0};
 }
 
@@ -91,14 +91,14 @@ class MotionsSearch {
     return longer_.emplace(periods, problem_.over_periods(periods)).first->second;
   }
 
-  // The motion of `periods` periods that contact phases find near a start, and its number in the list if it
+  // The motion of `periods` periods that collocation find near a start, and its number in the list if it
   // was found before or has converged now.
   template <class Start>
   std::optional<std::size_t> solve(int periods, const Start& start, MotionSource source) {
-    return add(periods, over(periods).phases(frequency_, start, phases_options()), source);
+    return add(periods, over(periods).phases(frequency_, start, exact_options()), source);
   }
 
-  std::optional<std::size_t> add(int periods, const std::optional<PhaseMotion>& near, MotionSource source) {
+  std::optional<std::size_t> add(int periods, const std::optional<ExactSolution>& near, MotionSource source) {
     if (!near || !near->converged()) return std::nullopt;
     const MotionSamples samples = detail::samples_of(*near, periods);
     const int least = least_periods(samples);
@@ -110,7 +110,7 @@ class MotionsSearch {
     found.stability = over(periods).stability(frequency_, *near);
     found.max_displacement = samples.contacts.displacement.maxCoeff();
     found.max_force = samples.contacts.force.maxCoeff();
-    // A structure that settles to an unstable motion began beside it.
+    // A structure that converges to an unstable motion began beside it.
     found.found_by =
         found.stability.unstable > 0 && source == MotionSource::random ? MotionSource::newton : source;
     result_.motions.push_back(std::move(found));
@@ -118,12 +118,12 @@ class MotionsSearch {
     return samples_.size() - 1;
   }
 
-  ContactPhasesOptions phases_options() {
+  CollocationOptions exact_options() {
     return {.tolerance = options_.tolerance, .observer = observer(result_.starts)};
   }
 
-  SettlingOptions from(const detail::StructureState& state) {
-    SettlingOptions how;
+  AttractorOptions from(const detail::StructureState& state) {
+    AttractorOptions how;
     how.longest = options_.longest;
     how.max_returns = 0;
     how.displacement = state.displacement;
@@ -132,10 +132,10 @@ class MotionsSearch {
     return how;
   }
 
-  // The motion that the structure settles to, solved for. One that was not solved for before is not tried
+  // The motion that the structure converges to, solved for. One that was not solved for before is not tried
   // again.
-  std::optional<std::size_t> settle(const SettlingOptions& how, MotionSource source) {
-    const SettledMotion settled = problem_.settle(frequency_, how);
+  std::optional<std::size_t> settle(const AttractorOptions& how, MotionSource source) {
+    const AttractorMotion settled = problem_.settle(frequency_, how);
     unsolved_ = nullptr;
     grows_ = settled.grows;
     if (settled.attractor_periods < 1) {
@@ -145,15 +145,15 @@ class MotionsSearch {
     const int within = load_periods(problem_.condensed());  // the load may repeat within its period
     const int periods = settled.attractor_periods / std::gcd(settled.attractor_periods, within);
     ContactProblem& problem = over(periods);
-    const SettledMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
+    const AttractorMotion whole = periods == 1 ? settled : problem.settle(frequency_, how);
     if (const auto known = come_to(whole, periods)) return known;
-    UnsolvedMotion told = unsolved_of(whole, periods, PhasesStatus::not_found);
+    UnsolvedMotion told = unsolved_of(whole, periods, ExactStatus::not_found);
     for (UnsolvedMotion& known : result_.unsolved)
       if (same_as(known, told)) {
         unsolved_ = &known;
         return std::nullopt;
       }
-    const auto near = problem.phases(frequency_, whole, phases_options());
+    const auto near = problem.phases(frequency_, whole, exact_options());
     const auto found = add(periods, near, source);
     if (found || cancelled_ || !near) return found;
     told.status = near->status;
@@ -161,7 +161,7 @@ class MotionsSearch {
     return std::nullopt;
   }
 
-  static MotionSamples samples_of(const SettledMotion& settled, int periods) {
+  static MotionSamples samples_of(const AttractorMotion& settled, int periods) {
     const int points = periods * points_of_period;
     const Eigen::VectorXd last = resample(settled.last.displacement, points, settled.start);
     return {{last.reshaped(points, settled.last.displacement.rows()).transpose(), {}, {}}, periods};
@@ -169,18 +169,18 @@ class MotionsSearch {
 
   // The stable motion, solved for before, from which an integration that repeats differs by its own errors:
   // to solve for it once more would take far longer than that.
-  std::optional<std::size_t> come_to(const SettledMotion& settled, int periods) const {
+  std::optional<std::size_t> come_to(const AttractorMotion& settled, int periods) const {
     constexpr double same = 1e-4;  // of what vibrates
     const auto known = find_near(samples_, samples_of(settled, periods), same);
     return known && result_.motions[*known].stability.status == "stable" ? known : std::nullopt;
   }
 
   // The stable motion that a structure of light damping had nearly come to when its integration ended.
-  std::optional<std::size_t> approached(const SettledMotion& settled, MotionSource source) {
+  std::optional<std::size_t> approached(const AttractorMotion& settled, MotionSource source) {
     constexpr double near = 1e-2;  // of what vibrates
     if (cancelled_ || !settled.integrated()) return std::nullopt;
     if (const auto known = come_to(settled, 1)) return known;
-    const UnsolvedMotion told = unsolved_of(settled, 1, PhasesStatus::not_found);
+    const UnsolvedMotion told = unsolved_of(settled, 1, ExactStatus::not_found);
     if (std::any_of(given_up_.begin(), given_up_.end(), [&](const auto& one) { return same_as(one, told); }))
       return std::nullopt;
     const auto found = solve(1, settled, source);
@@ -195,10 +195,10 @@ class MotionsSearch {
     return arrived;
   }
 
-  void near_returns(const SettledMotion& settled) {
+  void near_returns(const AttractorMotion& settled) {
     for (const Motion& piece : settled.returns) {
       if (cancelled_) return;
-      SettledMotion start;
+      AttractorMotion start;
       start.last = piece;
       start.start = settled.start;
       solve(1, start, MotionSource::newton);
@@ -207,11 +207,11 @@ class MotionsSearch {
 
   void from_rest() {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem_.structure().size());
-    SettlingOptions how = from({});
-    how.max_returns = SettlingOptions{}.max_returns;
+    AttractorOptions how = from({});
+    how.max_returns = AttractorOptions{}.max_returns;
     if (const auto arrived = settle(how, MotionSource::rest))
       starts_.emplace(*arrived, detail::StructureState{zero, zero});
-    if (grows_) result_.first = PhasesStatus::grows;
+    if (grows_) result_.first = ExactStatus::grows;
   }
 
   // The box of the motions without contact and at resonance, which holds twice those found, too.
@@ -243,7 +243,7 @@ class MotionsSearch {
       else if (unsolved_)
         ++unsolved_->arrivals;
       else
-        ++(grows_ ? result_.none_by[PhasesStatus::grows] : result_.none);
+        ++(grows_ ? result_.none_by[ExactStatus::grows] : result_.none);
     }
   }
 
@@ -286,7 +286,7 @@ class MotionsSearch {
   void near_boundary(const detail::StructureState& state, int periods) {
     constexpr int longest_stay = 60;  // periods of the load
     std::vector<double> changes;      // of each period from the one before
-    SettlingOptions how = from(state);
+    AttractorOptions how = from(state);
     how.observer = [&](const Progress& progress) {
       changes.push_back(progress.value);
       return watched(progress);
@@ -301,7 +301,7 @@ class MotionsSearch {
   }
 
   // From the periods of the load that end so many of them after the start.
-  void solve_after(SettlingOptions& how, int after, int periods) {
+  void solve_after(AttractorOptions& how, int after, int periods) {
     if (cancelled_) return;
     how.observer = [&](const Progress& progress) { return progress.step < after; };
     solve(periods, over(periods).settle(frequency_, how), MotionSource::newton);
@@ -323,7 +323,7 @@ class MotionsSearch {
   const MotionsOptions& options_;
   std::map<int, ContactProblem> longer_;                  // by periods of the load
   std::vector<MotionSamples> samples_;                    // of the motions of the result
-  std::map<std::size_t, detail::StructureState> starts_;  // that settle to them, the first of each
+  std::map<std::size_t, detail::StructureState> starts_;  // that converge to them, the first of each
   CoexistingMotions result_;
   std::vector<UnsolvedMotion> given_up_;    // near which no motion was found
   UnsolvedMotion* unsolved_ = nullptr;      // of the result, where the last start settled to it
@@ -362,7 +362,7 @@ CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
                                 std::to_string(problem.condensed().periods()) +
                                 " periods of its load; expected 1");
   if ((problem.moves_by_events() || problem.laws().act_over_period()) && problem.dynamics() != nullptr)
-    return event_motions(problem.phases_problem(frequency), options);
+    return event_motions(problem.exact_problem(frequency), options);
   return MotionsSearch(problem, frequency, options).run();
 }
 

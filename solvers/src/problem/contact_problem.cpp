@@ -35,7 +35,7 @@ ForcedResponseOptions watched(ForcedResponseOptions options, bool& cancelled) {
 }
 
 // The last period of an integration, at so many points as a start needs.
-Motion start_of(const SettledMotion& settled, int contacts) {
+Motion start_of(const AttractorMotion& settled, int contacts) {
   constexpr int points = 1024;
   const auto samples = [&](const Eigen::MatrixXd& values) {
     return by_contact(resample(values, points, settled.start), contacts);
@@ -76,9 +76,9 @@ bool ContactProblem::moves_by_events() const {
   return laws_.act_over_period() && dynamics() != nullptr && dynamics()->holding() > 0.0;
 }
 
-SettledExact ContactProblem::settled_exact(double frequency, const TimeSteppingOptions& stepping,
-                                           const ContactPhasesOptions& options) {
-  return settled_motion(phases_problem(frequency), stepping, options);
+ExactAttractor ContactProblem::exact_attractor(double frequency, const TimeSteppingOptions& stepping,
+                                               const CollocationOptions& options) {
+  return attractor_motion(exact_problem(frequency), stepping, options);
 }
 
 void ContactProblem::set_laws(ContactLaws laws) {
@@ -135,46 +135,46 @@ Motion ContactProblem::structure_motion(const PeriodicResponse& response, int po
   return solvers::structure_motion(condensed_, response, points);
 }
 
-PhasesProblem ContactProblem::phases_problem_here() {
+ExactProblem ContactProblem::exact_problem_here() {
   if (dynamics() == nullptr)
     throw std::invalid_argument(
         "exact motions are solved for by the modes of the structure, and it has none to compute");
   if (!free_contacts_)
     free_contacts_ = std::make_shared<detail::FreeContacts>(structure(), condensed_.load_harmonics(),
                                                             dynamics()->holding());
-  PhasesProblem problem{*dynamics(), laws_.at(condensed_.load_frequency()),
-                        free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
-                        condensed_.frequency()};
+  ExactProblem problem{*dynamics(), laws_.at(condensed_.load_frequency()),
+                       free_contacts_->at(condensed_.frequency(), condensed_.load_factor()),
+                       condensed_.frequency()};
   if (structure().turns()) problem.kept = dynamics_->of(structure());
   return problem;
 }
 
-std::optional<ResponsePhases> ContactProblem::phases(const PeriodicResponse& response,
-                                                     const ContactPhasesOptions& options) {
+std::optional<ExactNearResponse> ContactProblem::phases(const PeriodicResponse& response,
+                                                        const CollocationOptions& options) {
   if (!dynamics()) return std::nullopt;
   hold(response);
-  return response_phases(condensed_, response, phases_problem_here(), options, exact_motion);
+  return exact_near_response(condensed_, response, exact_problem_here(), options, exact_motion);
 }
 
-std::optional<PhaseMotion> ContactProblem::phases(double frequency, const SettledMotion& settled,
-                                                  const ContactPhasesOptions& options) {
+std::optional<ExactSolution> ContactProblem::phases(double frequency, const AttractorMotion& settled,
+                                                    const CollocationOptions& options) {
   if (!settled.integrated()) return std::nullopt;
   return phases(frequency, start_of(settled, contacts()), options);
 }
 
-std::optional<PhaseMotion> ContactProblem::phases(double frequency, const Motion& start,
-                                                  const ContactPhasesOptions& options) {
+std::optional<ExactSolution> ContactProblem::phases(double frequency, const Motion& start,
+                                                    const CollocationOptions& options) {
   if (!dynamics()) return std::nullopt;
-  return exact_motion(phases_problem(frequency), start.displacement, options, start.force);
+  return exact_motion(exact_problem(frequency), start.displacement, options, start.force);
 }
 
-StructurePhases ContactProblem::structure_motion(double frequency, const PhaseMotion& motion, int points,
-                                                 const StructurePhasesOptions& options) {
+ExactStructureMotion ContactProblem::structure_motion(double frequency, const ExactSolution& motion,
+                                                      int points, const ExactStructureOptions& options) {
   load_fully(frequency);
-  return structure_phases(condensed_, motion, points, options);
+  return exact_structure_motion(condensed_, motion, points, options);
 }
 
-MotionStability ContactProblem::stability(double frequency, const PhaseMotion& motion) {
+MotionStability ContactProblem::stability(double frequency, const ExactSolution& motion) {
   if (!dynamics()) return {};
   if (!motion.converged()) {
     MotionStability unknown;
@@ -185,7 +185,7 @@ MotionStability ContactProblem::stability(double frequency, const PhaseMotion& m
   return motion_stability(condensed_, laws_, {}, *dynamics(), &motion);
 }
 
-MotionStability ContactProblem::stability(const PeriodicResponse& response, const PhaseMotion* motion) {
+MotionStability ContactProblem::stability(const PeriodicResponse& response, const ExactSolution* motion) {
   if (!dynamics()) return {};
   hold(response);
   return motion_stability(condensed_, laws_, response, *dynamics(), motion);
@@ -224,40 +224,40 @@ std::pair<FrequencySweep, PeriodicResponse> ContactProblem::amplitude_sweep(
   return {std::move(curve), std::move(first)};
 }
 
-PhaseMotion ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
-                                        const ResponseStart& start) {
+ExactSolution ContactProblem::motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                                          const ResponseStart& start) {
   // The curve is of motions of one period.
   if (laws_.have_impacts_alone(contacts()) && dynamics()->holding() == 0.0) {
-    ImpactResponse found = impact_response(phases_problem_here(), {.observer = how.observer});
-    return !found.lasts() || found.load_periods == 1 ? std::move(found.motion) : PhaseMotion();
+    ImpactResponse found = impact_response(exact_problem_here(), {.observer = how.observer});
+    return !found.lasts() || found.load_periods == 1 ? std::move(found.motion) : ExactSolution();
   }
   if (moves_by_events()) {
     TimeSteppingOptions stepping;
     stepping.observer = how.observer;
-    SettledExact found = settled_motion(phases_problem_here(), stepping, options.phases);
-    return found.load_periods == 1 ? std::move(found.motion) : PhaseMotion();
+    ExactAttractor found = attractor_motion(exact_problem_here(), stepping, options.phases);
+    return found.load_periods == 1 ? std::move(found.motion) : ExactSolution();
   }
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {
-    // Where phases are not found from a balance they often are from what the structure settles to, and their
-    // curves are faster than those of the flow.
-    ResponsePhases found = response_phases(condensed_, response, phases_problem_here(), options.phases,
-                                           laws_.act_over_period() ? flow_motion : contact_phases);
+    // Where phases are not found from a balance they often are from what the structure converges to, and
+    // their curves are faster than those of the flow.
+    ExactNearResponse found = exact_near_response(condensed_, response, exact_problem_here(), options.phases,
+                                                  laws_.act_over_period() ? flow_motion : collocation_motion);
     if (found.motion.parts != nullptr) return found.motion;
   }
-  SettlingOptions settling;
+  AttractorOptions settling;
   settling.observer = how.observer;
-  const SettledMotion settled = solvers::settle(condensed_, laws_, settling);
+  const AttractorMotion settled = solvers::settle(condensed_, laws_, settling);
   if (!settled.integrated()) return {};
   const Motion last = start_of(settled, contacts());
-  return exact_motion(phases_problem_here(), last.displacement, options.phases, last.force);
+  return exact_motion(exact_problem_here(), last.displacement, options.phases, last.force);
 }
 
 ExactCurve ContactProblem::exact_curve_here(SweepParameter parameter, const ExactCurveOptions& options,
                                             const ForcedResponseOptions& how, const ResponseStart& start) {
   bool cancelled = false;
-  const PhaseMotion first = motion_here(options, watched(how, cancelled), start);
+  const ExactSolution first = motion_here(options, watched(how, cancelled), start);
   if (first.parts != nullptr) return exact_curve({condensed_, laws_, *dynamics(), parameter}, first, options);
   ExactCurve none;
   none.status = cancelled ? SweepStatus::cancelled : SweepStatus::no_start;
@@ -286,7 +286,7 @@ ExactCurve ContactProblem::exact_amplitude_sweep(double frequency, const ExactCu
 std::vector<ExactCurve> ContactProblem::doubled_curves(const ExactCurve& curve, SweepParameter parameter,
                                                        double frequency, const ExactCurveOptions& options) {
   load_fully(frequency);
-  const PhaseFamily family(condensed_, laws_, *dynamics(), parameter);
+  const ProblemFamily family(condensed_, laws_, *dynamics(), parameter);
   std::vector<ExactCurve> doubled;
   for (const ExactEvent& event : curve.events)
     if (event.type == SpecialPointType::period_doubling)
@@ -294,7 +294,7 @@ std::vector<ExactCurve> ContactProblem::doubled_curves(const ExactCurve& curve, 
   return doubled;
 }
 
-ExactCurve ContactProblem::exact_curve_from(double frequency, const PhaseMotion& motion,
+ExactCurve ContactProblem::exact_curve_from(double frequency, const ExactSolution& motion,
                                             const ExactCurveOptions& options) {
   if (!dynamics()) return {};
   load_fully(frequency);
@@ -368,15 +368,15 @@ void ContactProblem::require_no_impacts() const {
 }
 
 ImpactResponse ContactProblem::impacts(double frequency, const ImpactResponseOptions& options) {
-  return impact_response(phases_problem(frequency), options);
+  return impact_response(exact_problem(frequency), options);
 }
 
-PhasesProblem ContactProblem::phases_problem(double frequency) {
+ExactProblem ContactProblem::exact_problem(double frequency) {
   load_fully(frequency);
-  return phases_problem_here();
+  return exact_problem_here();
 }
 
-SettledMotion ContactProblem::settle(double frequency, const SettlingOptions& options) {
+AttractorMotion ContactProblem::settle(double frequency, const AttractorOptions& options) {
   require_no_impacts();
   load_fully(frequency);
   return solvers::settle(condensed_, laws_, options);

@@ -4,14 +4,14 @@
 #include <numbers>
 #include <random>
 
-#include "flow/flow_phases.hpp"
+#include "collocation/exact_solution_parts.hpp"
+#include "flow/flow_intervals.hpp"
 #include "impacts/impact_parts.hpp"
 #include "impacts/impact_search.hpp"
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
-#include "phases/phase_motion_parts.hpp"
 #include "problem/motion_samples.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 #include "wavebalance/solvers/problem/coexisting_motions.hpp"
 #include "wavebalance/solvers/problem/motion_stability.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 using namespace detail;
 
-bool has_impacts_alone(const PhasesProblem& problem) {
+bool has_impacts_alone(const ExactProblem& problem) {
   return problem.laws.have_impacts_alone(problem.dynamics.contacts()) && problem.dynamics.holding() == 0.0;
 }
 
@@ -29,7 +29,7 @@ class RandomStates {
  public:
   // The radii hold twice the free vibration after an impact with the speed of the motion without contact, and
   // twice the first motion found.
-  RandomStates(const PhasesProblem& problem, const ImpactResponse& first, unsigned seed)
+  RandomStates(const ExactProblem& problem, const ImpactResponse& first, unsigned seed)
       : problem_(problem), generator_(seed), radii_(Eigen::VectorXd::Zero(poles())) {
     constexpr double wider = 2.0;
     const Eigen::MatrixXd inverse_mass = inverse_contact_mass(problem.dynamics);
@@ -72,7 +72,7 @@ class RandomStates {
   }
 
   bool is_clear(const Eigen::VectorXcd& state) const {
-    Eigen::VectorXd displacement = problem_.contact_free.rowwise().sum().real();
+    Eigen::VectorXd displacement = problem_.linear_motion.rowwise().sum().real();
     for (Index l = 0; l < poles(); ++l)
       displacement +=
           (pole(l).exponent.imag() == 0.0 ? 1.0 : 2.0) * (pole(l).residue * state[l] * pole(l).shape).real();
@@ -84,7 +84,7 @@ class RandomStates {
     return true;
   }
 
-  const PhasesProblem& problem_;
+  const ExactProblem& problem_;
   std::mt19937 generator_;
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
   Eigen::VectorXd radii_;
@@ -92,7 +92,7 @@ class RandomStates {
 
 class EventMotions {
  public:
-  EventMotions(const PhasesProblem& problem, const MotionsOptions& options)
+  EventMotions(const ExactProblem& problem, const MotionsOptions& options)
       : problem_(problem), options_(options), impacts_alone_(has_impacts_alone(problem)) {}
 
   CoexistingMotions run() {
@@ -116,11 +116,11 @@ class EventMotions {
     ++result_.starts;
     const CoexistingMotion* one = arrive(found, MotionSource::random);
     if (one == nullptr || !settled_)
-      ++result_.none_by[one == nullptr ? found.motion.status : PhasesStatus::not_settled];
+      ++result_.none_by[one == nullptr ? found.motion.status : ExactStatus::not_settled];
   }
 
-  // What the structure settles to from a state, or from rest. Motions near the closest returns of impacts are
-  // kept for later.
+  // What the structure converges to from a state, or from rest. Motions near the closest returns of impacts
+  // are kept for later.
   ImpactResponse settled(const Eigen::VectorXcd& state) {
     ImpactResponse found;
     settled_ = false;
@@ -133,29 +133,29 @@ class EventMotions {
       ImpactSearch search(problem_, how);
       found = search.run();
       settled_ = found.motion.converged() && found.unstable == 0;
-      if (found.motion.status != PhasesStatus::cancelled) near_ = search.near_returns();
+      if (found.motion.status != ExactStatus::cancelled) near_ = search.near_returns();
     } else {
-      found = settled_by_events(state);
+      found = attractor_by_events(state);
     }
-    if (found.motion.status == PhasesStatus::cancelled) result_.status = MotionsStatus::cancelled;
+    if (found.motion.status == ExactStatus::cancelled) result_.status = MotionsStatus::cancelled;
     return found;
   }
 
-  ImpactResponse settled_by_events(const Eigen::VectorXcd& state) {
+  ImpactResponse attractor_by_events(const Eigen::VectorXcd& state) {
     TimeSteppingOptions stepping;
     stepping.longest = options_.longest;
     stepping.observer = options_.observer;
     std::optional<PoleStart> start;
     if (state.size() > 0) start = PoleStart{0.0, state};
-    SettledExact exact = settled_motion(
+    ExactAttractor exact = attractor_motion(
         problem_, stepping, {.tolerance = options_.tolerance, .observer = options_.observer}, start);
     ImpactResponse found;
     found.load_periods = exact.load_periods;
     found.motion = std::move(exact.motion);
     if (found.motion.parts == nullptr) {
-      if (found.motion.status != PhasesStatus::cancelled)
+      if (found.motion.status != ExactStatus::cancelled)
         found.motion.status =
-            exact.settled.ended == FlowStatus::grows ? PhasesStatus::grows : PhasesStatus::not_settled;
+            exact.settled.ended == FlowStatus::grows ? ExactStatus::grows : ExactStatus::not_settled;
       return found;
     }
     found.multipliers = found.motion.multipliers();
@@ -199,7 +199,7 @@ class EventMotions {
     if (!cancelled() && !result_.motions.empty()) result_.status = MotionsStatus::converged;
   }
 
-  const PhasesProblem& problem_;
+  const ExactProblem& problem_;
   const MotionsOptions& options_;
   bool impacts_alone_;
   bool settled_ = false;  // whether the structure settled to the last motion found
@@ -210,7 +210,7 @@ class EventMotions {
 
 }  // namespace
 
-CoexistingMotions event_motions(const PhasesProblem& problem, const MotionsOptions& options) {
+CoexistingMotions event_motions(const ExactProblem& problem, const MotionsOptions& options) {
   options.validate();
   if (has_impacts_alone(problem)) require_impacts(problem);
   return EventMotions(problem, options).run();

@@ -103,7 +103,7 @@ class IsolatedCurvesSearch {
       for (const Motion& resonance : box->resonances) consider(frequency, -1, resonance, 0.0, false);
     const int random = box ? options_.random_starts : 0;
     for (int start = 0; start <= random && !result_.cancelled; ++start) {
-      SettlingOptions how = options_.settling;
+      AttractorOptions how = options_.settling;
       how.observer = [this, part, parts](Progress progress) {
         progress.done = double(part) / parts;
         return observer()(progress);
@@ -118,11 +118,11 @@ class IsolatedCurvesSearch {
   }
 
   // The motions near which a settled one says that there are some.
-  void take(double frequency, int start, const SettledMotion& settled) {
+  void take(double frequency, int start, const AttractorMotion& settled) {
     if (!settled.integrated()) return;
     const int periods = settled.attractor_periods;
     const bool here = periods > 0 && load_periods(problem_.condensed()) % periods == 0;
-    const bool in_doubt = periods == SettledMotion::unknown;
+    const bool in_doubt = periods == AttractorMotion::unknown;
     if (here || in_doubt) consider(frequency, start, settled.last, settled.start, here);
     for (const Motion& piece : settled.returns)
       if (!here) consider(frequency, start, piece, settled.start, false);

@@ -38,7 +38,7 @@ std::optional<std::size_t> find_if_any(const std::vector<MotionSamples>& motions
 
 }  // namespace
 
-MotionSamples samples_of(const PhaseMotion& motion, int periods) {
+MotionSamples samples_of(const ExactSolution& motion, int periods) {
   const int points = periods * points_of_period;
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points);
   return {{motion.displacement(times), motion.velocity(times), motion.force(times)}, periods};

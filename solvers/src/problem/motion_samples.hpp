@@ -19,7 +19,7 @@ struct MotionSamples {
   Index shift() const { return contacts.displacement.cols() / periods; }
 };
 
-MotionSamples samples_of(const PhaseMotion& motion, int periods);
+MotionSamples samples_of(const ExactSolution& motion, int periods);
 /// The first of some motions that is this one, also later by whole periods of the load.
 std::optional<std::size_t> find_among(const std::vector<MotionSamples>& motions, const MotionSamples& motion);
 /// Likewise one whose displacements differ by less than a share of what vibrates.

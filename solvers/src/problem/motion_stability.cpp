@@ -7,7 +7,7 @@
 
 #include "linalg/multipliers.hpp"
 #include "stability/floquet_determinant.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 
 namespace wavebalance::solvers {
@@ -24,7 +24,7 @@ MotionStability stability_of(const UnstableMultipliers& count) {
 }
 
 // All multipliers at once, or of many states their count alone.
-MotionStability by_phases(const PhaseMotion& motion, const ContactDynamics& dynamics, double frequency) {
+MotionStability by_phases(const ExactSolution& motion, const ContactDynamics& dynamics, double frequency) {
   const Eigen::VectorXcd all = motion.multipliers();
   MotionStability result;
   if (all.size() > 0) {
@@ -90,10 +90,10 @@ MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers) {
 
 MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
-                                 const PhaseMotion* motion) {
+                                 const ExactSolution* motion) {
   const auto start = std::chrono::steady_clock::now();
-  const bool sought = motion && (motion->status == PhasesStatus::not_found ||
-                                 motion->status == PhasesStatus::too_many_phases);
+  const bool sought =
+      motion && (motion->status == ExactStatus::not_found || motion->status == ExactStatus::too_many_phases);
   if (sought) {
     MotionStability unknown;
     const bool undamped = !laws.depend_on_velocity() && !laws.act_over_period() &&  // which may damp

@@ -211,7 +211,7 @@ std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency
   constexpr double larger = 2.0;
   problem.condensed().set_load_frequency(frequency);
   const auto flow =
-      ModalFlow::make(problem.structure(), frequency, 1.0 / frequency, SettlingOptions::max_modes);
+      ModalFlow::make(problem.structure(), frequency, 1.0 / frequency, AttractorOptions::max_modes);
   if (!flow) return std::nullopt;
   const Eigen::VectorXd stands = standing(problem);
   PeriodicResponse open;

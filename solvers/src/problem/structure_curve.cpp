@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "wavebalance/solvers/problem/phases_along.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
 
 namespace wavebalance::solvers::detail {
 namespace {
@@ -18,9 +18,9 @@ double vibration_of(const Eigen::MatrixXd& displacement) {
 }
 
 // A motion of the structure from which a stretch is followed.
-struct StretchStart {
+struct SegmentStart {
   double value = 0.0, direction = 1.0;
-  PhaseMotion motion;  // not converged where none was found
+  ExactSolution motion;  // not converged where none was found
 
   bool exists() const { return motion.converged(); }
 };
@@ -30,7 +30,7 @@ enum class Passing { never, along, against };
 
 // How it has that of a start: along or against its direction, which beside a fold is that of one branch. A
 // static deflection does not make motions more alike.
-Passing passing(const ExactCurve& curve, const StretchStart& start) {
+Passing passing(const ExactCurve& curve, const SegmentStart& start) {
   constexpr double near = 0.1;
   if (!start.exists()) return Passing::never;
   const double value = start.value, rounding = 1e-9 * std::abs(value);
@@ -57,7 +57,8 @@ bool has_multipliers(const ExactCurve& curve) {
                      [](const ExactPoint& point) { return point.unstable >= 0; });
 }
 
-// A curve along which the count of multipliers changes without a special point has more of these.
+// A curve along which the count of multipliers changes without a bifurcation or grazing point has more of
+// these.
 bool left_its_interval(const ExactCurve& curve) {
   return (curve.status == SweepStatus::reached_end || curve.status == SweepStatus::returned) &&
          curve.unexplained.empty();
@@ -98,25 +99,25 @@ struct StructureCurve {
 
   // The motion near the first point of the curve from an end of the stretch outwards that has one: near a
   // fold several points lie beyond that of the structure.
-  StretchStart start_of(const Stretch& stretch, bool forwards) const {
+  SegmentStart start_of(const CurveSegment& stretch, bool forwards) const {
     constexpr double clear = 0.02;  // of a step beside zigzags of the samples
-    CurvePhasesOptions near;
+    ExactAlongOptions near;
     near.phases = options.phases;
     near.max_distance = options.max_distance;
-    StretchStart start;
+    SegmentStart start;
     for (const std::size_t steps : {0, 1, 3, 6}) {
       if (forwards ? stretch.first < steps : stretch.last + steps >= curve.points.size()) break;
       const std::size_t at = forwards ? stretch.first - steps : stretch.last + steps;
       start.value = parameter_of(curve.points[at], curve.parameter);
       start.direction = direction_from(curve, at, forwards, clear * unit_of_parameter(options));
       const PeriodicResponse response = problem.response(curve, start.value, curve.points[at].unknown);
-      start.motion = near_phases(problem, response, near).value().motion;
-      if (start.motion.status != PhasesStatus::not_found) break;  // elsewhere it takes as much
+      start.motion = exact_near(problem, response, near).value().motion;
+      if (start.motion.status != ExactStatus::not_found) break;  // elsewhere it takes as much
     }
     return start;
   }
 
-  ExactCurve followed(ValueRange range, const StretchStart& start) const {
+  ExactCurve followed(ValueRange range, const SegmentStart& start) const {
     constexpr double fewest = 8.0;
     if (!start.exists() || effort.points < fewest) return {};
     const ContactDynamics& dynamics = *problem.dynamics();
@@ -138,7 +139,7 @@ struct StructureCurve {
   }
 
   // A little wider than the stretch, since the structure's folds lie beside those of the balance.
-  ValueRange wider(const Stretch& stretch) const {
+  ValueRange wider(const CurveSegment& stretch) const {
     const auto [low, high] = values_on(curve, stretch.first, stretch.last);
     const double margin = std::max(high - low, unit_of_parameter(options));
     return {std::max(std::min(options.from, options.to), low - margin),
@@ -150,22 +151,22 @@ struct StructureCurve {
 
 // Of the whole, what is followed from the first point alone is complete where it leaves the interval.
 // Otherwise it has to come past the other end.
-OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, const Stretch& stretch,
+OnSegment structure_along(ContactProblem& problem, const FrequencySweep& curve, const CurveSegment& stretch,
                           bool whole, const StructurePointsOptions& options, CurveEffort effort,
                           const Observer& observer) {
   const StructureCurve structure{problem, curve, options, effort, observer};
   const ValueRange range =
       whole ? ValueRange{std::min(options.from, options.to), std::max(options.from, options.to)}
             : structure.wider(stretch);
-  OnStretch result;
-  const StretchStart start = structure.start_of(stretch, true);
+  OnSegment result;
+  const SegmentStart start = structure.start_of(stretch, true);
   const ExactCurve forwards = structure.followed(range, start);
   add_events(forwards.events, false, result.events);
   result.cancelled = forwards.status == SweepStatus::cancelled;
   result.exhausted = forwards.status == SweepStatus::point_limit;
   result.with_multipliers = !forwards.points.empty() && has_multipliers(forwards);
   if (result.cancelled) return result;
-  const StretchStart end = structure.start_of(stretch, false);
+  const SegmentStart end = structure.start_of(stretch, false);
   const Passing of_end = passing(forwards, end);
   const bool first_left = whole && left_its_interval(forwards);
   result.complete = (of_end == Passing::against && forwards.unexplained.empty()) || first_left;

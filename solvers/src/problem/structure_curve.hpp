@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "problem/curve_stretches.hpp"
+#include "problem/curve_segments.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 
 namespace wavebalance::solvers::detail {
@@ -10,7 +10,7 @@ namespace wavebalance::solvers::detail {
 /// Instants at which motions are compared, periods.
 const Eigen::VectorXd& comparison_times();
 
-/// The same special point, followed from elsewhere.
+/// The same bifurcation or grazing point, followed from elsewhere.
 bool is_same(const ExactEvent& a, const ExactEvent& b);
 
 /// The change of the parameter that has length 1, a 20th of the interval.
@@ -24,7 +24,7 @@ struct CurveEffort {
 };
 
 /// What the structure has along one stretch of a balance's curve.
-struct OnStretch {
+struct OnSegment {
   std::vector<ExactEvent> events;
   bool complete = false;  ///< followed from one end of the stretch to the other, or out of the interval
   bool apart = false;     ///< its ends lie on different curves of the structure
@@ -35,7 +35,7 @@ struct OnStretch {
 /// Follows the curve of the structure from the first point of a stretch of a balance's curve, and where that
 /// does not come past its last one, back from that. `whole`: through the interval of the options, whatever
 /// becomes of the balance's curve, otherwise little farther than the stretch.
-OnStretch structure_along(ContactProblem& problem, const FrequencySweep& curve, const Stretch& stretch,
+OnSegment structure_along(ContactProblem& problem, const FrequencySweep& curve, const CurveSegment& stretch,
                           bool whole, const StructurePointsOptions& options, CurveEffort effort,
                           const Observer& observer);
 

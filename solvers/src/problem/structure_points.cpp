@@ -15,9 +15,9 @@
 namespace wavebalance::solvers {
 namespace {
 
-using detail::OnStretch, detail::Stretch;
+using detail::OnSegment, detail::CurveSegment;
 
-// The events of all stretches, each once, and beside them the special points of the balance.
+// The events of all stretches, each once, and beside them the bifurcation and grazing points of the balance.
 class Assembly {
  public:
   Assembly(const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance)
@@ -26,7 +26,7 @@ class Assembly {
   }
 
   /// Points farther apart than `farthest` are not the same. Of a part of a stretch only what is found counts.
-  void add(const Stretch& stretch, OnStretch found, double farthest, bool part = false) {
+  void add(const CurveSegment& stretch, OnSegment found, double farthest, bool part = false) {
     std::vector<std::size_t> numbers;
     for (ExactEvent& event : found.events) {
       event.next_point = stretch.first;
@@ -92,12 +92,12 @@ class Assembly {
 constexpr double share_of_whole = 0.25;  // of the operations; stretches have the rest
 
 // One for each stretch; not all of them where the observer returns false.
-std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vector<ContactProblem>& problems,
-                                 const FrequencySweep& curve, const StructurePointsOptions& options,
-                                 detail::PlacesProgress& progress) {
-  OnStretch stopped;  // before it was followed
+std::vector<OnSegment> along_all(const std::vector<CurveSegment>& stretches,
+                                 std::vector<ContactProblem>& problems, const FrequencySweep& curve,
+                                 const StructurePointsOptions& options, detail::PlacesProgress& progress) {
+  OnSegment stopped;  // before it was followed
   stopped.cancelled = true;
-  std::vector<OnStretch> found(stretches.size(), stopped);
+  std::vector<OnSegment> found(stretches.size(), stopped);
   const double curves = 2.0 * double(stretches.size());
   const detail::CurveEffort effort{options.max_points / curves,
                                    (1.0 - share_of_whole) * options.max_operations / curves};
@@ -110,15 +110,15 @@ std::vector<OnStretch> along_all(const std::vector<Stretch>& stretches, std::vec
   return found;
 }
 
-// All points of the curve, and all its special points.
-Stretch all_of(const FrequencySweep& curve, const std::vector<SpecialPoint>& points) {
-  Stretch all{0, curve.points.size() - 1, std::vector<std::size_t>(points.size())};
+// All points of the curve, and all its bifurcation and grazing points.
+CurveSegment all_of(const FrequencySweep& curve, const std::vector<SpecialPoint>& points) {
+  CurveSegment all{0, curve.points.size() - 1, std::vector<std::size_t>(points.size())};
   std::iota(all.points.begin(), all.points.end(), std::size_t{0});
   return all;
 }
 
 // Along the whole curve at once.
-OnStretch along_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
+OnSegment along_whole(ContactProblem& problem, const FrequencySweep& curve, const CurveSegment& all,
                       const StructurePointsOptions& options, detail::PlacesProgress& progress) {
   const double low = std::min(options.from, options.to), length = std::abs(options.to - options.from);
   const Observer observer = [&](const Progress& within) {
@@ -144,8 +144,8 @@ std::vector<std::size_t> passed_by(ContactProblem& problem, const FrequencySweep
   return numbers;
 }
 
-StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve, const Stretch& all,
-                         OnStretch found, Assembly assembly, const StructurePointsOptions& options) {
+StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve, const CurveSegment& all,
+                         OnSegment found, Assembly assembly, const StructurePointsOptions& options) {
   const bool apart = found.apart;
   assembly.add(all, std::move(found), options.reach);
   StructurePoints result = assembly.finished();
@@ -156,13 +156,13 @@ StructurePoints of_whole(ContactProblem& problem, const FrequencySweep& curve, c
 }
 
 StructurePoints of_stretches(const ProblemMaker& make, const FrequencySweep& curve,
-                             const std::vector<Stretch>& stretches, Assembly assembly,
+                             const std::vector<CurveSegment>& stretches, Assembly assembly,
                              const StructurePointsOptions& options, detail::PlacesProgress& progress) {
   constexpr std::size_t places_worth = 4;  // a stretch is worth another problem
   if (stretches.empty()) return assembly.finished();
   std::vector<ContactProblem> problems =
       detail::thread_problems(make, places_worth * stretches.size(), options.threads);
-  std::vector<OnStretch> found = along_all(stretches, problems, curve, options, progress);
+  std::vector<OnSegment> found = along_all(stretches, problems, curve, options, progress);
   for (std::size_t i = 0; i < stretches.size(); ++i)
     assembly.add(stretches[i], std::move(found[i]), std::numeric_limits<double>::infinity());
   return assembly.finished();
@@ -201,8 +201,8 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
   if (curve.points.empty() || problem.dynamics() == nullptr) return assembly.finished();
   detail::PlacesProgress progress(options.observer, "special points",
                                   unit_of(problem.condensed(), curve.parameter));
-  const Stretch all = all_of(curve, points);
-  OnStretch along = along_whole(problem, curve, all, options, progress);
+  const CurveSegment all = all_of(curve, points);
+  OnSegment along = along_whole(problem, curve, all, options, progress);
   StructurePoints result;
   if (along.complete) {
     result = of_whole(problem, curve, all, std::move(along), std::move(assembly), options);
@@ -211,7 +211,7 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
     if (along.exhausted) assembly.add(all, std::move(along), options.reach, true);
     result = of_stretches(
         make, curve,
-        detail::stretches_about(curve, points, distance, options.reach, options.max_stretches, grazings),
+        detail::segments_about(curve, points, distance, options.reach, options.max_segments, grazings),
         std::move(assembly), options, progress);
   }
   result.cancelled = progress.cancelled();

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wavebalance/solvers/problem/phases_along.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
 
 namespace wavebalance::solvers::detail {
 

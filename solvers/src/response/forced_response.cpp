@@ -11,7 +11,7 @@
 #include "balance/unknown_in_form.hpp"
 #include "linalg/option_checks.hpp"
 #include "linalg/safe_norm.hpp"
-#include "period/settling_returns.hpp"
+#include "period/attractor_returns.hpp"
 #include "response/free_balance.hpp"
 #include "response/stiffness_continuation.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
@@ -133,7 +133,7 @@ Candidate try_homotopy(const Task& task, const Eigen::VectorXd& series_flexibili
   return candidate;
 }
 
-/// Continuation in the stiffness of the contacts, from the contact-free motion.
+/// Continuation in the stiffness of the contacts, from the linear motion.
 Candidate try_stiffness(const Task& task, const Eigen::VectorXd& series_flexibility) {
   ContactSystem system = task.system(series_flexibility);
   Candidate candidate = no_solution(SolveStatus::stalled, series_flexibility, {});
@@ -169,11 +169,11 @@ Candidate try_sticking(const Task& task, const Eigen::VectorXd& form) {
   return improve(task, system, std::move(candidate), Strategy::sticking);
 }
 
-/// Continuation in the gaps: the obstacles are lowered onto the contact-free motion u0. With gaps larger by h
+/// Continuation in the gaps: the obstacles are lowered onto the linear motion u0. With gaps larger by h
 /// no contact closes, and u0 - h solves the balance up to the residual -h. The smallest such h is the start.
 Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
   constexpr double above = 1.01;  // a contact that just touches is at a kink, where there is no tangent
-  const Eigen::VectorXd& free = task.problem.contact_free_response();
+  const Eigen::VectorXd& free = task.problem.linear_response();
   const Eigen::VectorXd gaps = task.laws.gaps(task.problem.contacts());
   double height = 0.0;
   for (int c = 0; c < task.problem.contacts(); ++c)
@@ -201,7 +201,7 @@ Candidate try_from_rest(const Task& task, const Eigen::VectorXd& series_flexibil
   CondensedProblem& problem = task.problem;
   const double whole = problem.load_scale();
   problem.set_load_scale(0.0);
-  const Start start{problem.contact_free_response(), {}};
+  const Start start{problem.linear_response(), {}};
   Candidate rest = try_newton(task, series_flexibility, start, Strategy::load_continuation);
   const bool presses = rest.converged() && has_closed_contacts(task, rest);
   problem.set_load_scale(whole);
@@ -234,11 +234,11 @@ Start start_of(const Task& task, const Motion& period, double start) {
   return {resample(period.displacement, points, start), resample(period.force, points, start)};
 }
 
-/// Newton's method from the motion that the structure settles to, or from states that nearly recur in it. The
+/// Newton's method from the attractor, or from states that nearly recur in it. The
 /// result is the better of that and `best`, the outcome of earlier attempts. Sets `settled`.
-Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
-                        SettledMotion& settled) {
-  SettlingOptions settling = task.options.settling;
+Candidate solve_attractor(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
+                          AttractorMotion& settled) {
+  AttractorOptions settling = task.options.settling;
   settling.observer = task.options.observer;
   // Returns may be many. Only those of friction are known to need more for each.
   const bool friction = task.laws.act_over_period();
@@ -256,7 +256,7 @@ Candidate solve_settled(const Task& task, const Eigen::VectorXd& form, const Sta
   settled = settle(task.problem, task.laws, settling, [&](const Motion& piece, double start) {
     return improve(piece, start, Strategy::recurrence);
   });
-  const SettledMotion& motion = settled;
+  const AttractorMotion& motion = settled;
   if (motion.cancelled) best.newton.status = SolveStatus::cancelled;
   if (best.ended()) return best;
   if (!motion.integrated() || !motion.returns.empty())
@@ -276,7 +276,7 @@ Task with_room_for_iterations(Task task, const Candidate& first) {
   return task;
 }
 
-Candidate solve(const Task& at_first, const Start& first, bool guessed, SettledMotion& settled) {
+Candidate solve(const Task& at_first, const Start& first, bool guessed, AttractorMotion& settled) {
   const Eigen::VectorXd form =
       contact_series_flexibility(at_first.problem, at_first.laws, at_first.options.form);
   Candidate best = try_newton(at_first, form, first, Strategy::newton);
@@ -294,13 +294,13 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, SettledM
   if (task.laws.act_over_period()) {
     if (has_many_with_friction(task)) best = better(std::move(best), try_sticking(task, form));
     if (best.ended()) return best;
-    return solve_settled(task, form, first, std::move(best), settled);
+    return solve_attractor(task, form, first, std::move(best), settled);
   }
   for (const Eigen::VectorXd& tried : forms_of(task)) {
     best = better(std::move(best), task.laws.unilateral() ? try_gap(task, tried) : try_load(task, tried));
     if (best.ended()) return best;
   }
-  best = solve_settled(task, form, first, std::move(best), settled);
+  best = solve_attractor(task, form, first, std::move(best), settled);
   if (best.ended() || !task.laws.unilateral() || task.problem.is_free()) return best;
   return better(std::move(best), try_from_rest(task, form));
 }
@@ -345,15 +345,15 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& a
   Start start{guess, guess_force};
   require_start(problem, start);
   const bool guessed = guess.size() > 0;
-  if (!guessed) start = {problem.contact_free_response(), {}};
+  if (!guessed) start = {problem.linear_response(), {}};
   const ContactLaws laws = any_laws.at(problem.load_frequency());
   laws.require(problem.contacts());
   const Task task{problem, laws, options};
-  SettledMotion settled;
+  AttractorMotion settled;
   Candidate candidate;
   if (problem.is_free() && !static_load_is_balanced(problem, laws)) {
     candidate = no_solution(SolveStatus::unbalanced, contact_series_flexibility(problem, laws, options.form),
-                            problem.contact_free_response());
+                            problem.linear_response());
   } else {
     const bool places = problem.is_free() && guess.size() == 0;
     // A static load may keep contacts closed. The structure then moves much less than without contact.
@@ -366,9 +366,9 @@ PeriodicResponse forced_response(CondensedProblem& problem, const ContactLaws& a
   PeriodicResponse response = response_of(task, std::move(candidate));
   response.attractor_periods = settled.attractor_periods;
   if (!response.converged() && settled.repeats_after(load_periods(problem)))
-    response.settled = std::make_shared<const SettledMotion>(std::move(settled));
+    response.settled = std::make_shared<const AttractorMotion>(std::move(settled));
   if (!response.converged() && response.status != SolveStatus::cancelled)
-    for (const Eigen::VectorXd& at : {problem.contact_free_response(), response.displacement})
+    for (const Eigen::VectorXd& at : {problem.linear_response(), response.displacement})
       laws.require_numbers(problem.contacts(), at);
   return response;
 }

@@ -46,7 +46,7 @@ class MeanForce {
       : problem_(problem),
         laws_(laws),
         wanted_(problem.balancing_force()),
-        motion_(problem.contact_free_response()) {
+        motion_(problem.linear_response()) {
     for (int c = 0; c < problem.contacts() && !moving; ++c) {
       auto samples = motion_.segment(c * problem.points(), problem.points());
       samples.setConstant(samples.mean());
@@ -129,7 +129,7 @@ BalancedMotion balanced_motion(const CondensedProblem& problem, const ContactLaw
   const ContactLaws own = forces ? laws.resolvents(series_flexibility) : laws;
   MeanForce mean(problem, own, moving);
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(problem.rigid_directions().cols());
-  const double length = std::max(problem.contact_free_response().cwiseAbs().maxCoeff(), laws.largest_gap());
+  const double length = std::max(problem.linear_response().cwiseAbs().maxCoeff(), laws.largest_gap());
   constexpr int rounds = 20;
   for (int round = 0; round < (shift.size() > 1 ? rounds : 1) && length > 0.0; ++round)
     for (Eigen::Index i = 0; i < shift.size(); ++i)

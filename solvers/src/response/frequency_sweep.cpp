@@ -257,9 +257,9 @@ class Sweep {
     return SweepStatus::point_limit;
   }
 
-  // Uses the contact-free response of the last point measured.
+  // Uses the linear response of the last point measured.
   bool has_grown_past_bounds() {
-    largest_free_ = std::max(largest_free_, problem_.contact_free_response().cwiseAbs().maxCoeff());
+    largest_free_ = std::max(largest_free_, problem_.linear_response().cwiseAbs().maxCoeff());
     const double gap = system_.laws().largest_gap();
     return gap > 0.0 && result_.points.back().max_abs_displacement > bound * std::max(gap, largest_free_);
   }

@@ -107,7 +107,7 @@ class Refinement {
     return end.has_value();
   }
 
-  /// Whether the structure is known to settle to a motion of the problem's period.
+  /// Whether the structure is known to converge to a motion of the problem's period.
   static bool settles(const CondensedProblem& problem, const PeriodicResponse& response) {
     return response.attractor_periods > 0 && load_periods(problem) % response.attractor_periods == 0;
   }
@@ -143,7 +143,7 @@ class Refinement {
     return u;
   }
 
-  PeriodicResponse from_contact_free(CondensedProblem& problem, RefinementLevel& level, bool paths) {
+  PeriodicResponse from_linear_response(CondensedProblem& problem, RefinementLevel& level, bool paths) {
     ForcedResponseOptions solver = options_.solver;
     solver.fallbacks = paths && solver.fallbacks && level.points >= screening_points;
     PeriodicResponse response = forced_response(problem, laws_, solver);
@@ -198,7 +198,7 @@ class Refinement {
     const bool touched = solved_ && !result_.response.contact_force.isZero(0.0);
     if (!resolved() || !touched) {
       level.restarted = solved_.has_value();
-      return from_contact_free(problem, level, true);
+      return from_linear_response(problem, level, true);
     }
     const Eigen::VectorXd before = prolonged(result_.response.coefficients, problem.points());
     const bool force_form = result_.response.series_flexibility.size() > 0;
@@ -211,7 +211,7 @@ class Refinement {
     const double warm_change = moved(warm);
     // Responses as close as this are the same response.
     if (warm_change <= std::max(solved_->change, asymptotic)) return warm;
-    PeriodicResponse cold = from_contact_free(problem, level, !warm.converged() && !may_step_back());
+    PeriodicResponse cold = from_linear_response(problem, level, !warm.converged() && !may_step_back());
     if (!(moved(cold) < warm_change)) return warm;
     level.restarted = true;
     return cold;
@@ -275,8 +275,8 @@ class Refinement {
   /// The status if the refinement ends with its last level. Otherwise nothing, and size_ is the next size.
   std::optional<RefinementStatus> ending(bool cancelled) {
     const RefinementLevel& level = result_.levels.back();
-    // A small problem may have no solution although the motion exists, as it does where the structure settles
-    // to it.
+    // A small problem may have no solution although the motion exists, as it does where the structure
+    // converges to it.
     const int max_failures = settles_ ? 4 : 2;
     if (failures_ == max_failures) return RefinementStatus::not_converged;
     if (level.estimated_error <= wanted(level)) return RefinementStatus::converged;
@@ -344,7 +344,7 @@ class Refinement {
   double quadrature_error_ = 0.0;          // estimated error of the sums over its points
   bool found_ = false;                     // whether the level just solved has a response
   int failures_ = 0;                       // levels without a response since `solved_`
-  bool settles_ = false;                   // whether a failed level found where the structure settles to
+  bool settles_ = false;                   // whether a failed level found where the structure converges to
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ double first_share(ContactSystem& system, const Eigen::VectorXd& free) {
 
 StiffnessPath follow(ContactSystem& system, Eigen::VectorXd& u, NewtonOptions options) {
   StiffnessPath path;
-  u = system.problem().contact_free_response();
+  u = system.problem().linear_response();
   double solved = 0.0, share = first_share(system, u), ratio = largest_ratio;
   if (!(share > 0.0)) return path;
   options.max_iterations = std::min(options.max_iterations, most);

@@ -11,7 +11,7 @@ struct StiffnessPath {
   int iterations = 0;                         ///< of Newton's method
 };
 
-/// Follows R(u; s) = u - u0 + s K f(u) in the displacement form from the contact-free response u0, s = 0, to
+/// Follows R(u; s) = u - u0 + s K f(u) in the displacement form from the linear response u0, s = 0, to
 /// s = 1, by Newton's method at growing shares s of the contact force, each from the solution before. The
 /// first share is such that the contacts move the structure by about half of u0, and each is up to 16 times
 /// the one before: the samples in contact change with the logarithm of the stiffness, so that a path takes

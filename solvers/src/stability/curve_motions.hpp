@@ -29,8 +29,8 @@ class CurveMotions {
   /// The share of the chord between two points at which the number of contact intervals first changes, by
   /// linear interpolation of samples; 0.5 where no sample tells.
   double share_of_grazing(const CurvePoint& a, const CurvePoint& b) const;
-  /// A special point between two others, in the middle of which its parameter is, with the displacements and
-  /// the unknown of the first. `next` is the index of the point of the curve behind it.
+  /// A bifurcation or grazing point between two others, in the middle of which its parameter is, with the
+  /// displacements and the unknown of the first. `next` is the index of the point of the curve behind it.
   SpecialPoint special_point(SpecialPointType type, const CurvePoint& a, const CurvePoint& b,
                              std::size_t next);
 

@@ -51,8 +51,8 @@ Difference difference(const CurveSample& a, const CurveSample& b) {
   return result;
 }
 
-/// The special points in a bracket between two points that differ. Multipliers jump at a grazing, so that
-/// their differences then mean no other special point.
+/// The bifurcation and grazing points in a bracket between two points that differ. Multipliers jump at a
+/// grazing, so that their differences then mean no other bifurcation or grazing point.
 std::vector<SpecialPointType> events(const Difference& difference, bool reverses) {
   std::vector<SpecialPointType> types;
   if (difference.fold && reverses) types.push_back(SpecialPointType::fold);
@@ -66,7 +66,7 @@ std::vector<SpecialPointType> events(const Difference& difference, bool reverses
   return types;
 }
 
-/// The distance of a multiplier from the place that the type of special point requires.
+/// The distance of a multiplier from the place that the type of bifurcation or grazing point requires.
 double distance_from(SpecialPointType type, Complex multiplier) {
   if (type == SpecialPointType::period_doubling) return std::abs(multiplier + 1.0);
   if (type == SpecialPointType::neimark_sacker) return std::abs(std::abs(multiplier) - 1.0);

@@ -10,7 +10,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/gauss_rule.hpp"
 #include "linalg/index.hpp"
-#include "stability/smooth_pieces.hpp"
+#include "stability/smooth_segments.hpp"
 
 namespace wavebalance::solvers {
 namespace {

@@ -14,7 +14,7 @@
 #include "linalg/multipliers.hpp"
 #include "linalg/option_checks.hpp"
 #include "stability/monodromy_map.hpp"
-#include "stability/monodromy_pieces.hpp"
+#include "stability/monodromy_segments.hpp"
 #include "stability/pole_states.hpp"
 #include "stability/stability_checks.hpp"
 
@@ -241,7 +241,7 @@ void require_causal(const char* who, const ContactDynamics& dynamics) {
 
 void MonodromyOptions::validate() const {
   detail::require_at_least("MonodromyOptions", "nodes", nodes, 2);
-  detail::require_at_least("MonodromyOptions", "max_pieces", max_pieces, 1);
+  detail::require_at_least("MonodromyOptions", "max_segments", max_segments, 1);
   detail::require_positive("MonodromyOptions", "max_phase", max_phase);
 }
 

@@ -9,8 +9,8 @@ namespace wavebalance::solvers {
 /// those of dynamics.poles() in their order: of each pole l the amplitude a, a' = lambda_l a - left_l^T f
 /// with the contact forces f, as its real part and, where Im lambda_l > 0, its imaginary part. The contacts
 /// are displaced by sum_l Re(w_l residue_l shape_l a), w_l = 2 for a pair. NaN where the contact is so stiff
-/// that max_pieces do not resolve it. A tangent may be infinite, that of a rigid obstacle, where the contact
-/// deflects at once, constant() > 0. Throws as monodromy() does.
+/// that max_segments do not resolve it. A tangent may be infinite, that of a rigid obstacle, where the
+/// contact deflects at once, constant() > 0. Throws as monodromy() does.
 Eigen::MatrixXd monodromy_map(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                               double frequency, const MonodromyOptions& options);
 

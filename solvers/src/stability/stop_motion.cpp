@@ -10,7 +10,7 @@
 #include "linalg/dense.hpp"
 #include "linalg/multipliers.hpp"
 #include "stability/floquet_determinant.hpp"
-#include "stability/smooth_pieces.hpp"
+#include "stability/smooth_segments.hpp"
 #include "stability/stability_checks.hpp"
 
 namespace wavebalance::solvers {
@@ -247,15 +247,15 @@ class StopSearch {
 };
 
 // Phases are those at the origin, in periods.
-Waves waves_from(const Eigen::MatrixXcd& contact_free, const Eigen::VectorXd& gap, double origin,
+Waves waves_from(const Eigen::MatrixXcd& linear_motion, const Eigen::VectorXd& gap, double origin,
                  double period) {
-  Waves waves{{0.0}, contact_free.col(0).real() - gap, period};
-  for (Index n = 1; n < contact_free.cols(); ++n) {
-    if (contact_free.col(n).isZero(0.0)) continue;
+  Waves waves{{0.0}, linear_motion.col(0).real() - gap, period};
+  for (Index n = 1; n < linear_motion.cols(); ++n) {
+    if (linear_motion.col(n).isZero(0.0)) continue;
     waves.orders.push_back(double(n));
     waves.amplitudes.conservativeResize(Eigen::NoChange, waves.amplitudes.cols() + 1);
     waves.amplitudes.rightCols(1) =
-        std::polar(1.0, 2.0 * std::numbers::pi * double(n) * origin) * contact_free.col(n);
+        std::polar(1.0, 2.0 * std::numbers::pi * double(n) * origin) * linear_motion.col(n);
   }
   return waves;
 }

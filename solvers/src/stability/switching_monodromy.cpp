@@ -7,7 +7,7 @@
 #include "linalg/index.hpp"
 #include "linalg/multipliers.hpp"
 #include "stability/pole_states.hpp"
-#include "stability/smooth_pieces.hpp"
+#include "stability/smooth_segments.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -54,11 +54,11 @@ struct LocalLaw {
 };
 
 // What a piece of the period makes of states and of the sliders that are stuck in it.
-struct PieceMap {
+struct SegmentMap {
   Eigen::MatrixXd states, sliders;
 
   double norm() const { return std::hypot(states.norm(), sliders.norm()); }
-  PieceMap after(const PieceMap& first) const {
+  SegmentMap after(const SegmentMap& first) const {
     return {detail::product(states, first.states), detail::product(states, first.sliders) + sliders};
   }
 };
@@ -88,7 +88,7 @@ class SwitchingPropagator {
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
       if (sliders_ > 0) set_sliders(cuts[i], before, map);
       before = law_at(0.5 * (cuts[i] + cuts[i + 1]));
-      const PieceMap piece = over(cuts[i], cuts[i + 1], before);
+      const SegmentMap piece = over(cuts[i], cuts[i + 1], before);
       Eigen::MatrixXd next = detail::product(piece.states, map.topRows(states));
       for (Index k = 0; k < Index(before.stuck.size()); ++k)
         next += piece.sliders.col(k) * map.row(states + before.stuck[std::size_t(k)].number);
@@ -153,7 +153,7 @@ class SwitchingPropagator {
   }
 
   // More sliders than states enter by the integral of the exponential.
-  PieceMap exponential(double begin, double end, const LocalLaw& law) const {
+  SegmentMap exponential(double begin, double end, const LocalLaw& law) const {
     const Index states = states_.size(), stuck = Index(law.stuck.size()), inputs = std::min(states, stuck);
     const Eigen::MatrixXd rates =
         -detail::product(Eigen::MatrixXd(struck_(Eigen::all, law.rows)), forces(law));
@@ -165,7 +165,7 @@ class SwitchingPropagator {
     else
       rate.topRightCorner(states, inputs).setIdentity();
     const Eigen::MatrixXd grown = detail::exponential((end - begin) * period_ * rate);
-    PieceMap map{grown.topLeftCorner(states, states), grown.topRightCorner(states, inputs)};
+    SegmentMap map{grown.topLeftCorner(states, states), grown.topRightCorner(states, inputs)};
     if (stuck > states) map.sliders = detail::product(map.sliders, by_sliders);
     return map;
   }
@@ -181,17 +181,17 @@ class SwitchingPropagator {
   }
 
   // The mid-point rule in parts, extrapolated, until it changes little.
-  PieceMap over(double begin, double end, const LocalLaw& law) const {
-    PieceMap before = exponential(begin, end, law);
+  SegmentMap over(double begin, double end, const LocalLaw& law) const {
+    SegmentMap before = exponential(begin, end, law);
     if (stiffness_.intervals.empty() || is_constant(begin, end)) return before;
     constexpr int most = 1 << 12;
-    PieceMap extrapolated = before;
+    SegmentMap extrapolated = before;
     for (int parts = 2; parts <= most; parts *= 2) {
-      PieceMap now = part_of(begin, end, 0, parts);
+      SegmentMap now = part_of(begin, end, 0, parts);
       for (int i = 1; i < parts; ++i) now = part_of(begin, end, i, parts).after(now);
-      const PieceMap next{(4.0 * now.states - before.states) / 3.0,
-                          (4.0 * now.sliders - before.sliders) / 3.0};
-      const PieceMap change{next.states - extrapolated.states, next.sliders - extrapolated.sliders};
+      const SegmentMap next{(4.0 * now.states - before.states) / 3.0,
+                            (4.0 * now.sliders - before.sliders) / 3.0};
+      const SegmentMap change{next.states - extrapolated.states, next.sliders - extrapolated.sliders};
       extrapolated = next;
       before = std::move(now);
       if (change.norm() <= settled_ * extrapolated.norm()) return extrapolated;
@@ -200,7 +200,7 @@ class SwitchingPropagator {
     return before;
   }
 
-  PieceMap part_of(double begin, double end, int i, int parts) const {
+  SegmentMap part_of(double begin, double end, int i, int parts) const {
     const double from = begin + (end - begin) * i / parts, to = begin + (end - begin) * (i + 1) / parts;
     return exponential(from, to, law_at(0.5 * (from + to)));
   }

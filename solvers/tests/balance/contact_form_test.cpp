@@ -118,7 +118,7 @@ TEST(RigidContact, DependsOnEpsilonByLessThanTheDiscretisation) {
   std::vector<Eigen::VectorXd> motions;
   for (const double factor : {1.0, 3.0}) {
     ContactSystem system(problem, Rigid{one.law.start}, factor * chosen);
-    Eigen::VectorXd unknown = problem.contact_free_response();
+    Eigen::VectorXd unknown = problem.linear_response();
     ASSERT_EQ(newton(system, unknown, {}).status, SolveStatus::converged);
     motions.push_back(problem.displacement(system.force()));
   }
@@ -218,8 +218,8 @@ TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
     Eigen::VectorXd force(problem.samples()), tangent(problem.samples()), product;
     ContactLaws(law).evaluate(1, response.displacement, force, tangent);
     problem.apply(force, product);
-    EXPECT_LE((response.displacement - problem.contact_free_response() + product).norm(),
-              1e-9 * (problem.contact_free_response().norm() + product.norm()));
+    EXPECT_LE((response.displacement - problem.linear_response() + product).norm(),
+              1e-9 * (problem.linear_response().norm() + product.norm()));
   };
   const std::vector<AnyContactLaw> laws{TwoSided{}, TwoSided{1e4, 1e-3}, Cubic{}, Cubic{1e11, -1.0},
                                         Cubic{1e11, 1e-3}};

@@ -32,7 +32,7 @@ class ContactSystemTest : public ::testing::TestWithParam<int> {
 
 TEST_P(ContactSystemTest, KeptOnTheirSidesSamplesPassTheGapSmoothly) {
   const Eigen::VectorXd u = state(0.0);
-  const LawPieces sides = (u.array() > law_.start).cast<int>();
+  const LawSegments sides = (u.array() > law_.start).cast<int>();
   ASSERT_TRUE(sides.any() && !sides.all());
   system_.evaluate(u);
   const Eigen::VectorXd residual = system_.residual(), tangent = system_.tangent();
@@ -56,9 +56,9 @@ TEST_P(ContactSystemTest, ResidualIsThatOfTheExplicitCompliance) {
   Eigen::VectorXd force(u.size());
   for (Eigen::Index l = 0; l < u.size(); ++l) force[l] = law_.force(u[l]);
   const Eigen::VectorXd product = compliance_ * force;
-  const Eigen::VectorXd residual = u - problem_.contact_free_response() + product;
+  const Eigen::VectorXd residual = u - problem_.linear_response() + product;
   EXPECT_LE((system_.residual() - residual).norm(), 1e-13 * (u.norm() + product.norm()));
-  EXPECT_NEAR(relative, residual.norm() / (problem_.contact_free_response().norm() + product.norm()),
+  EXPECT_NEAR(relative, residual.norm() / (problem_.linear_response().norm() + product.norm()),
               1e-12 * relative);
 }
 

@@ -263,7 +263,7 @@ TEST(LinearSolver, GmresFindsTheTangentAtAFold) {
   problem.set_frequency(150.0);
   ContactSystem system(problem, Destabilising{(1.0 - 1e-13) * bar.stiffness.coeff(0, 0)});
   system.set_linear_solver(LinearSolver::krylov);
-  system.evaluate(problem.contact_free_response());
+  system.evaluate(problem.linear_response());
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.samples());
   ASSERT_TRUE(system.factorize_bordered(ones, ones, 0.0));
   Eigen::VectorXd z;
@@ -290,7 +290,7 @@ TEST(LinearSolver, ManyContactsTakeATenthOfTheOperationsOfLu) {
   std::vector<Eigen::VectorXd> found;
   std::vector<int> signs;
   for (ContactSystem* system : {&dense, &automatic}) {
-    system->evaluate(problem.contact_free_response());
+    system->evaluate(problem.linear_response());
     ASSERT_GT((system->tangent().array() > 0.0).count(), 1000);
     double y = 0.0;
     ASSERT_TRUE(system->factorize_bordered(b, c, 0.7));
@@ -308,7 +308,7 @@ TEST(LinearSolver, ATangentThatIsNotFiniteIsASingularMatrix) {
     for (const double stiffness : {std::numeric_limits<double>::infinity(), std::nan("")}) {
       ContactSystem system(problem, Destabilising{1e6});
       system.set_linear_solver(method);
-      system.evaluate(problem.contact_free_response());
+      system.evaluate(problem.linear_response());
       system.set_tangent(3, stiffness);
       EXPECT_FALSE(system.factorize());
     }

@@ -51,7 +51,7 @@ TEST(NyquistCoefficient, DroppedFromFourierLeavesTheFunctionsOfTheOddNumberBelow
     EXPECT_EQ(even.pair().shift_period(), 1);
     ForcedResponseOptions options;
     options.form = form;
-    const testing::LinearContact law{1.0, 0.5 * odd.contact_free_response().maxCoeff()};
+    const testing::LinearContact law{1.0, 0.5 * odd.linear_response().maxCoeff()};
     const PeriodicResponse a = testing::solved_response(even, law, options),
                            b = testing::solved_response(odd, law, options);
     EXPECT_GT(a.contact_force.maxCoeff(), 0.0);
@@ -64,7 +64,7 @@ TEST(NyquistCoefficient, DroppedIsZeroInEveryCoefficientOfTheMotion) {
     CondensedProblem problem = problem_of(haar_cubic(16), chain(), 0.07);
     ForcedResponseOptions options;
     options.form = form;
-    const testing::LinearContact law{1.0, 0.5 * problem.contact_free_response().maxCoeff()};
+    const testing::LinearContact law{1.0, 0.5 * problem.linear_response().maxCoeff()};
     const PeriodicResponse found = testing::solved_response(problem, law, options);
     EXPECT_EQ(found.coefficients.bottomRows(1).norm(), 0.0);
     const Eigen::MatrixXcd full = problem.full_coefficients(found.contact_force);

@@ -83,7 +83,7 @@ class PeriodLawSystem : public ::testing::TestWithParam<int> {
   Eigen::VectorXd motion(CondensedProblem& problem) {
     Eigen::VectorXd moved;
     problem.apply(testing::random_vector(problem.samples(), generator_), moved);
-    return problem.contact_free_response() - moved;
+    return problem.linear_response() - moved;
   }
 
   std::mt19937 generator_{11};

@@ -19,7 +19,7 @@ TEST(RepeatedFrequency, HasTheFreeResponseOfAProblemSetOnce) {
   twice.set_frequency(0.3);
   once.set_load_scale(2.0);
   once.set_frequency(0.3);
-  EXPECT_EQ(twice.contact_free_response(), once.contact_free_response());
+  EXPECT_EQ(twice.linear_response(), once.linear_response());
   const Eigen::VectorXd force = Eigen::VectorXd::LinSpaced(16, -1.0, 2.0);
   Eigen::VectorXd of_once(16), of_twice(16);
   once.apply(force, of_once);

@@ -4,7 +4,7 @@
 #include "support/small_problems.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -43,7 +43,7 @@ TEST(SeveralLoads, OnALinearOscillatorGiveItsClosedFormInEverySolver) {
   const double scale = std::abs(oscillator.amplitude());
   for (int l = 0; l < load_points; ++l) {
     const double expected = driven_displacement(oscillator, double(l) / load_points);
-    EXPECT_NEAR(problem.contact_free_response()[l], expected, 1e-13 * scale);
+    EXPECT_NEAR(problem.linear_response()[l], expected, 1e-13 * scale);
     EXPECT_NEAR(stepped.contacts.displacement(0, l), expected, 1e-5 * scale);
   }
 }
@@ -63,8 +63,8 @@ TEST(SeveralLoads, OfAMovingBaseTransmitItByTheClosedForm) {
     const Complex spring(oscillator.stiffness, omega * oscillator.damping);
     const Complex x = 1e-3 * spring / (spring - omega * omega * oscillator.mass);
     for (int l = 0; l < load_points; ++l)
-      EXPECT_NEAR(problem.contact_free_response()[l],
-                  std::real(x * std::polar(1.0, two_pi * l / load_points)), 1e-14 * std::abs(x) + 1e-18);
+      EXPECT_NEAR(problem.linear_response()[l], std::real(x * std::polar(1.0, two_pi * l / load_points)),
+                  1e-14 * std::abs(x) + 1e-18);
   }
 }
 
@@ -91,14 +91,14 @@ TEST(SeveralLoads, HaveSlopesByFrequencyAndScaleOfTheDifferenceQuotients) {
     const auto at = [&](double f, double scale) {
       problem.set_frequency(f);
       problem.set_load_scale(scale);
-      return problem.contact_free_response();
+      return problem.linear_response();
     };
     const Eigen::VectorXd by_frequency = (at(frequency + h, 0.7) - at(frequency - h, 0.7)) / (2.0 * h);
     const Eigen::VectorXd by_scale = at(frequency, 1.7) - at(frequency, 0.7);
     at(frequency, 0.7);
-    const Eigen::VectorXd found = problem.contact_free_response_slope();
+    const Eigen::VectorXd found = problem.linear_response_slope();
     EXPECT_LE((found - by_frequency).norm(), 1e-6 * found.norm());
-    EXPECT_LE((problem.contact_free_response_by_scale() - by_scale).norm(), 1e-12 * by_scale.norm());
+    EXPECT_LE((problem.linear_response_by_scale() - by_scale).norm(), 1e-12 * by_scale.norm());
   }
 }
 
@@ -113,7 +113,7 @@ TEST(SeveralLoads, GiveTheMotionOfTheAssembledSystemWithContactInEveryKindOfPair
     CondensedProblem problem(pair, chain, testing::cosine_load());
     problem.set_load_scale(scale);
     problem.set_frequency(frequency);
-    const LinearContact law{4.0, 0.3 * problem.contact_free_response().maxCoeff()};
+    const LinearContact law{4.0, 0.3 * problem.linear_response().maxCoeff()};
     const PeriodicResponse response = testing::solved_response(problem, ContactLaws(law));
     EXPECT_GT(response.contact_force.maxCoeff(), 0.0);
     TimePairOptions options{pair.formulation(), pair.inner_products(), pair.points()};

@@ -38,8 +38,8 @@ void expect_solution(CondensedProblem& problem, const Law& law, const PeriodicRe
   ASSERT_TRUE(response.converged()) << to_string(response.status) << " " << response.residual;
   Eigen::VectorXd product;
   problem.apply(response.contact_force, product);
-  const Eigen::VectorXd motion = problem.contact_free_response() - product;
-  const double size = problem.contact_free_response().cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd motion = problem.linear_response() - product;
+  const double size = problem.linear_response().cwiseAbs().maxCoeff() + product.cwiseAbs().maxCoeff();
   EXPECT_LE((response.displacement - motion).cwiseAbs().maxCoeff(), 1e-10 * size);
   const Eigen::VectorXd held = testing::held_motion(problem, response);
   const double largest = response.contact_force.maxCoeff(), near = 1e-9 * size;
@@ -110,7 +110,7 @@ TEST(StiffContact, AgainstAnExponentialLawIsSolvedAtAnyLoad) {
     const PeriodicResponse response = testing::solved_response(problem, testing::jl14_case_1.law);
     EXPECT_TRUE(response.displacement.allFinite() && response.contact_force.allFinite());
     // Beside such a load the law is rigid and the gap nothing.
-    const double size = problem.contact_free_response().maxCoeff();
+    const double size = problem.linear_response().maxCoeff();
     EXPECT_LE(response.displacement.maxCoeff(), 1e-2 * size);
     EXPECT_GT(response.contact_force.mean(), 0.04 * bar.load.maxCoeff());
   }

@@ -82,7 +82,7 @@ TEST(VelocityLaw, ADamperIsTheDampingOfTheStructure) {
     with_damping.set_frequency(0.13);
     const PeriodicResponse response = testing::solved_response(with_law, Damper{});
     EXPECT_LE(response.iterations, 2);
-    EXPECT_LE((response.displacement - with_damping.contact_free_response()).norm(),
+    EXPECT_LE((response.displacement - with_damping.linear_response()).norm(),
               1e-10 * response.displacement.norm());
   }
 }
@@ -104,7 +104,7 @@ class VelocitySystem : public ::testing::Test {
   Eigen::VectorXd motion(CondensedProblem& problem) {
     Eigen::VectorXd moved;
     problem.apply(testing::random_vector(problem.samples(), generator_), moved);
-    return problem.contact_free_response() - moved;
+    return problem.linear_response() - moved;
   }
 
   std::mt19937 generator_;

@@ -1,10 +1,10 @@
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 
+#include "support/collocation_cases.hpp"
 #include "support/duffing_spring.hpp"
-#include "support/phase_cases.hpp"
 #include "support/refusal.hpp"
 #include "testing.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/response/forced_response.hpp"
 
 namespace wavebalance::solvers {
@@ -33,10 +33,10 @@ class Traced {
     problem_.set_load_scale(from);
     return curve(SweepParameter::load_scale, from, to, {});
   }
-  PhaseFamily family(SweepParameter parameter) const { return {problem_, laws_, dynamics_, parameter}; }
-  PhaseMotion first() {
+  ProblemFamily family(SweepParameter parameter) const { return {problem_, laws_, dynamics_, parameter}; }
+  ExactSolution first() {
     const PeriodicResponse response = forced_response(problem_, laws_, {});
-    return response_phases(problem_, laws_, response, dynamics_).motion;
+    return exact_near_response(problem_, laws_, response, dynamics_).motion;
   }
   CondensedProblem& problem() { return problem_; }
 
@@ -134,7 +134,7 @@ TEST(ExactCurve, EndsBehindItsStartWhereItTurns) {
 
 TEST(ExactCurve, GrazesOverTheLoadWhereTheFreeMotionReachesTheGap) {
   Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.14);
-  const double free = traced.problem().contact_free_response().maxCoeff();
+  const double free = traced.problem().linear_response().maxCoeff();
   const ExactCurve curve = traced.over_load(0.5, 3.0);
   expect_curve(curve);
   ASSERT_GE(curve.events.size(), 1u);
@@ -152,12 +152,12 @@ TEST(ExactCurve, OfRandomStructuresConsistsOfMotionsThatPhasesFindWithoutIt) {
     Traced traced(random.structure, random.laws, random.frequency);
     const ExactCurve curve = traced.over_frequency(0.7 * random.frequency, 1.4 * random.frequency);
     expect_curve(curve);
-    const PhaseFamily family = traced.family(SweepParameter::frequency);
+    const ProblemFamily family = traced.family(SweepParameter::frequency);
     for (std::size_t i = 3; i < curve.points.size(); i += 20) {
       const ExactPoint& point = curve.points[i];
       testing::expect_motion(point.motion, random.laws, 1e-7);
       const Eigen::MatrixXd own = point.motion.displacement(uniform_times(256));
-      const PhaseMotion alone = contact_phases(family.at(point.value), own);
+      const ExactSolution alone = collocation_motion(family.at(point.value), own);
       ASSERT_TRUE(alone.converged()) << trial << ": " << point.value;
       EXPECT_LT(distance(alone.displacement(uniform_times(256)), own), 1e-8) << point.value;
     }
@@ -198,14 +198,14 @@ TEST(ExactCurve, IsEndedByItsObserverAndByItsLimits) {
   Traced touching(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.155);
   const ExactCurve rough = touching.over_frequency(0.155, 0.35, options);
   ASSERT_EQ(rough.points.size(), 7u);
-  EXPECT_EQ(rough.points.front().motion.status, PhasesStatus::tolerance_missed);
+  EXPECT_EQ(rough.points.front().motion.status, ExactStatus::tolerance_missed);
 }
 
 TEST(ExactCurve, RefusesOptionsOutOfRangeAndAFirstMotionThatIsNotKnown) {
   Traced traced(unit_oscillator(0.05, 0.15), LinearContact{4.0, 1.0}, 0.1);
-  const PhaseFamily family = traced.family(SweepParameter::frequency);
-  EXPECT_THROW(exact_curve(family, PhaseMotion(), {.from = 0.1, .to = 0.2}), std::invalid_argument);
-  const PhaseMotion first = traced.first();
+  const ProblemFamily family = traced.family(SweepParameter::frequency);
+  EXPECT_THROW(exact_curve(family, ExactSolution(), {.from = 0.1, .to = 0.2}), std::invalid_argument);
+  const ExactSolution first = traced.first();
   EXPECT_THROW(exact_curve(family, first, {.from = 0.1, .to = 0.1}), std::invalid_argument);
   EXPECT_THROW(exact_curve(family, first, {.from = -0.1, .to = 0.2}), std::invalid_argument);
   EXPECT_THROW(exact_curve(family, first, {.from = 0.1, .to = 0.2, .first_step = 0.0}),

@@ -21,7 +21,7 @@ class TracedImpacts {
         dynamics_(structure_),
         problem_(testing::fourier_pair(7, 32), structure_, cosine_load()) {}
 
-  PhaseFamily family(double frequency) {
+  ProblemFamily family(double frequency) {
     problem_.set_frequency(frequency);
     return {problem_, scene_.laws(), dynamics_, SweepParameter::frequency};
   }
@@ -29,7 +29,7 @@ class TracedImpacts {
   ExactCurve over_omega(double from, double to, ExactCurveOptions options = {}) {
     options.from = from / two_pi;
     options.to = to / two_pi;
-    const PhaseFamily over = family(options.from);
+    const ProblemFamily over = family(options.from);
     const ImpactResponse first = impact_response(over.at(options.from));
     return exact_curve(over, first.motion, options);
   }
@@ -50,9 +50,9 @@ TEST(ImpactCurveTest, PassesMotionsOfEachFrequency) {
     std::vector<ImpactGuess> start;
     for (const Impact& impact : point.motion.impacts)
       start.push_back({impact.contact, impact.time + 1e-6, impact.impulse * (1.0 + 1e-6)});
-    const PhaseFamily family = traced.family(point.value);
+    const ProblemFamily family = traced.family(point.value);
     const int periods = static_cast<int>(std::lround(point.value / point.motion.frequency()));
-    const PhaseMotion motion = impact_motion(over_periods(family.at(point.value), periods), start);
+    const ExactSolution motion = impact_motion(over_periods(family.at(point.value), periods), start);
     ASSERT_TRUE(motion.converged()) << to_string(motion.status);
     ASSERT_EQ(motion.impacts.size(), point.motion.impacts.size());
     for (std::size_t i = 0; i < motion.impacts.size(); ++i)
@@ -71,15 +71,15 @@ TEST(ImpactCurveTest, StopsWhereItsObserverSaysSo) {
 TEST(ImpactCurveTest, RefusesOptionsOutOfRangeAndAMotionThatIsNotKnown) {
   TracedImpacts traced(impact_oscillator(0.1, 0.5, 0.8, 1.2));
   const double from = 1.2 / two_pi;
-  const PhaseFamily family = traced.family(from);
-  const PhaseMotion first = impact_response(family.at(from)).motion;
-  const auto words = [&](const PhaseMotion& motion, const ExactCurveOptions& options) {
+  const ProblemFamily family = traced.family(from);
+  const ExactSolution first = impact_response(family.at(from)).motion;
+  const auto words = [&](const ExactSolution& motion, const ExactCurveOptions& options) {
     return testing::refusal([&] { exact_curve(family, motion, options); });
   };
   EXPECT_EQ(words(first, {.from = 0.25, .to = 0.25}), "exact_curve: from and to are the same");
   EXPECT_EQ(words({}, {.from = from, .to = 0.3}),
             "exact_curve: first has the status not_found; it must be a motion");
-  EXPECT_EQ(exact_curve(family, first, {.from = 0.6, .to = 0.7}).start, PhasesStatus::not_found);
+  EXPECT_EQ(exact_curve(family, first, {.from = 0.6, .to = 0.7}).start, ExactStatus::not_found);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Exact curves by the map of the flow against curves by phases and closed forms.
 
+#include "support/collocation_cases.hpp"
 #include "support/friction_motions.hpp"
-#include "support/phase_cases.hpp"
 #include "testing.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 
@@ -28,13 +28,15 @@ TEST(MapCurve, OfAnElasticStopHasTheSpecialPointsOfTheCurveByPhases) {
   const ContactDynamics dynamics(structure);
   CondensedProblem problem = testing::fourier_problem(structure, 63, 256, 0.1);
   const PeriodicResponse response = forced_response(problem, laws, {});
-  const PhaseFamily family(problem, laws, dynamics, SweepParameter::frequency);
+  const ProblemFamily family(problem, laws, dynamics, SweepParameter::frequency);
   ExactCurveOptions options{.from = 0.1, .to = 0.35};
   const auto from = [&](auto* solve) {
-    return exact_curve(family, response_phases(problem, laws, response, dynamics, {}, solve).motion, options);
+    return exact_curve(family, exact_near_response(problem, laws, response, dynamics, {}, solve).motion,
+                       options);
   };
   std::vector<std::pair<Type, double>> expected;
-  for (const ExactEvent& event : from(contact_phases).events) expected.emplace_back(event.type, event.value);
+  for (const ExactEvent& event : from(collocation_motion).events)
+    expected.emplace_back(event.type, event.value);
   EXPECT_EQ(expected.size(), 4u);
   const ExactCurve curve = from(flow_motion);
   expect_events(curve, expected, 1e-10);

@@ -22,7 +22,7 @@ struct Vibrating {
       : structure(linear), dynamics(structure), problem{dynamics, std::move(laws), {}, frequency} {
     Eigen::VectorXcd cosine = Eigen::VectorXcd::Zero(2);
     cosine[1] = 1.0;
-    problem.contact_free = detail::FreeContacts(structure, cosine, dynamics.holding()).at(frequency, 1.0);
+    problem.linear_motion = detail::FreeContacts(structure, cosine, dynamics.holding()).at(frequency, 1.0);
   }
   FlowMotion motion(int points = 4096) const {
     TimeSteppingOptions options;
@@ -33,7 +33,7 @@ struct Vibrating {
 
   LinearStructure structure;
   ContactDynamics dynamics;
-  PhasesProblem problem;
+  ExactProblem problem;
 };
 
 std::complex<double> first_harmonic(const Eigen::MatrixXd& displacement, Index row) {
@@ -128,7 +128,7 @@ TEST(ContactFlow, FindsATouchBetweenTwoOfItsPoints) {
   }
 }
 
-// A ball in a sphere: a law of one's own of three rows.
+// A ball in a sphere: a law of the user of three rows.
 struct Sphere {
   static int rows() { return 3; }
   static double gap() { return 1.0; }

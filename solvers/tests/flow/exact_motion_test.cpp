@@ -2,10 +2,10 @@
 // pytest, in tests/impacts, tests/friction and tests/mixtures.
 #include "wavebalance/solvers/flow/exact_motion.hpp"
 
+#include "support/collocation_cases.hpp"
+#include "support/collocation_stiffness.hpp"
 #include "support/friction_motions.hpp"
 #include "support/friction_table.hpp"
-#include "support/phase_cases.hpp"
-#include "support/phase_stiffness.hpp"
 #include "testing.hpp"
 
 namespace wavebalance::solvers {
@@ -20,7 +20,7 @@ TEST(ExactMotion, HaveTheForcesOfTheLawAtContactsWithoutMass) {
   scene.laws = {contact::CoulombLaw({0.5, 200.0, 0.4}), contact::CoulombLaw({0.5, 300.0, 0.2})};
   const FrictionMotion found(scene);
   ASSERT_TRUE(found.response.converged());
-  const PhaseMotion& motion = found.phases.motion;
+  const ExactSolution& motion = found.phases.motion;
   ASSERT_EQ(to_string(motion.status), "converged");
   ASSERT_EQ(motion.cycles.size(), 2u);
   for (const FrictionCycle& cycle : motion.cycles) EXPECT_GT(cycle.share(ContactState::slip), 0.0);
@@ -34,9 +34,9 @@ TEST(ExactMotion, TheEstimatedErrorIsAboveTheError) {
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(512, 0.0, 1.0 - 1.0 / 512);
   for (const FrictionRow& row : testing::friction_rows()) {
     if (row.scene.laws.front().tangents() > 1) continue;
-    const PhaseMotion exact = FrictionMotion(row.scene, {.tolerance = 1e-10, .nodes = 16}).phases.motion;
+    const ExactSolution exact = FrictionMotion(row.scene, {.tolerance = 1e-10, .nodes = 16}).phases.motion;
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
-      const PhaseMotion motion =
+      const ExactSolution motion =
           FrictionMotion(row.scene, {.tolerance = tolerance, .nodes = 4}).phases.motion;
       ASSERT_EQ(to_string(motion.status), "converged") << row.name;
       EXPECT_LE(motion.estimated_error, tolerance);
@@ -69,12 +69,13 @@ TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
     CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
     const ContactDynamics dynamics(random.structure);
     const PeriodicResponse response = forced_response(problem, random.laws, {});
-    const PhaseMotion phases =
-        response_phases(problem, random.laws, response, dynamics, {.tolerance = 1e-11}).motion;
+    const ExactSolution phases =
+        exact_near_response(problem, random.laws, response, dynamics, {.tolerance = 1e-11}).motion;
     if (!phases.converged() || phases.phases.empty()) continue;
     ++found;
-    const PhaseMotion motion =
-        response_phases(problem, random.laws, response, dynamics, {.tolerance = 1e-10}, flow_motion).motion;
+    const ExactSolution motion =
+        exact_near_response(problem, random.laws, response, dynamics, {.tolerance = 1e-10}, flow_motion)
+            .motion;
     ASSERT_EQ(to_string(motion.status), "converged") << trial;
     const Eigen::VectorXd times = testing::uniform_times(256);
     EXPECT_LE(testing::distance(motion.displacement(times), phases.displacement(times)), 1e-9) << trial;
@@ -92,12 +93,12 @@ TEST(ExactMotion, OfElasticContactAreThoseOfThePhasesWithTheirMultipliers) {
 }
 
 TEST(ExactMotion, AreRefusedWithTheReason) {
-  using enum PhasesStatus;
+  using enum ExactStatus;
   const FrictionScene plane = testing::slip_in_a_plane(0.4, 1.1);
   const FrictionMotion elastic(plane, {}, 15, 64);
   const double rigid = std::numeric_limits<double>::infinity();
   const ContactLaws laws(std::vector<AnyContactLaw>{contact::CoulombLaw({1.0, rigid, 0.4, 2})});
-  EXPECT_EQ(flow_motion(phases_problem(elastic.problem, laws, elastic.dynamics), Eigen::MatrixXd::Ones(2, 64),
+  EXPECT_EQ(flow_motion(exact_problem(elastic.problem, laws, elastic.dynamics), Eigen::MatrixXd::Ones(2, 64),
                         {}, Eigen::MatrixXd::Zero(2, 64))
                 .status,
             slip_in_a_plane);
@@ -114,10 +115,10 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
 // A panel of this chain takes 4e5 operations, and a period has 16 of them at least.
 TEST(ExactMotion, APeriodThatTakesMoreThanTheOperationsIsNotBegun) {
   int periods = 0;
-  const ContactPhasesOptions options{.max_operations = 5e6, .observer = [&periods](const Progress&) {
-                                       ++periods;
-                                       return true;
-                                     }};
+  const CollocationOptions options{.max_operations = 5e6, .observer = [&periods](const Progress&) {
+                                     ++periods;
+                                     return true;
+                                   }};
   const FrictionMotion chain(testing::chain_of_three(3.0, 0.85), options, 15, 64);
   EXPECT_EQ(to_string(chain.phases.motion.status), "too_many_phases");
   EXPECT_EQ(periods, 0);
@@ -130,9 +131,9 @@ TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
   CondensedProblem problem = testing::fourier_problem(random.structure, 127, 512, random.frequency);
   const ContactDynamics dynamics(random.structure);
   const PeriodicResponse response = forced_response(problem, random.laws, {});
-  ContactPhasesOptions options{.tolerance = 1e-12, .nodes = 6, .max_nodes = 6, .max_panels = 1};
+  CollocationOptions options{.tolerance = 1e-12, .nodes = 6, .max_nodes = 6, .max_panels = 1};
   const auto status = [&] {
-    return response_phases(problem, random.laws, response, dynamics, options, exact_motion).motion.status;
+    return exact_near_response(problem, random.laws, response, dynamics, options, exact_motion).motion.status;
   };
   EXPECT_EQ(to_string(status()), "converged");
   options.observer = [](const Progress& progress) { return progress.phase != "exact motion"; };
@@ -142,13 +143,13 @@ TEST(ExactMotion, IsCancelledWhereTheSecondSearchIs) {
 TEST(ExactMotion, BadInputIsRefusedByName) {
   const FrictionScene chain = testing::chain_of_three(3.0, 0.85);
   const FrictionMotion found(chain, {}, 15, 64);
-  const PhasesProblem problem = phases_problem(found.problem, chain.contact_laws(), found.dynamics);
+  const ExactProblem problem = exact_problem(found.problem, chain.contact_laws(), found.dynamics);
   const Eigen::MatrixXd start = Eigen::MatrixXd::Ones(2, 64);
   EXPECT_THROW(flow_motion(problem, Eigen::MatrixXd::Ones(1, 64)), std::invalid_argument);
   EXPECT_THROW(flow_motion(problem, Eigen::MatrixXd::Ones(2, 7)), std::invalid_argument);
   EXPECT_THROW(flow_motion(problem, std::nan("") * start), std::invalid_argument);
   EXPECT_THROW(flow_motion(problem, start, {.tolerance = 0.0}), std::invalid_argument);
-  EXPECT_THROW(contact_phases(problem, start), std::invalid_argument);
+  EXPECT_THROW(collocation_motion(problem, start), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ using testing::ImpactScene, testing::impact_oscillator, testing::refusal;
 TEST(ImpactMotionTest, RefusesMotionsThatPassTheObstacleOrArePulled) {
   const ImpactScene scene = impact_oscillator(0.05, 0.0, 0.8, 3.7);
   const ContactDynamics dynamics(scene.structure());
-  const PhasesProblem problem = scene.problem(dynamics);
-  const PhaseMotion none = impact_motion(problem, {});
-  EXPECT_EQ(none.status, PhasesStatus::penetrating);
-  EXPECT_NEAR(detail::impact_solution(problem, {}).penetration, std::abs(problem.contact_free(0, 1)), 1e-12);
+  const ExactProblem problem = scene.problem(dynamics);
+  const ExactSolution none = impact_motion(problem, {});
+  EXPECT_EQ(none.status, ExactStatus::penetrating);
+  EXPECT_NEAR(detail::impact_solution(problem, {}).penetration, std::abs(problem.linear_motion(0, 1)), 1e-12);
   int refused = 0;
   for (int k = 0; k < 40; ++k) {
-    const PhaseMotion motion =
+    const ExactSolution motion =
         impact_motion(over_periods(problem, 3), {{0, k / 40.0, 1.0}, {0, 0.5 + k / 40.0, 0.2}});
     if (motion.converged()) {
       const Eigen::MatrixXd u = motion.displacement(Eigen::VectorXd::LinSpaced(3001, 0.0, 1.0));
@@ -37,9 +37,9 @@ TEST(ImpactMotionTest, RefusesMotionsThatPassTheObstacleOrArePulled) {
 TEST(ImpactMotionTest, NamesWhatIsWrongWithItsInput) {
   const ImpactScene scene = impact_oscillator(0.1, 1.0, 0.8, 1.0);
   const ContactDynamics dynamics(scene.structure());
-  const PhasesProblem good = scene.problem(dynamics);
+  const ExactProblem good = scene.problem(dynamics);
   const auto words = [&](double restitution, double gap, double frequency, int contact) {
-    const PhasesProblem bad{dynamics, testing::Obstacle(gap, restitution), good.contact_free, frequency};
+    const ExactProblem bad{dynamics, testing::Obstacle(gap, restitution), good.linear_motion, frequency};
     return refusal([&] { impact_motion(bad, {{contact, 0.1, 1.0}}); });
   };
   EXPECT_EQ(words(1.5, 1.0, 1.0, 0), "impact_motion: restitution is 1.5; it must be in 0..1");
@@ -72,7 +72,7 @@ TEST(ImpactResponseTest, StopsWhereItsObserverSaysSo) {
   const ContactDynamics dynamics(scene.structure());
   ImpactResponseOptions options;
   options.observer = [](const Progress& progress) { return progress.step < 2; };
-  EXPECT_EQ(impact_response(scene.problem(dynamics), options).motion.status, PhasesStatus::cancelled);
+  EXPECT_EQ(impact_response(scene.problem(dynamics), options).motion.status, ExactStatus::cancelled);
 }
 
 TEST(EventMotionsTest, StopWhereTheirObserverSaysSoAndRefuseOptionsOutOfRange) {

@@ -1,8 +1,8 @@
 // Contacts that stay closed after impacts without rebound.
 
+#include "collocation/exact_solution_parts.hpp"
 #include "flow/flow_start.hpp"
 #include "linalg/dense.hpp"
-#include "phases/phase_motion_parts.hpp"
 #include "support/impact_scenes.hpp"
 #include "testing.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
@@ -18,10 +18,11 @@ TEST(LastingContactTest, HasTheMultipliersOfDifferencesOfItsMotions) {
   const ImpactResponse found = impact_response(scene.problem(dynamics));
   ASSERT_TRUE(found.motion.converged()) << to_string(found.motion.status);
   const PeriodStart start = *found.motion.parts->start;
-  ContactFlow flow(detail::begun_at({dynamics, ContactLaws(Obstacle{0.5, 0.0}),
-                                     scene.problem(dynamics).contact_free, scene.problem(dynamics).frequency},
-                                    start.begin),
-                   {.tolerance = 1e-12});
+  ContactFlow flow(
+      detail::begun_at({dynamics, ContactLaws(Obstacle{0.5, 0.0}), scene.problem(dynamics).linear_motion,
+                        scene.problem(dynamics).frequency},
+                       start.begin),
+      {.tolerance = 1e-12});
   constexpr double change = 1e-6;
   const auto after = [&](Eigen::VectorXd state) {
     flow.start(state, start.contacts);

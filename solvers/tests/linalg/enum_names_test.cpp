@@ -5,9 +5,9 @@
 #include "enumerators.hpp"
 #include "linalg/enum_table.hpp"
 #include "wavebalance/solvers/branches/branches.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 
 namespace wavebalance::solvers {
@@ -16,7 +16,7 @@ namespace {
 template <class Enum>
 class EnumNames : public ::testing::Test {};
 
-using NamedEnums = ::testing::Types<BackboneStatus, BranchEnd, ContactForm, ModeStatus, PhasesStatus,
+using NamedEnums = ::testing::Types<BackboneStatus, BranchEnd, ContactForm, ModeStatus, ExactStatus,
                                     RefinementStatus, SolveStatus, SpecialPointType, StabilityStatus,
                                     Strategy, SweepStatus, TimeSteppingStatus>;
 TYPED_TEST_SUITE(EnumNames, NamedEnums);

@@ -59,10 +59,10 @@ TEST(ContactProblem, FindsTheSamePhasesFromTheSettledMotionAsFromABalance) {
   const Eigen::VectorXd times = Eigen::VectorXd::LinSpaced(100, 0.0, 0.99);
   const Eigen::MatrixXd expected = balance->motion.displacement(times);
   EXPECT_LT((settled->displacement(times) - expected).norm(), 1e-9 * expected.norm());
-  const StructurePhases whole = problem.structure_motion(0.2, *settled, 100);
+  const ExactStructureMotion whole = problem.structure_motion(0.2, *settled, 100);
   EXPECT_LT((whole.motion.displacement - expected).norm(), 2e-9 * expected.norm());
   EXPECT_EQ(problem.stability(0.2, *settled).status, "stable");
-  EXPECT_EQ(problem.stability(0.2, PhaseMotion{}).status, "not_found");
+  EXPECT_EQ(problem.stability(0.2, ExactSolution{}).status, "not_found");
 }
 
 TEST(ContactProblem, FollowsACurveWhosePointsAreItsResponses) {

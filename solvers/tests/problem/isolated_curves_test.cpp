@@ -1,4 +1,4 @@
-// Curves through motions that the structure settles to and that lie on no known curve.
+// Curves through motions that the structure converges to and that lie on no known curve.
 #include "wavebalance/solvers/problem/isolated_curves.hpp"
 
 #include "support/oscillator.hpp"

@@ -1,4 +1,5 @@
-// Special points of the structure near those of a balance: each once, as its exact curve has them.
+// Bifurcation and grazing points of the structure near those of a balance: each once, as its exact curve has
+// them.
 #include "wavebalance/solvers/problem/structure_points.hpp"
 
 #include "support/oscillator.hpp"
@@ -99,7 +100,8 @@ TEST(StructurePoints, AreTheSameOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.events.size(); ++i) EXPECT_EQ(one.events[i].value, three.events[i].value);
 }
 
-// A balance has the special points of its samples. One that is made up is none of the structure.
+// A balance has the bifurcation and grazing points of its samples. One that is made up is none of the
+// structure.
 TEST(StructurePoints, MarkThoseThatTheStructureDoesNotHaveAndThoseThatAreRepeated) {
   const Swept swept;
   const FrequencySweep curve = swept.curve();
@@ -123,7 +125,7 @@ TEST(StructurePoints, BeyondTheLimitsAreNotSought) {
   const FrequencySweep curve = swept.curve();
   const CurveStability stability = swept.problem().stability(curve);
   const StructurePoints one =
-      swept.points(curve, stability, {.reach = 0.001, .max_stretches = 1, .max_operations = 3e5});
+      swept.points(curve, stability, {.reach = 0.001, .max_segments = 1, .max_operations = 3e5});
   int sought = 0, left = 0;
   for (const NearStructurePoint& near : one.of_balance) ++(near.status == Status::not_sought ? left : sought);
   EXPECT_GT(sought, 0);

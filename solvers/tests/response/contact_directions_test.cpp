@@ -10,7 +10,7 @@
 #include "testing.hpp"
 #include "wavebalance/solvers/balance/contact_form.hpp"
 #include "wavebalance/solvers/modes/nonlinear_mode.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"
 
 namespace wavebalance::solvers {
@@ -38,7 +38,7 @@ LinearStructure touching_chain() {
 std::vector<AnyContactLaw> stops(CondensedProblem& problem) {
   std::vector<AnyContactLaw> laws;
   for (int c = 0; c < problem.contacts(); ++c) {
-    const auto free = problem.contact_free_response().segment(c * problem.points(), problem.points());
+    const auto free = problem.linear_response().segment(c * problem.points(), problem.points());
     laws.emplace_back(LinearContact{1.0 + c, 0.5 * free.maxCoeff()});
   }
   return laws;
@@ -108,13 +108,13 @@ TEST(ObstaclesOnBothSides, MayPressAtTheSameTime) {
       linear(testing::fourier_pair(15, 64), stiffer, testing::cosine_load());
   problem.set_frequency(driven);
   linear.set_frequency(driven);
-  const double preload = -2.0 * linear.contact_free_response().maxCoeff();
+  const double preload = -2.0 * linear.linear_response().maxCoeff();
   for (const ContactForm form : {ContactForm::displacement, ContactForm::force}) {
     ForcedResponseOptions solver;
     solver.form = form;
     const PeriodicResponse response = testing::solved_response(problem, LinearContact{0.7, preload}, solver);
     EXPECT_GT(response.contact_force.minCoeff(), 0.0);
-    EXPECT_LE(distance(response.displacement, linear.contact_free_response()), 1e-9) << to_string(form);
+    EXPECT_LE(distance(response.displacement, linear.linear_response()), 1e-9) << to_string(form);
   }
 }
 

@@ -61,7 +61,7 @@ TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
     const PeriodicResponse response = testing::solved_response(problem, law, options);
     Eigen::VectorXd product;
     problem.apply(response.contact_force, product);
-    const Eigen::VectorXd& free = problem.contact_free_response();
+    const Eigen::VectorXd& free = problem.linear_response();
     const Eigen::VectorXd motion = free - product;
     EXPECT_LE((motion - response.displacement).norm(), 1e-4 * (free.norm() + product.norm())) << stiffening;
     const Eigen::VectorXd held = testing::held_motion(problem, response);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "support/phase_cases.hpp"
+#include "support/collocation_cases.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"
 
@@ -21,12 +21,12 @@ struct BarSweep {
   FrequencySweep run() { return frequency_sweep(problem, testing::jl14_case_2.law, options); }
 };
 
-// Where the largest sample of the contact-free response reaches the gap, by bisection.
+// Where the largest sample of the linear response reaches the gap, by bisection.
 double grazing_frequency(CondensedProblem& problem, double gap, double low, double high) {
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     problem.set_frequency(middle);
-    (problem.contact_free_response().maxCoeff() > gap ? low : high) = middle;
+    (problem.linear_response().maxCoeff() > gap ? low : high) = middle;
   }
   return low;
 }

@@ -127,7 +127,7 @@ TEST(Refinement, ReportsThatLevelsHaveNoResponse) {
 }
 
 // With one step of Newton's method and one point of continuation no level has a response. Four levels are
-// tried where the structure is known to settle to a motion, two where no fallback looks for that.
+// tried where the structure is known to converge to a motion, two where no fallback looks for that.
 TEST(Refinement, TriesMoreLevelsWhereTheStructureSettlesToAMotion) {
   RefinementOptions options;
   options.solver.newton.max_iterations = 1;

@@ -116,14 +116,14 @@ int count_responses(CondensedProblem& problem, double frequency, const testing::
   problem.set_frequency(frequency);
   const Eigen::MatrixXd compliance = testing::compliance_matrix(problem);
   const int points = problem.points();
-  int found = problem.contact_free_response().maxCoeff() <= law.start ? 1 : 0;
+  int found = problem.linear_response().maxCoeff() <= law.start ? 1 : 0;
   for (int first = 0; first < points; ++first)
     for (int length = 1; length < points; ++length) {
       Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(points);
       for (int i = 0; i < length; ++i) stiffness[(first + i) % points] = law.stiffness;
       const Eigen::MatrixXd jacobian =
           Eigen::MatrixXd::Identity(points, points) + compliance * stiffness.asDiagonal();
-      const Eigen::VectorXd right = problem.contact_free_response() + law.start * (compliance * stiffness);
+      const Eigen::VectorXd right = problem.linear_response() + law.start * (compliance * stiffness);
       const Eigen::VectorXd u = oracle::solve(jacobian, right);
       found += ((u.array() > law.start) == (stiffness.array() > 0.0)).all() ? 1 : 0;
     }

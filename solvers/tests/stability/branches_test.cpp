@@ -94,8 +94,9 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   expect_motions_of_the_period(branch, problems, law);
 }
 
-// Far from its special point a branch has folds like any curve, also where the motion of two periods is still
-// small beside that at its end: where it turns at its lowest frequency a multiplier passes 1.
+// Far from its bifurcation or grazing point a branch has folds like any curve, also where the motion of two
+// periods is still small beside that at its end: where it turns at its lowest frequency a multiplier
+// passes 1.
 TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
   testing::ExponentialLaw law = testing::jl14_case_2.law;

@@ -6,8 +6,8 @@
 #include "testing.hpp"
 #include "wavebalance/contact/hunt_crossley_law.hpp"
 #include "wavebalance/contact/kelvin_voigt_law.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/flow/exact_motion.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
@@ -50,8 +50,8 @@ void expect_multipliers(const Law& law, double load, double frequency, double to
   const PeriodicResponse response = testing::solved_response(problem, law);
   ASSERT_GT(response.contact_force.maxCoeff(), 0.1);
   const ContactDynamics dynamics(problem.structure());
-  const PhaseMotion exact =
-      response_phases(problem, law, response, dynamics, {.tolerance = 1e-10}, flow_motion).motion;
+  const ExactSolution exact =
+      exact_near_response(problem, law, response, dynamics, {.tolerance = 1e-10}, flow_motion).motion;
   ASSERT_TRUE(exact.converged()) << to_string(exact.status);
   const Eigen::VectorXcd expected = exact.multipliers();
   ASSERT_EQ(expected.size(), 2);

@@ -133,7 +133,7 @@ TEST(RigidMonodromy, IsApproachedByThoseOfPenalties) {
     const ContactLaws laws = testing::LinearContact{penalty, testing::jl14_case_2.law.start};
     const PeriodicResponse response = testing::solved_response(problem, laws);
     const PeriodicStiffness contact = contact_stiffness(problem, laws, response);
-    const auto multipliers = monodromy(dynamics, contact, 1275.0, {.nodes = 24, .max_pieces = 4000});
+    const auto multipliers = monodromy(dynamics, contact, 1275.0, {.nodes = 24, .max_segments = 4000});
     EXPECT_NEAR(std::abs(multipliers[0]), modulus, tolerance) << penalty;
   }
 }
@@ -144,7 +144,7 @@ TEST(RigidMonodromy, IsTheLimitOfStiffContactWithoutMass) {
   const double limit = std::abs(rigid_monodromy(dynamics, rigid_contact(0.0), 1275.0)[0]);
   const auto error = [&](double stiffness) {
     const auto multipliers =
-        monodromy(dynamics, rigid_contact(stiffness), 1275.0, {.nodes = 24, .max_pieces = 4000});
+        monodromy(dynamics, rigid_contact(stiffness), 1275.0, {.nodes = 24, .max_segments = 4000});
     return std::abs(std::abs(multipliers[0]) - limit);
   };
   const double soft = error(1e11), stiff = error(1e12);

@@ -32,7 +32,7 @@ TEST(StabilityStatus, OfRigidContactWithMassIsNoFiniteStiffness) {
   PeriodicResponse response;  // any with force: not the motion is in question, but the law
   response.status = SolveStatus::converged;
   response.frequency = 0.1;
-  response.unknown = problem.contact_free_response();
+  response.unknown = problem.linear_response();
   response.unknown_coefficients = problem.coefficients(Eigen::VectorXd::Zero(problem.samples()));
   const ContactLaws rigid = testing::Rigid{0.5 * response.unknown.maxCoeff()};
   expect_unknown(unstable_multipliers(problem, rigid, response), StabilityStatus::no_finite_stiffness);
@@ -74,7 +74,7 @@ TEST(StabilityStatus, OfAnUndampedOrFreeStructureIsUndamped) {
 TEST(StabilityStatus, OfContactBetweenTwoSamplesIsTooFewSamples) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 1.0);
   CondensedProblem problem = testing::fourier_problem(structure, 15, 16, 0.05);
-  const Eigen::VectorXd& free = problem.contact_free_response();
+  const Eigen::VectorXd& free = problem.linear_response();
   const double amplitude =
       1.0 / std::abs(std::complex<double>(1.0 - std::pow(two_pi * 0.05, 2), 0.1 * two_pi * 0.05));
   ASSERT_LT(free.maxCoeff(), (1.0 - 1e-6) * amplitude);

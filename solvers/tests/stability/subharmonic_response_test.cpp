@@ -5,8 +5,8 @@
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
 #include "testing.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 
 namespace wavebalance::solvers {
 namespace {
@@ -53,8 +53,8 @@ TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheExactMotionOfThePeriodsTha
     EXPECT_EQ(motion_periods(problem, response), periods);
     EXPECT_EQ(unstable_multipliers(dynamics, problem, hard_stop, response).count, 0);
     EXPECT_EQ(settle(problem, hard_stop).attractor_periods, periods);
-    const PhaseMotion exact =
-        response_phases(problem, hard_stop, response, dynamics, {.tolerance = 1e-9}).motion;
+    const ExactSolution exact =
+        exact_near_response(problem, hard_stop, response, dynamics, {.tolerance = 1e-9}).motion;
     ASSERT_TRUE(exact.converged());
     const Eigen::VectorXd expected =
         exact.displacement(Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / points)).row(0);
@@ -62,7 +62,7 @@ TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheExactMotionOfThePeriodsTha
   }
 }
 
-// Nothing settles to an unstable motion. It is beside that of one period, along its perturbation.
+// Nothing converges to an unstable motion. It is beside that of one period, along its perturbation.
 TEST(SubharmonicResponse, IsFoundFromAPerturbationWhereItIsUnstable) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
   testing::ExponentialLaw law = testing::jl14_case_2.law;

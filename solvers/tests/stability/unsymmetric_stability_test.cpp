@@ -6,7 +6,7 @@
 #include "support/solved.hpp"
 #include "support/unsymmetric_cases.hpp"
 #include "testing.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"

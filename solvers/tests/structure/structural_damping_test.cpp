@@ -3,7 +3,7 @@
 #include "support/small_problems.hpp"
 #include "support/solved.hpp"
 #include "testing.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
@@ -36,8 +36,7 @@ TEST(StructuralDamping, OfAnOscillatorHasTheClosedFormAtEveryHarmonic) {
     CondensedProblem problem(testing::fourier_pair(9, 32), oscillator(), harmonics);
     problem.set_frequency(omega / two_pi);
     for (int l = 0; l < 32; ++l)
-      EXPECT_NEAR(problem.contact_free_response()[l], closed_form(harmonics, omega, l / 32.0), 1e-12)
-          << omega;
+      EXPECT_NEAR(problem.linear_response()[l], closed_form(harmonics, omega, l / 32.0), 1e-12) << omega;
   }
 }
 
@@ -65,7 +64,7 @@ TEST(StructuralDamping, OfLocalFunctionsConvergesToTheClosedForm) {
     double error = 0.0;
     for (int l = 0; l < problem.points(); ++l)
       error =
-          std::max(error, std::abs(problem.contact_free_response()[l] -
+          std::max(error, std::abs(problem.linear_response()[l] -
                                    closed_form(testing::cosine_load(), 1.05, double(l) / problem.points())));
     EXPECT_LT(error, 0.3 * before) << functions;
     before = error;
@@ -91,7 +90,7 @@ TEST(StructuralDamping, OfAnOscillatorAgainstAStopBalancesAtEveryHarmonic) {
     const Complex load = n == 1 ? 0.5 : 0.0;
     EXPECT_LT(std::abs(Complex(1.0 - rate * rate, n > 0 ? eta : 0.0) * u + f - load), 1e-9) << n;
   }
-  const Eigen::VectorXd slope = problem.contact_free_response_slope();
+  const Eigen::VectorXd slope = problem.linear_response_slope();
   Eigen::VectorXd product_slope;
   problem.apply_slope(response.contact_force, product_slope);
   constexpr double step = 1e-6;
@@ -128,14 +127,14 @@ TEST(StructuralDamping, SettlesToTheMotionWithoutContactAndNearThatWithIt) {
   CondensedProblem problem = testing::fourier_problem(oscillator(), 31, 256, 1.02 / two_pi);
   const ContactLaws far = AnyContactLaw(testing::LinearContact{4.0, 1e3}),
                     near = AnyContactLaw(testing::LinearContact{4.0, 0.5});
-  SettlingOptions settling;
+  AttractorOptions settling;
   settling.steps = 256;
-  const SettledMotion without = settle(problem, far, settling);
+  const AttractorMotion without = settle(problem, far, settling);
   ASSERT_EQ(without.attractor_periods, 1);
-  const Eigen::VectorXd free = problem.contact_free_response();
+  const Eigen::VectorXd free = problem.linear_response();
   EXPECT_LT((resample(without.last.displacement, 256, without.start) - free).norm(), 1e-4 * free.norm());
   const PeriodicResponse response = forced_response(problem, near, {});
-  const SettledMotion with = settle(problem, near, settling);
+  const AttractorMotion with = settle(problem, near, settling);
   ASSERT_EQ(with.attractor_periods, 1);
   EXPECT_LT((resample(with.last.displacement, 256, with.start) - response.displacement).norm(),
             0.1 * response.displacement.norm());

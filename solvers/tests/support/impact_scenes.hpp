@@ -8,7 +8,7 @@
 #include "linalg/dense.hpp"
 #include "support/rigid_law.hpp"
 #include "support/structure.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
 
 namespace wavebalance::solvers::testing {
@@ -47,9 +47,9 @@ struct ImpactScene {
         Eigen::VectorXcd(load.cast<std::complex<double>>()));
   }
   ContactLaws laws() const { return obstacles(gaps, restitution); }
-  PhasesProblem problem(const ContactDynamics& dynamics) const {
-    PhasesProblem result{dynamics, laws(), Eigen::MatrixXcd::Zero(contacts.rows(), 2), frequency()};
-    result.contact_free.col(1) = contacts * free_amplitudes();
+  ExactProblem problem(const ContactDynamics& dynamics) const {
+    ExactProblem result{dynamics, laws(), Eigen::MatrixXcd::Zero(contacts.rows(), 2), frequency()};
+    result.linear_motion.col(1) = contacts * free_amplitudes();
     return result;
   }
 };

@@ -234,8 +234,8 @@ SceneValue stability_by_default(const Scene& scene) {
 }
 
 /// Of one response they cost little beside its stability; along a curve as much as the curve, or more.
-SceneValue phases_by_default(const Scene& scene) {
-  return scene.analysis.type == AnalysisType::forced_response && !solves_by_phases(scene) &&
+SceneValue exact_by_default(const Scene& scene) {
+  return scene.analysis.type == AnalysisType::forced_response && !solves_exactly(scene) &&
          !solves_by_impacts(scene) && scene.contact.law != no_law;
 }
 
@@ -283,7 +283,7 @@ void add_analysis_keys(std::vector<SceneKey>& keys) {
            "true computes the exact periodic solution near the response: its contact intervals, its "
            "stability and the errors of the response; in a sweep at every point, instead of only at "
            "the peak and the bifurcation points",
-           derived("true for a response with contact, false for a sweep", phases_by_default),
+           derived("true for a response with contact, false for a sweep", exact_by_default),
            only_with(of_responses() && by_balance()));
   analysis(&Analysis::subharmonic, "subharmonic", "",
            "n computes motions with a period of n forcing periods; functions, quadrature_points and "

@@ -11,7 +11,7 @@ std::vector<std::string_view> basis_names() {
 }
 
 SceneValue default_tolerance(const Scene& scene) {
-  return names_exact_method(scene) ? default_phases_tolerance : 0.0;
+  return names_exact_method(scene) ? default_exact_tolerance : 0.0;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wavebalance/app/analysis/sweep.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 
 namespace wavebalance::app {
 
@@ -23,16 +23,16 @@ struct CurveMotion {
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
   /// With analysis.stability or analysis.phases; where it is not empty, the stability is that of the motion
   /// found, or not known where there is none near.
-  SweepPhases::Point phases;
+  ExactAlongSweep::Point phases;
   /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
-  std::optional<solvers::ResponsePhases> near;
+  std::optional<solvers::ExactNearResponse> near;
 };
 
-/// The motions of analysis.motion_at: that of the point with the largest displacement, those of the special
-/// points in their order along the curve, and at each frequency or amplitude those of all its points, in the
-/// same order and numbered if there are several. Those of the branches are left out. A place that the curve
-/// does not pass has none. `sweep` is one of the scene with motion_at. A response, its phases and its
-/// stability for each. Where the observer stops them, the others are left out and named in
+/// The motions of analysis.motion_at: that of the point with the largest displacement, those of the
+/// bifurcation and grazing points in their order along the curve, and at each frequency or amplitude those of
+/// all its points, in the same order and numbered if there are several. Those of the branches are left out. A
+/// place that the curve does not pass has none. `sweep` is one of the scene with motion_at. A response, its
+/// phases and its stability for each. Where the observer stops them, the others are left out and named in
 /// sweep.motions_left_out.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
                                        const Observer& observer = {});

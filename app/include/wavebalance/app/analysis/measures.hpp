@@ -4,7 +4,7 @@
 #include <span>
 
 #include "wavebalance/app/scene/scene.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
 
 namespace wavebalance::app {
@@ -42,7 +42,7 @@ int leading_contact(const Scene& scene, const solvers::Motion& contacts, const E
 
 /// m, the largest displacement of contacts, or of one, at their impacts, which samples miss; -infinity
 /// without.
-double highest_at_impacts(const solvers::PhaseMotion& motion, std::optional<int> contact = {});
+double highest_at_impacts(const solvers::ExactSolution& motion, std::optional<int> contact = {});
 
 /// Observed order p of errors ~ size^-p: minus the slope of the least-squares line through (ln size, ln
 /// error). Throws std::invalid_argument for fewer than two entries, unequal lengths, or entries that are not

@@ -19,7 +19,7 @@ struct FoundMotion {
 
 /// The motions at forcing.frequency.
 struct Motions {
-  /// solvers::MotionsStatus, or solvers::PhasesStatus if event-driven integration does not converge.
+  /// solvers::MotionsStatus, or solvers::ExactStatus if event-driven integration does not converge.
   std::string status = "not_settled";
   std::vector<FoundMotion> motions{};
   std::vector<solvers::UnsolvedMotion> unsolved{};

@@ -7,10 +7,10 @@
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 #include "wavebalance/solvers/response/refinement.hpp"
 #include "wavebalance/solvers/time/motion.hpp"
@@ -36,8 +36,8 @@ struct Refinement {
 };
 
 /// The attractor reached from rest, in addition to an unstable response.
-struct SettledBeside {
-  int periods = -1;               ///< of the load, solvers::SettledMotion::attractor_periods
+struct AttractorFromRest {
+  int periods = -1;               ///< of the load, solvers::AttractorMotion::attractor_periods
   double max_displacement = 0.0;  ///< m, of any contact in a period of the load; of periods > 0
   double max_force = 0.0;         ///< N, likewise
 };
@@ -59,7 +59,7 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
                        ///< states of the integrator (time stepping)
-  int attractor_periods = -1;  ///< solvers::SettledMotion::attractor_periods; -1 where nothing was settled
+  int attractor_periods = -1;  ///< solvers::AttractorMotion::attractor_periods; -1 where nothing was settled
   std::optional<double> load_frequency{};  ///< Hz, of a motion of a curve; else forcing.frequency
   int periods = 1;         ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;  ///< of the load, after which it repeats: solvers::motion_periods()
@@ -88,7 +88,7 @@ struct Response {
   std::optional<ResponseStability> stability;
   /// Set if converged, with ResponseOptions::phases of a structure whose modes are known, and in scenes by
   /// phases where a motion was found, then without errors of a response.
-  std::optional<solvers::ResponsePhases> phases;
+  std::optional<solvers::ExactNearResponse> phases;
   std::vector<solvers::Impact> struck;  ///< the impacts of its period, by time
   /// Set in scenes whose contacts all have impacts. Unless one rests no contact exerts a force between them,
   /// so that `contacts` have none.
@@ -97,7 +97,7 @@ struct Response {
   /// Set in scenes that are integrated by events.
   std::optional<solvers::FlowMotion> flow;
   /// Set where the response is unstable and its motion has the load's period.
-  std::optional<SettledBeside> settled;
+  std::optional<AttractorFromRest> settled;
   solvers::Motion contacts;   ///< of all contacts, analysis.output_points points; empty if none was found
   int contact = 0;            ///< the leading one, see leading_contact()
   solvers::Motion structure;  ///< of all degrees of freedom of the reduced structure, without forces;
@@ -106,7 +106,7 @@ struct Response {
   /// time.tolerance phases meet more cheaply; empty for references.
   std::string solved_by;
   int start_functions = 0;  ///< of phases: those of the balance that they started from; 0 without one
-  /// Of phases solvers::StructurePhases: the harmonics of `structure`, and the error of those left out.
+  /// Of phases solvers::ExactStructureMotion: the harmonics of `structure`, and the error of those left out.
   int structure_harmonics = 0;
   double structure_left_out = std::numeric_limits<double>::quiet_NaN();
 
@@ -126,7 +126,7 @@ struct ResponseOptions {
                                   ///< Not used with time.tolerance
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
-  bool stability = false;         ///< of weighted_residual_response() and phases_response()
+  bool stability = false;         ///< of weighted_residual_response() and exact_response()
   bool phases = false;            ///< of weighted_residual_response(): Response::phases
   /// Of weighted_residual_response() without time.tolerance: whether the exact motion that time integration
   /// converges to is the response where the functions hold none. Response::solved_by tells which it is.
@@ -142,7 +142,7 @@ struct ResponseOptions {
 /// u <= gap of a rigid obstacle up to the discretisation error. Response::rigid reports that error.
 ///
 /// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
-/// converged when the estimated error meets the tolerance. Below largest_phases_tolerance() exact solutions
+/// converged when the estimated error meets the tolerance. Below largest_exact_tolerance() exact solutions
 /// are sought first, from coarse balances, unless the scene names a pair of other bases: Response::solved_by
 /// says which it was.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
@@ -153,22 +153,21 @@ Response weighted_residual_response(const Scene& scene, const StructureModel& mo
 /// Tolerances below this one phases of contact meet sooner than a refined balance does. With one or two
 /// contacts they are as fast at 1e-5 and two to five times as fast at 1e-6; with 30 contacts they take ten
 /// times as long as the balance at 1e-7, whose sizes end near 1e-9.
-double largest_phases_tolerance(int contacts);
+double largest_exact_tolerance(int contacts);
 
 /// Whether the response is the motion of the structure itself, and not a balance beside it.
-bool is_by_phases(const Response& response);
+bool is_exact(const Response& response);
 
 /// time.tolerance, or the default one of exact motions.
 double phases_tolerance(const Scene& scene);
 
 /// The exact periodic solution, to time.tolerance: of scenes with time.method =
-/// "exact". It starts from a balance with the first of phases_starts Fourier functions near which there is a
+/// "exact". It starts from a balance with the first of exact_starts Fourier functions near which there is a
 /// motion, and where there is none from the attractor. The status is
-/// solvers::PhasesStatus, "no_start" where neither leads to a motion, or "no_modes" where the structure has
+/// solvers::ExactStatus, "no_start" where neither leads to a motion, or "no_modes" where the structure has
 /// none to compute.
-Response phases_response(const Scene& scene, const ResponseOptions& options = {});
-Response phases_response(const Scene& scene, const StructureModel& model,
-                         const ResponseOptions& options = {});
+Response exact_response(const Scene& scene, const ResponseOptions& options = {});
+Response exact_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options = {});
 
 /// The attractor with impacts, of scenes with contact.restitution: exact flights
 /// from impact to impact until it nearly repeats, and of forced responses Newton's method on instants and

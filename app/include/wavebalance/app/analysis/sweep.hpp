@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "wavebalance/app/analysis/exact_along_sweep.hpp"
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/start_motion.hpp"
-#include "wavebalance/app/analysis/sweep_phases.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/branches/branches.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/problem/structure_points.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
 #include "wavebalance/solvers/response/frequency_sweep.hpp"
@@ -59,9 +59,9 @@ struct IsolaOrigin {
 /// branches; of an amplitude sweep load scales are amplitudes.
 struct Sweep {
   solvers::FrequencySweep curve;
-  solvers::CurveStability stability;      ///< set by add_stability(); without points otherwise
-  std::vector<solvers::Branch> branches;  ///< set by add_stability() with analysis.branches
-  std::vector<SweepPhases> phases = {};   ///< set by add_phases(): of the curve, then of each branch
+  solvers::CurveStability stability;         ///< set by add_stability(); without points otherwise
+  std::vector<solvers::Branch> branches;     ///< set by add_stability() with analysis.branches
+  std::vector<ExactAlongSweep> phases = {};  ///< set by add_exact(): of the curve, then of each branch
   /// Of scenes with impacts: of each point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
   /// Whether they alone make the motions, which then have no forces and no errors of phases.
@@ -69,12 +69,12 @@ struct Sweep {
   /// Of scenes with friction: of each point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
   /// The motions of the points of an exact curve, then of each branch.
-  std::vector<std::vector<solvers::PhaseMotion>> exact_motions = {};
+  std::vector<std::vector<solvers::ExactSolution>> exact_motions = {};
   std::vector<double> unexplained = {};  ///< of an exact curve: ExactCurve::unexplained, values of the points
   std::string start_status = {};         ///< of impacts and exact curves: why there is no first motion
-  /// The exact bifurcation points; set by add_phases() with analysis.stability.
+  /// The exact bifurcation points; set by add_exact() with analysis.stability.
   std::optional<solvers::StructurePoints> structure_points = {};
-  bool phases_cancelled = false;  ///< the observer stopped add_phases()
+  bool phases_cancelled = false;  ///< the observer stopped add_exact()
   int periods = 1;                ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
@@ -120,7 +120,7 @@ struct Sweep {
     return number == 0 ? stability : branches[number - 1].stability;
   }
   /// Exact solutions (null if not computed) and stability of the curve, 0, or of a branch, from 1.
-  const SweepPhases* phases_of(std::size_t number) const;
+  const ExactAlongSweep* phases_of(std::size_t number) const;
   StabilityAlong stability_of(std::size_t number) const;
 };
 
@@ -145,22 +145,23 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
                       const StartMotion& start = {});
 
 /// The scene's curve over frequency or amplitude with analysis.exact or of impacts alone: motions of the
-/// structure themselves, with their stability and special points. Turning points are its folds, and the
-/// errors of its phases are those that are estimated. Starts as frequency_sweep() does; impacts begin with
-/// the attractor, and with analysis.branches have the motions of twice as many
-/// periods that begin at period doublings. What an impact passes on is an impulse and not a force, so that
-/// points of impacts alone have no contact force.
+/// structure themselves, with their stability and bifurcation and grazing points. Turning points are its
+/// folds, and the errors of its phases are those that are estimated. Starts as frequency_sweep() does;
+/// impacts begin with the attractor, and with analysis.branches have the motions of twice as many periods
+/// that begin at period doublings. What an impact passes on is an impulse and not a force, so that points of
+/// impacts alone have no contact force.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
 
-/// Sets the exact solutions at the peak and the bifurcation points of a sweep of the scene and at the special
-/// points of its branches, of which `model` is the structure; with analysis.phases at all their points. Of
-/// special points at most most_special_points_with_phases of each curve are then taken, those where
-/// multipliers pass the unit circle before grazings. With analysis.stability the special points of the
-/// structure along the main curve are solved for, as structure_points() does. Without seeks_exact_points()
-/// only the peak has an exact solution. Nothing where neither analysis.stability nor analysis.phases is true
-/// or the structure's modes cannot be computed. An observer that stops it leaves those found so far.
-void add_phases(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
+/// Sets the exact solutions at the peak and the bifurcation points of a sweep of the scene and at the
+/// bifurcation and grazing points of its branches, of which `model` is the structure; with analysis.phases at
+/// all their points. Of bifurcation and grazing points at most most_special_points_with_exact of each curve
+/// are then taken, those where multipliers pass the unit circle before grazings. With analysis.stability the
+/// bifurcation and grazing points of the structure along the main curve are solved for, as structure_points()
+/// does. Without seeks_exact_points() only the peak has an exact solution. Nothing where neither
+/// analysis.stability nor analysis.phases is true or the structure's modes cannot be computed. An observer
+/// that stops it leaves those found so far.
+void add_exact(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,
 /// its branches of one period among them: solvers::isolated_curves(), with the stability and phases of each.

@@ -21,7 +21,7 @@ struct BasisPair {
 
 /// "haar:fourier", as a command's argument and a table have it; "phases".
 std::string name_of(const BasisPair& pair);
-/// "Haar:Fourier", "DB6:DB6", "contact phases": in pictures and sentences.
+/// "Haar:Fourier", "DB6:DB6", "collocation": in pictures and sentences.
 std::string label_of(const BasisPair& pair);
 
 /// Reads "fourier:fourier,haar:fourier". Throws std::invalid_argument, which names what is wrong and what is

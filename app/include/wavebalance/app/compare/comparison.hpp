@@ -22,7 +22,7 @@ struct ComparisonOptions {
   std::vector<double> errors = {1e-2, 1e-4, 1e-6};  ///< for which a choice is recommended
   /// Error that decides; empty: both if the force error is defined, else the displacement error.
   std::optional<ErrorMeasure> measure = {};
-  int threads = 0;         ///< that solve pairs side by side; 0: one per core
+  int threads = 0;         ///< that solve pairs together; 0: one per core
   StartMotion start = {};  ///< near which the reference and a sweep begin; empty: as a run without a start
 };
 
@@ -75,11 +75,11 @@ void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and
 /// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. A tenth of the
-/// budget is the reference's, or three tenths where it is a refined balance. Where it is one by contact
-/// phases these are solved to several tolerances beside the pairs, for at most a tenth of the budget. Times
-/// are processor seconds of the thread that solves; digits do not depend on the threads. The observer is
-/// called by one thread at a time, not always this one; when it returns false the comparison ends with what
-/// was measured so far. Throws as check_comparison().
+/// budget is the reference's, or three tenths where it is a refined balance. Where it is one by collocation
+/// these are solved to several tolerances beside the pairs, for at most a tenth of the budget. Times are
+/// processor seconds of the thread that solves; digits do not depend on the threads. The observer is called
+/// by one thread at a time, not always this one; when it returns false the comparison ends with what was
+/// measured so far. Throws as check_comparison().
 Comparison compare_responses(const Scene& scene, const ComparisonOptions& options,
                              const solvers::Observer& observer = {});
 

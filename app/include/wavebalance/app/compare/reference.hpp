@@ -16,7 +16,7 @@ struct Reference {
   bool converged = false;
   std::string kind;    ///< "linear", "phases" or "finer_balance"; empty if none was found
   std::string status;  ///< "converged" or why not
-  std::string text;    ///< what it is, for a sentence: "contact phases"
+  std::string text;    ///< what it is, for a sentence: "collocation"
   /// Estimated relative rms errors of its displacements and forces: smaller differences from it say nothing.
   /// That of the forces is NaN where it is not known or no force acts.
   double error = solvers::missing, force_error = solvers::missing;

@@ -43,7 +43,7 @@ struct SizeStudyOptions {
   /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or 10
   /// ms or more, that fails or takes so many times as long as another solve with no larger error.
   double dominated_ratio = 0.0;
-  int threads = 1;  ///< that solve the pairs of a size side by side; 0: one per core
+  int threads = 1;  ///< that solve the pairs of a size together; 0: one per core
   /// Called before each size with its pair as the phase, by one thread at a time. No size is begun after it
   /// has returned false, and one that was begun is `not_run`.
   solvers::Observer observer = {};

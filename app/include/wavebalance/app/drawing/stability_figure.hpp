@@ -18,13 +18,14 @@ struct StabilityParts {
   Series dashed;  ///< its label ends in ", unstable"; without points where all is stable
 };
 
-/// A curve of at least two points, of which `unstable` says which are, cut at its special points: a line is
-/// dashed if one of its ends is unstable; see draw_by_stability().
+/// A curve of at least two points, of which `unstable` says which are, cut at its bifurcation and grazing
+/// points: a line is dashed if one of its ends is unstable; see draw_by_stability().
 StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& unstable,
                                   const std::vector<PlacedPoint>& special = {});
 
-/// Adds `curve`, whose points have the stability of `points`, through its special points, which are given in
-/// their order along it: solid, and dashed where it is unstable. The label of the dashed part ends in
+/// Adds `curve`, whose points have the stability of `points`, through its bifurcation and grazing points,
+/// which are given in their order along it: solid, and dashed where it is unstable. The label of the dashed
+/// part ends in
 /// ", unstable". Between two bifurcation points of one line that are no grazings it is dashed if an end of
 /// the line is unstable. Without `points` the curve is solid.
 void draw_by_stability(Panel& panel, const Series& curve, const std::vector<solvers::PointStability>& points,

@@ -35,7 +35,7 @@ std::vector<Cell> row_of(Values&&... values) {
   return {Cell(stored_value(std::forward<Values>(values)))...};
 }
 
-/// Anything that holds doubles side by side: std::vector<double>, Eigen::VectorXd, std::span<const double>.
+/// Anything that holds doubles together: std::vector<double>, Eigen::VectorXd, std::span<const double>.
 template <class Range>
 concept DoubleArray = requires(const Range& range) {
   { range.data() } -> std::convertible_to<const double*>;

@@ -34,7 +34,7 @@ struct Record {
   Summary summary;  ///< in the order in which summary.json holds it; NaN where a value has no meaning
   Table response;   ///< time_fraction, displacement_m, velocity_m_per_s, contact_force_N; empty after a curve
   Table sweep;      ///< see sweep_table(); empty otherwise
-  SweepAxis axis;   ///< of sweep and of the special points
+  SweepAxis axis;   ///< of sweep and of the bifurcation and grazing points
   Table backbone;   ///< points of a nonlinear mode, see backbone_table(); empty otherwise
   /// Poincare section: of a motion that does not repeat displacement and velocity of each place at the
   /// beginning of each recorded period; of a diagram a row for each point. Empty otherwise.
@@ -81,7 +81,7 @@ struct AnalysisOptions {
   /// Empty: none.
   StartMotion start{};
   Observer observer{};
-  int threads = 0;  ///< that condense several harmonics side by side; 0: one per core. Digits do not change
+  int threads = 0;  ///< that condense several harmonics together; 0: one per core. Digits do not change
   /// That of the scene, made before, whose threads then hold; null: it is made.
   const StructureModel* model = nullptr;
 };

@@ -20,9 +20,9 @@ using solvers::NyquistCoefficient;
 /// itself, exactly.
 enum class TimeMethod { balance, exact };
 /// Fourier functions of the balances from which phases are sought, in turn until there is a motion.
-inline constexpr std::array phases_starts{63, 127, 255, 511};
+inline constexpr std::array exact_starts{63, 127, 255, 511};
 /// Default of time.tolerance for exact solutions.
-inline constexpr double default_phases_tolerance = 1e-9;
+inline constexpr double default_exact_tolerance = 1e-9;
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
 /// 2>". Time stepping and nonlinear modes with rigid contact do not use it. A tolerance stands in place of
@@ -98,7 +98,7 @@ bool names_exact_method(const Scene& scene);
 /// Whether its motion is solved for exactly, without functions and points of its own: time.method,
 /// analysis.type = "shooting", which is another name for the same, "motions", and responses that
 /// moves_by_events().
-bool solves_by_phases(const Scene& scene);
+bool solves_exactly(const Scene& scene);
 
 /// At which matrices with gyroscopic or spin_stiffness turn, rad/s; 0 for other structures.
 double spin_speed(const Scene& scene);

@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
 namespace wavebalance::solvers {
 
@@ -29,7 +29,7 @@ struct LimitCycleOptions {
   int random_starts = 8;
   unsigned seed = 1;
   int max_periods = 5000;  ///< of the slowest mode, from each start
-  ContactPhasesOptions motion = {};
+  CollocationOptions motion = {};
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -40,18 +40,18 @@ struct LimitCycle {
   LimitCycleStatus status = LimitCycleStatus::at_rest;
   /// Its frequency() is that of the cycle. Time 0 is the first instant at which a contact begins to stick, or
   /// else its first event. Multipliers are without that of a perturbation along the motion, 1.
-  PhaseMotion motion;
+  ExactSolution motion;
   int starts = 0;          ///< that were tried
   int came_to_rest = 0;    ///< of these
   int grew = 0, lost = 0;  ///< without end; neither of these, nor to a limit cycle
   double periods = 0.0;    ///< of the slowest mode, that were integrated
 };
 
-/// The limit cycle that a structure under static loads settles to, by friction against surfaces that move, by
-/// damping that is negative somewhere, or by matrices without symmetry: ContactFlow from each start until the
-/// contacts come back to a state, and from there Newton's method for state and period at once,
+/// The limit cycle that a structure under static loads converges to, by friction against surfaces that move,
+/// by damping that is negative somewhere, or by matrices without symmetry: ContactFlow from each start until
+/// the contacts come back to a state, and from there Newton's method for state and period at once,
 /// autonomous_motion_from(). An unstable one is given where the motion leads to no other. Throws
 /// std::invalid_argument for a periodic load, for options out of range, and as ContactFlow does.
-LimitCycle limit_cycle(const PhasesProblem& problem, const LimitCycleOptions& options = {});
+LimitCycle limit_cycle(const ExactProblem& problem, const LimitCycleOptions& options = {});
 
 }  // namespace wavebalance::solvers

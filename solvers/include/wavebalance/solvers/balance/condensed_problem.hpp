@@ -15,7 +15,7 @@ namespace wavebalance::solvers {
 ///
 ///   u = u0 - K f_c(u),
 ///
-/// u0 the contact-free response and K (C N x C N, rank C M) the dynamic compliance between force and
+/// u0 the linear response and K (C N x C N, rank C M) the dynamic compliance between force and
 /// displacement samples: DFT, weighting, compliance S Z(k)^-1 S^T, trial functions, inverse DFT. K is never
 /// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
 /// columns onto each other.
@@ -52,7 +52,7 @@ class CondensedProblem {
   /// Throws as Condensation does.
   CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
                    CondensationMethod method = CondensationMethod::automatic);
-  /// With a compliance of one's own, of as many contacts and loads as the structure has; the matrices of the
+  /// With a compliance of the user, of as many contacts and loads as the structure has; the matrices of the
   /// structure are then not condensed.
   CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
                    std::unique_ptr<HarmonicCompliance> compliance);
@@ -103,9 +103,9 @@ class CondensedProblem {
   double load_factor() const { return load_scale_ / full_load_; }
 
   /// u0, m, samples() values, and its derivatives by frequency, m/Hz, and by load_scale(), m.
-  const Eigen::VectorXd& contact_free_response() const { return free_response_; }
-  const Eigen::VectorXd& contact_free_response_slope();
-  Eigen::VectorXd contact_free_response_by_scale();
+  const Eigen::VectorXd& linear_response() const { return free_response_; }
+  const Eigen::VectorXd& linear_response_slope();
+  Eigen::VectorXd linear_response_by_scale();
 
   /// Whether the structure is free to move.
   bool is_free() const { return hold_ != nullptr; }
@@ -156,7 +156,7 @@ class CondensedProblem {
   Eigen::VectorXd displacement(const Eigen::VectorXd& force);
 
   /// Spectra over translates, (M/2 + 1) x C, of the coefficients that belong to force samples (samples()):
-  /// a(k) = contact-free response - compliance * <p, f>. O(C N log N + C^2 M).
+  /// a(k) = linear response - compliance * <p, f>. O(C N log N + C^2 M).
   Eigen::MatrixXcd coefficients(const Eigen::VectorXd& force);
   /// The same with another compliance over translates.
   Eigen::MatrixXcd coefficients(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force);

@@ -18,7 +18,7 @@ std::string_view to_string(ContactForm form);
 
 /// 1 / epsilon of each contact (m/N) for the force form, empty for the displacement form: the argument of
 /// ContactOperator. Needs the problem's frequency. `automatic` takes the force form
-/// where all laws are unilateral and the slope of one, at the penetration that the contact-free response
+/// where all laws are unilateral and the slope of one, at the penetration that the linear response
 /// would cause, exceeds 1e4 / contact_compliance(). epsilon is 30 / contact_compliance(), or 1 /
 /// (2 high_frequency_compliance()) where this is more. Throws std::invalid_argument for a
 /// rigid law in the displacement form or at contacts with mass [contacts_are_massless], and for a law in the

@@ -16,7 +16,7 @@ struct Border;
 
 /// The piece of its law that each sample lies on: the number of kinks below its displacement. With one kink,
 /// at the gap, 1 in contact and 0 outside.
-using LawPieces = Eigen::ArrayXi;
+using LawSegments = Eigen::ArrayXi;
 
 /// A displacement at which the slope of a law jumps.
 struct LawKink {
@@ -75,7 +75,7 @@ class ContactSystem {
   /// The same with every sample kept on one piece of its law, samples() values, which is continued beyond its
   /// kinks by the tangents there. Equal to evaluate() where the pieces are those of `displacement`, and
   /// smooth across the kinks.
-  double evaluate(const Eigen::VectorXd& displacement, const LawPieces& pieces);
+  double evaluate(const Eigen::VectorXd& displacement, const LawSegments& pieces);
 
   const Eigen::VectorXd& force() const { return forces_.force; }  ///< f_c(u), N
   /// CondensedProblem::force_on_held_structure() of the state: force() where the structure is held.
@@ -94,7 +94,7 @@ class ContactSystem {
   /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
 
-  /// Adds a motion to the contact-free response in the residual, m, samples() values; empty for none. A curve
+  /// Adds a motion to the linear response in the residual, m, samples() values; empty for none. A curve
   /// of states leads from an approximate motion, which solves the system with its residual added, to a
   /// solution.
   void set_added_motion(Eigen::VectorXd motion) { added_motion_ = std::move(motion); }

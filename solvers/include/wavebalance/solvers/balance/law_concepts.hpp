@@ -20,7 +20,7 @@ concept DependsOnVelocity = requires(const Law& law, double displacement, double
   { law.damping(displacement, velocity) } -> std::convertible_to<double>;  // N s/m, slope by the velocity
 };
 
-/// Requirements on a contact law. A law of one's own is a struct with these four const members, or five where
+/// Requirements on a contact law. A law of the user is a struct with these four const members, or five where
 /// its force depends on the velocity.
 template <class Law>
 concept ContactLaw = std::copy_constructible<Law> &&

@@ -10,11 +10,11 @@ namespace wavebalance::solvers {
 
 /// How a branch ended.
 enum class BranchEnd {
-  special_point,  ///< it arrived at another special point of the curve that it left
-  parent_curve,   ///< it arrived at that curve where no special point was found
+  special_point,  ///< it arrived at another bifurcation or grazing point of the curve that it left
+  parent_curve,   ///< it arrived at that curve where no bifurcation or grazing point was found
   from_end,       ///< it left the interval at `from`
   to_end,         ///< it left the interval at `to`
-  no_start,       ///< no motion of the branch was found beside the special point
+  no_start,       ///< no motion of the branch was found beside the bifurcation or grazing point
   closed,         ///< it came back to an earlier point of itself
   lost,           ///< no further point was found
   unbounded,      ///< as SweepStatus::unbounded
@@ -30,10 +30,11 @@ BranchEnd end_of(SweepStatus status);
 /// A branch of periodic responses that begins at a bifurcation point of another one.
 struct Branch {
   int parent = 0;         ///< the curve that it leaves: 0 for the main one, i for the i-th branch, from 1
-  int special_point = 0;  ///< index among the special points of the parent
+  int special_point = 0;  ///< index among the bifurcation and grazing points of the parent
   int periods = 1;        ///< period of its motions over that of the main curve's problem
   BranchEnd end = BranchEnd::no_start;
-  int end_point = -1;        ///< index of the special point of the parent at which it arrived; -1 for none
+  int end_point =
+      -1;  ///< index of the bifurcation or grazing point of the parent at which it arrived; -1 for none
   FrequencySweep curve;      ///< of its own problem; frequencies are those of the load, as of the main curve,
                              ///< and what varies is what varies along that
   CurveStability stability;  ///< likewise
@@ -64,8 +65,8 @@ using BranchProblems = std::function<CondensedProblem(int periods)>;
 /// curve from there by arc length. It is one curve, since its other side is the same motion one period later.
 /// At branch points of the main curve that are located both sides are followed. A branch ends where it
 /// arrives at the curve that it left: there the difference between u and u one period later vanishes and
-/// changes sign [R. Seydel, Practical Bifurcation and Stability Analysis, 2010, chapter 5]. That special
-/// point begins no branch of its own.
+/// changes sign [R. Seydel, Practical Bifurcation and Stability Analysis, 2010, chapter 5]. That bifurcation
+/// or grazing point begins no branch of its own.
 ///
 /// Nothing is followed at folds, grazings and Neimark-Sacker points, where the motions that begin are not
 /// periodic. Throws std::invalid_argument for options out of range, a problem of other sizes, and a curve as

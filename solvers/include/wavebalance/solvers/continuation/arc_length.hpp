@@ -85,7 +85,7 @@ namespace detail {
 
 /// The equations of ArcLength.
 struct ResponseEquations {
-  using Pieces = LawPieces;
+  using Pieces = LawSegments;
 
   ResponseEquations(ContactSystem& contacts, const CurveParameter& along, const ArcLengthOptions& lengths);
 
@@ -100,7 +100,7 @@ struct ResponseEquations {
 
   /// Sets `scales` for a solution.
   void set_scales(const Eigen::VectorXd& displacement);
-  double evaluate(const CurvePoint& point, const LawPieces* sides);
+  double evaluate(const CurvePoint& point, const LawSegments* sides);
   const Eigen::VectorXd& residual() const { return system.residual(); }
   bool solve_bordered(const Eigen::VectorXd& row, double last, const Eigen::VectorXd& right,
                       double last_right, Eigen::VectorXd& change, double& parameter_change);
@@ -181,19 +181,19 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
     int kink = 0;
   };
   int kink_at(const CurvePoint& point, int sample) const;
-  bool touches(const LawPieces& pieces) const;
+  bool touches(const LawSegments& pieces) const;
   bool skips_grazing_turn(const CurvePoint& candidate) const;
-  void accept(CurvePoint&& candidate, const LawPieces& sides);
+  void accept(CurvePoint&& candidate, const LawSegments& sides);
 
   bool step_far();
   bool step_in_piece();
-  bool step_smoothly(double step, const LawPieces& sides, CurvePoint& candidate);
-  bool pass_grazing_event(Crossing crossing, double distance, const LawPieces& sides);
+  bool step_smoothly(double step, const LawSegments& sides, CurvePoint& candidate);
+  bool pass_grazing_event(Crossing crossing, double distance, const LawSegments& sides);
   Crossing crossing_ahead(double& distance) const;
-  Crossing passed(const CurvePoint& candidate, const LawPieces& sides) const;
-  LawPieces sides_of(const CurvePoint& point) const;
+  Crossing passed(const CurvePoint& candidate, const LawSegments& sides) const;
+  LawSegments sides_of(const CurvePoint& point) const;
   std::vector<Crossing> samples_at_kinks(const CurvePoint& point) const;
-  bool leads_to(Crossing crossing, const LawPieces& sides, CurvePoint& event);
+  bool leads_to(Crossing crossing, const LawSegments& sides, CurvePoint& event);
   bool tangent_through(int sample, bool inwards, CurvePoint& event);
   bool grazing_tangent(int sample, const std::vector<Crossing>& together, const std::vector<bool>& beyond,
                        CurvePoint& event);
@@ -207,7 +207,7 @@ class ArcLength : private CurveCorrector<detail::ResponseEquations> {
   Eigen::VectorXd previous_scales_;  // in which the tangent of previous_ has the length 1
   double step_ = 0.0;
   double last_step_ = 0.0;             // from previous_ to point_, along the tangent of previous_
-  LawPieces last_sides_;               // sides of the piece that both lie on; empty if there may be several
+  LawSegments last_sides_;             // sides of the piece that both lie on; empty if there may be several
   double reversal_step_ = 0.0;         // length of the last long step that contained a turning point
   double piecewise_arc_length_ = 0.0;  // arc length that is to be followed piece by piece
   // Curves have crossed, so that the orientation is no check of long steps.

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "wavebalance/solvers/exact/phase_family.hpp"
+#include "wavebalance/solvers/exact/problem_family.hpp"
 #include "wavebalance/solvers/stability/curve_stability.hpp"
 
 namespace wavebalance::solvers {
@@ -24,9 +24,9 @@ struct ExactCurveOptions {
   /// exact_point_operations() of all points together, after which the curve has the status `point_limit`,
   /// too.
   double max_operations = std::numeric_limits<double>::infinity();
-  bool stability = true;             ///< multipliers at each point, and the points where they pass the circle
-  ContactPhasesOptions phases = {};  ///< tolerance, nodes and panels of each motion
-  Observer observer = {};            ///< called with the last point in each step of Newton's method
+  bool stability = true;           ///< multipliers at each point, and the points where they pass the circle
+  CollocationOptions phases = {};  ///< tolerance, nodes and panels of each motion
+  Observer observer = {};          ///< called with the last point in each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -35,9 +35,9 @@ struct ExactCurveOptions {
 /// A motion of the structure on a curve.
 struct ExactPoint {
   double value = 0.0;  ///< Hz or load scale
-  PhaseMotion motion;
+  ExactSolution motion;
   double slope = 0.0;            ///< of the parameter by arc length: its sign is that in which the curve goes
-  Eigen::VectorXcd multipliers;  ///< PhaseMotion::multipliers(); empty unless asked for, or not found
+  Eigen::VectorXcd multipliers;  ///< ExactSolution::multipliers(); empty unless asked for, or not found
   int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
 };
 
@@ -46,7 +46,7 @@ struct ExactEvent {
   SpecialPointType type = SpecialPointType::fold;
   double value = 0.0;                                 ///< Hz or load scale
   std::complex<double> multiplier{missing, missing};  ///< the one at the unit circle, Im >= 0
-  PhaseMotion motion;
+  ExactSolution motion;
   std::size_t next_point = 0;  ///< index of the first point of the curve behind it
   bool turns = false;  ///< of a grazing of impacts: the parameter reverses there, as it does at a fold
 };
@@ -55,17 +55,17 @@ struct ExactEvent {
 struct ExactCurve {
   SweepStatus status = SweepStatus::no_start;
   /// Status of the first motion: why a curve has `no_start`.
-  PhasesStatus start = PhasesStatus::converged;
+  ExactStatus start = ExactStatus::converged;
   std::vector<ExactPoint> points;
   std::vector<ExactEvent> events;
   /// Numbers of the points before which the count of multipliers outside the circle changes otherwise than by
-  /// the events there: a special point is missing.
+  /// the events there: a bifurcation or grazing point is missing.
   std::vector<std::size_t> unexplained;
 };
 
 /// About so many floating-point operations a point of a curve takes that is like this motion, with its
 /// multipliers.
-double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& dynamics);
+double exact_point_operations(const ExactSolution& motion, const ContactDynamics& dynamics);
 
 /// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
 /// that has converged at options.from until it leaves the interval, of which options.behind may be the end on
@@ -74,8 +74,9 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 /// as any other. Where a phase appears or vanishes the grazing motion is solved for, and the curve goes on
 /// with the other phases.
 ///
-/// Special points are zeros along the curve: of the parameter's slope (fold), of a multiplier's modulus less
-/// 1 (period doubling, Neimark-Sacker, branch), of the distance from a breakpoint (grazing).
+/// Bifurcation and grazing points are zeros along the curve: of the parameter's slope (fold), of a
+/// multiplier's modulus less 1 (period doubling, Neimark-Sacker, branch), of the distance from a breakpoint
+/// (grazing).
 ///
 /// With friction, of a first motion by the flow, and of laws of the velocity where the curve by phases is
 /// lost, the curve is followed by the map of a period of the flow from event to event instead, with the same
@@ -88,18 +89,19 @@ double exact_point_operations(const PhaseMotion& motion, const ContactDynamics& 
 /// rigid contact begins or ends. O(n^3 + n^2 poles) for each Newton step of n unknowns, O(s^3) for the
 /// multipliers of s states; by the map some twenty periods of the flow for each point, one of them with all
 /// perturbations.
-ExactCurve exact_curve(const PhaseFamily& family, const PhaseMotion& first, const ExactCurveOptions& options);
+ExactCurve exact_curve(const ProblemFamily& family, const ExactSolution& first,
+                       const ExactCurveOptions& options);
 
 /// The curve of motions of twice as many periods that begins at a period doubling of a curve of impacts with
 /// `options`. `no_start` where none is found beside it. Throws as exact_curve(), and for another event.
-ExactCurve doubled_curve(const PhaseFamily& family, const ExactEvent& event,
+ExactCurve doubled_curve(const ProblemFamily& family, const ExactEvent& event,
                          const ExactCurveOptions& options);
 
 /// The curve through a motion at a value within the interval, from one of its ends to the other, or once
 /// around: followed to options.to, and unless it is closed to options.from. Its status is `reached_end` where
 /// its ends lie on both ends of the interval, `returned` where they lie on one, and otherwise what stopped
 /// it. options.behind has no meaning. Throws as exact_curve() does, and for a value that is not within.
-ExactCurve exact_curve_through(const PhaseFamily& family, double value, const PhaseMotion& motion,
+ExactCurve exact_curve_through(const ProblemFamily& family, double value, const ExactSolution& motion,
                                const ExactCurveOptions& options);
 
 }  // namespace wavebalance::solvers

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/flow/law_machine.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
@@ -66,7 +66,7 @@ struct FlowPanel {
 
 /// Motions in time of a linear structure whose contacts are machines of states: between events, at which a
 /// state ends, forces are polynomials on panels, so that the motion is exact to the tolerance; impulses act
-/// at events. Laws of all kinds may act side by side. A perturbation can be taken along: over panels by the
+/// at events. Laws of all kinds may act together. A perturbation can be taken along: over panels by the
 /// slopes of the laws, through events by saltation [R. I. Leine, H. Nijmeijer, Dynamics and Bifurcations of
 /// Non-Smooth Mechanical Systems, 2004].
 ///
@@ -75,7 +75,7 @@ class ContactFlow {
  public:
   /// Keeps no reference to the problem. Throws std::invalid_argument as machines_of() does and for
   /// structural damping.
-  explicit ContactFlow(const PhasesProblem& problem, const FlowOptions& options = {});
+  explicit ContactFlow(const ExactProblem& problem, const FlowOptions& options = {});
   ~ContactFlow();
   ContactFlow(ContactFlow&&) noexcept;
   ContactFlow& operator=(ContactFlow&&) noexcept;

@@ -1,10 +1,10 @@
 #pragma once
-#include "wavebalance/solvers/phases/contact_phases.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
 namespace wavebalance::solvers {
 
 /// The motion near a start that comes back after a period of the flow from event to event, ContactFlow: any
-/// laws that are machines of states, side by side, of structures that may be free to move. The start has
+/// laws that are machines of states, together, of structures that may be free to move. The start has
 /// displacements, R x N, m, and forces, N, of the contacts at the times l / N; without forces they are those
 /// of the laws over the period.
 ///
@@ -23,21 +23,21 @@ namespace wavebalance::solvers {
 /// rigid_contact at a contact with mass without a restitution, structural_damping, resonant, not_found,
 /// tolerance_missed, cancelled. Throws std::invalid_argument for sizes that do not fit and options out of
 /// range. O(periods panels ((rows q)^3 + states^2 rows q)), q = 12.
-PhaseMotion flow_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                        const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
+ExactSolution flow_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
+                          const CollocationOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 /// The same near a state at a time that is far from all events, as impulses need it.
-PhaseMotion flow_motion_from(const PhasesProblem& problem, const PeriodStart& start,
-                             const ContactPhasesOptions& options = {});
+ExactSolution flow_motion_from(const ExactProblem& problem, const PeriodStart& start,
+                               const CollocationOptions& options = {});
 
 /// The same of a structure without periodic load, whose period is an unknown: 1 / problem.frequency is its
 /// start. Time 0 of the motion is the first instant at which a contact begins to stick, or else its first
 /// event, or the start. The multiplier of 1 of a perturbation along the motion is left out.
-PhaseMotion autonomous_motion_from(const PhasesProblem& problem, const PeriodStart& start,
-                                   const ContactPhasesOptions& options = {});
+ExactSolution autonomous_motion_from(const ExactProblem& problem, const PeriodStart& start,
+                                     const CollocationOptions& options = {});
 
-/// contact_phases(), which is faster, where all laws are those of one instant, and flow_motion() with
+/// collocation_motion(), which is faster, where all laws are those of one instant, and flow_motion() with
 /// friction, and where that finds no motion or has too many phases.
-PhaseMotion exact_motion(const PhasesProblem& problem, const Eigen::MatrixXd& start,
-                         const ContactPhasesOptions& options = {}, const Eigen::MatrixXd& start_force = {});
+ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
+                           const CollocationOptions& options = {}, const Eigen::MatrixXd& start_force = {});
 
 }  // namespace wavebalance::solvers

@@ -50,7 +50,7 @@ struct Sliding {
 
 /// A contact law as a machine of states. A state says which forces are free and the equations that determine
 /// them, and the exits by which it ends: each has a guard, positive within the state and zero at the instant,
-/// and sets the memories of the next state. A law of one's own derives from this class. Immutable.
+/// and sets the memories of the next state. A law of the user derives from this class. Immutable.
 class LawMachine {
  public:
   virtual ~LawMachine() = default;

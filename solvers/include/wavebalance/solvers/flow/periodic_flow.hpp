@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/flow/contact_flow.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
@@ -13,7 +13,7 @@ namespace wavebalance::solvers {
 struct FlowMotion {
   TimeSteppingResult stepping;  ///< the last period, and how it was reached
   FlowStatus ended = FlowStatus::converged;
-  PhaseMotion motion;             ///< the last period; without parts where it was not completed
+  ExactSolution motion;           ///< the last period; without parts where it was not completed
   std::vector<FlowEvent> events;  ///< of the last period, in s from its beginning
   std::vector<Impact> impacts;    ///< among these, in periods
   std::vector<ContactMachine> machines;
@@ -35,7 +35,7 @@ struct FlowMotion {
 /// period_tolerance, then closes the period by Newton's method: the motion is then exact to the tolerance of
 /// the panels, and its multipliers are known. A slider that does not move keeps its position, which has a
 /// multiplier of 1 that is left out. Throws as ContactFlow does, and for options out of range.
-FlowMotion integrate_by_events(const PhasesProblem& problem, const TimeSteppingOptions& options,
+FlowMotion integrate_by_events(const ExactProblem& problem, const TimeSteppingOptions& options,
                                const FlowOptions& flow = {}, const Eigen::VectorXcd& poles = {});
 /// The same of a structure under the load of a problem, at its frequency.
 FlowMotion integrate_by_events(const CondensedProblem& problem, const ContactDynamics& dynamics,

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/linalg/progress.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
 
 namespace wavebalance::solvers {
 
@@ -38,8 +38,8 @@ struct ImpactGuess {
 /// structure that is free to move, a contact without mass, which has no impacts, and a start with a contact
 /// that does not exist or a number that is not finite. The observer is called before each of at most 40
 /// steps, O(K^2 poles + K^3).
-PhaseMotion impact_motion(const PhasesProblem& problem, const std::vector<ImpactGuess>& start,
-                          const Observer& observer = {});
+ExactSolution impact_motion(const ExactProblem& problem, const std::vector<ImpactGuess>& start,
+                            const Observer& observer = {});
 
 /// C x C, 1/kg: S M^-1 S^T, the velocities of the contacts by impulses of 1 N s. O(C^2 poles).
 Eigen::MatrixXd inverse_contact_mass(const ContactDynamics& dynamics);

@@ -26,7 +26,7 @@ struct ImpactResponse {
   /// Over load_periods periods of the load; where a contact rests with phases, too. Without a motion its
   /// status says what the structure does: `chattering`, `lasting_contact`, `grazing`, `not_settled`,
   /// `too_many_impacts` or `cancelled`.
-  PhaseMotion motion;
+  ExactSolution motion;
   int load_periods = 1;          ///< after which it repeats
   Eigen::VectorXcd multipliers;  ///< empty without a motion
   int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
@@ -41,18 +41,18 @@ struct ImpactResponse {
   bool lasts() const { return !motion.phases.empty(); }
 };
 
-/// The motion with impacts that a structure settles to under its load, of which `problem` has one period: by
-/// flights of its modes, exact between impacts, whose ends are found without missing any, until the state
+/// The motion with impacts that a structure converges to under its load, of which `problem` has one period:
+/// by flights of its modes, exact between impacts, whose ends are found without missing any, until the state
 /// nearly repeats after 1 to `longest` periods; then impact_motion() from the impacts of the last ones. It
 /// begins where the motion without contact is farthest from all obstacles, pressed away from those that it
 /// passes there. A motion that is unstable is given only where none that is stable has been found.
 ///
 /// Where a contact without rebound is pressed after its impact, and where impacts of a contact follow each
-/// other ever faster, their velocity below 1e-6 of the largest, the contact rests: settled_motion() from the
-/// same state then leads to the motion. Where it leads to none, the status is lasting_contact or chattering,
-/// with the instant at which the first such impacts end, the sum of a geometric series.
+/// other ever faster, their velocity below 1e-6 of the largest, the contact rests: attractor_motion() from
+/// the same state then leads to the motion. Where it leads to none, the status is lasting_contact or
+/// chattering, with the instant at which the first such impacts end, the sum of a geometric series.
 ///
 /// Throws as impact_motion() and for options out of range. O(cells C poles) per period.
-ImpactResponse impact_response(const PhasesProblem& problem, const ImpactResponseOptions& options = {});
+ImpactResponse impact_response(const ExactProblem& problem, const ImpactResponseOptions& options = {});
 
 }  // namespace wavebalance::solvers

@@ -15,9 +15,10 @@ struct ModeStabilityOptions {
   /// ratio growth / (2 pi) stops as much.
   double growth = 1e-3;
   double max_closure = 0.1;  ///< largest ModeStability::closure; beyond it the status is too_few_harmonics
-  double tolerance = 1e-5;   ///< of special points: width of a bracket over the distance of two points
-  int max_states = 800;      ///< twice the modes up to which multipliers are computed, at O(states^3)
-  Observer observer = {};    ///< called after each point of a backbone
+  double tolerance =
+      1e-5;  ///< of bifurcation and grazing points: width of a bracket over the distance of two points
+  int max_states = 800;    ///< twice the modes up to which multipliers are computed, at O(states^3)
+  Observer observer = {};  ///< called after each point of a backbone
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -93,9 +94,10 @@ struct BackboneStability {
   StabilityStatus status() const;
 };
 
-/// The stability of every point of a backbone of `mode`, those on internal resonances too, and its special
-/// points: where neighbours differ in the count, the curve between them is halved. Two changes between
-/// neighbours that cancel each other are not noticed. One monodromy() per point, about 20 per special point.
+/// The stability of every point of a backbone of `mode`, those on internal resonances too, and its
+/// bifurcation and grazing points: where neighbours differ in the count, the curve between them is halved.
+/// Two changes between neighbours that cancel each other are not noticed. One monodromy() per point, about 20
+/// per bifurcation or grazing point.
 BackboneStability backbone_stability(const ElasticMode& mode, const ElasticBackbone& backbone,
                                      const ModeStabilityOptions& options = {});
 

@@ -12,7 +12,7 @@ struct MotionsOptions {
   int random_starts = 24;    ///< states from which the structure settles, beside that of rest
   unsigned seed = 20140817;  ///< of these states: the same ones for the same seed
   int longest = 4;           ///< periods of the load after which a motion may repeat
-  double tolerance = 1e-9;   ///< of each motion, ContactPhasesOptions::tolerance
+  double tolerance = 1e-9;   ///< of each motion, CollocationOptions::tolerance
   Observer observer{};       ///< called with each period integrated and each step of Newton's method
 
   /// Throws std::invalid_argument for a number out of its range.
@@ -21,7 +21,7 @@ struct MotionsOptions {
 
 /// The first method that found a motion.
 enum class MotionSource {
-  rest,    ///< the structure settles to it from rest
+  rest,    ///< the structure converges to it from rest
   random,  ///< or from a random state
   newton   ///< Newton's method from between motions, or near states that nearly return
 };
@@ -30,13 +30,13 @@ std::string_view to_string(MotionSource source);
 
 /// One of the motions of a frequency.
 struct CoexistingMotion {
-  PhaseMotion motion;  ///< over `periods` periods of the load
-  int periods = 1;     ///< after which it repeats, and no fewer
+  ExactSolution motion;  ///< over `periods` periods of the load
+  int periods = 1;       ///< after which it repeats, and no fewer
   MotionStability stability;
   double max_displacement = 0.0;  ///< of any contact at 256 instants of each period of the load, m
   double max_force = 0.0;         ///< likewise, N
   MotionSource found_by = MotionSource::rest;
-  int arrivals = 0;  ///< random starts that settle to it
+  int arrivals = 0;  ///< random starts that converge to it
   /// arrivals / starts: how much of the states it attracts, and the standard error sqrt(p (1 - p) / n). NaN
   /// without random starts.
   double share = missing, share_error = missing;
@@ -44,8 +44,8 @@ struct CoexistingMotion {
 
 enum class MotionsStatus {
   converged,    ///< there are motions, and all starts were taken
-  not_settled,  ///< no start settles to a motion that repeats within the options' limits
-  not_solved,   ///< starts do, or nearly, and contact phases solve for none of them
+  not_settled,  ///< no start converges to a motion that repeats within the options' limits
+  not_solved,   ///< starts do, or nearly, and collocation solve for none of them
   no_modes,     ///< the structure has no modes to compute
   cancelled     ///< the observer returned false; the motions are those found before
 };
@@ -58,12 +58,12 @@ struct BoxSide {
   double displacement = 0.0, velocity = 0.0;
 };
 
-/// A motion that starts settle to, by integration, and that contact phases do not solve for.
+/// A motion that starts converge to, by integration, and that collocation do not solve for.
 struct UnsolvedMotion {
-  PhasesStatus status = PhasesStatus::not_found;   ///< with which contact phases ended
+  ExactStatus status = ExactStatus::not_found;     ///< with which collocation ended
   int periods = 1;                                 ///< of the load, after which it repeats
   double max_displacement = 0.0, max_force = 0.0;  ///< of any contact, m, N
-  int arrivals = 0;                                ///< random starts that settle to it
+  int arrivals = 0;                                ///< random starts that converge to it
 };
 
 /// The motions found at one frequency.
@@ -72,28 +72,28 @@ struct CoexistingMotions {
   std::vector<CoexistingMotion> motions;  ///< in the order in which they were found
   std::vector<UnsolvedMotion> unsolved;   ///< likewise
   int starts = 0;                         ///< random ones that were taken
-  int none = 0;                           ///< of these, those that settle to none of the motions
+  int none = 0;                           ///< of these, those that converge to none of the motions
   /// `none` by their last status, and the status of the start from rest where that has no motion.
-  std::map<PhasesStatus, int> none_by;
-  PhasesStatus first = PhasesStatus::converged;
+  std::map<ExactStatus, int> none_by;
+  ExactStatus first = ExactStatus::converged;
   std::vector<BoxSide> box;  ///< of the random states, by mode
 };
 
-/// The periodic motions at a frequency of the load: those that the structure settles to from rest and from
+/// The periodic motions at a frequency of the load: those that the structure converges to from rest and from
 /// random states, and unstable ones between them. The states are uniform in a box of the modes around the
 /// static deflection, of half sides twice the largest displacements and velocities of the settled motion,
 /// of that without contact, enlarged until it reaches a gap, and of the resonant vibrations that the laws
-/// move to this frequency. Motions are solved for by contact phases, so that two are the same where their
+/// move to this frequency. Motions are solved for by collocation, so that two are the same where their
 /// displacements agree to 1e-6, also by whole periods of the load later. A start whose integration comes to a
-/// stable one of them within 1e-4 of what vibrates counts there. One that contact phases do not solve for is
+/// stable one of them within 1e-4 of what vibrates counts there. One that collocation do not solve for is
 /// told by its integration.
 ///
 /// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
-/// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that settle to different motions
-/// are bisected until the motion from between them stays beside an unstable one for long, near which Newton's
-/// method starts. It has the load's period or that of the two. Others lie midway between a motion of several
-/// periods and itself later, or near states that nearly return where the structure settles to none from rest.
-/// Neither they nor motions of small basins are certain to be found.
+/// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that converge to different
+/// motions are bisected until the motion from between them stays beside an unstable one for long, near which
+/// Newton's method starts. It has the load's period or that of the two. Others lie midway between a motion of
+/// several periods and itself later, or near states that nearly return where the structure converges to none
+/// from rest. Neither they nor motions of small basins are certain to be found.
 ///
 /// Throws std::invalid_argument for options out of range and a problem of several periods of its load. A
 /// settle() for each start, and up to 26 for each pair of motions that starts arrive at, as well as shorter
@@ -110,7 +110,7 @@ CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
 /// stable or not. Displacements that agree to 1e-6, of structures that are free to move about their means,
 /// are one motion.
 ///
-/// Throws std::invalid_argument as impact_response() or settled_motion(). One of these for each start.
-CoexistingMotions event_motions(const PhasesProblem& problem, const MotionsOptions& options = {});
+/// Throws std::invalid_argument as impact_response() or attractor_motion(). One of these for each start.
+CoexistingMotions event_motions(const ExactProblem& problem, const MotionsOptions& options = {});
 
 }  // namespace wavebalance::solvers

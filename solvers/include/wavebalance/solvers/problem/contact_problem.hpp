@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "wavebalance/solvers/branches/branches.hpp"
+#include "wavebalance/solvers/collocation/exact_near_response.hpp"
+#include "wavebalance/solvers/collocation/exact_structure_motion.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
-#include "wavebalance/solvers/flow/settled_motion.hpp"
+#include "wavebalance/solvers/flow/attractor_motion.hpp"
 #include "wavebalance/solvers/impacts/impact_response.hpp"
-#include "wavebalance/solvers/period/settling.hpp"
+#include "wavebalance/solvers/period/attractor_integration.hpp"
 #include "wavebalance/solvers/period/time_stepping.hpp"
-#include "wavebalance/solvers/phases/response_phases.hpp"
-#include "wavebalance/solvers/phases/structure_phases.hpp"
 #include "wavebalance/solvers/problem/motion_stability.hpp"
 #include "wavebalance/solvers/problem/structure_dynamics.hpp"
 #include "wavebalance/solvers/response/curve_peak.hpp"
@@ -30,7 +30,7 @@ inline constexpr double largest_rounding_error = 1e-3;
 
 /// Starts of the search for a response, samples() values each.
 struct ResponseStart {
-  Eigen::VectorXd displacement{};  ///< m; empty: the contact-free response
+  Eigen::VectorXd displacement{};  ///< m; empty: the linear response
   Eigen::VectorXd force{};         ///< N; empty where none is known
 };
 
@@ -80,28 +80,28 @@ class ContactProblem {
   Motion motion(const PeriodicResponse& response, int points);
   Motion structure_motion(const PeriodicResponse& response, int points);
   /// The phases of contact near a response; nothing where the structure has no modes to compute.
-  std::optional<ResponsePhases> phases(const PeriodicResponse& response,
-                                       const ContactPhasesOptions& options = {});
+  std::optional<ExactNearResponse> phases(const PeriodicResponse& response,
+                                          const CollocationOptions& options = {});
   /// The phases of contact near the motion that settle() found at a frequency; nothing where there is none,
   /// or no modes.
-  std::optional<PhaseMotion> phases(double frequency, const SettledMotion& settled,
-                                    const ContactPhasesOptions& options = {});
+  std::optional<ExactSolution> phases(double frequency, const AttractorMotion& settled,
+                                      const CollocationOptions& options = {});
   /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other
   /// laws, of friction of a structure that is free to move and of rigid friction at a contact with mass.
   bool moves_by_events() const;
-  /// settled_motion() at a frequency. Throws std::invalid_argument without modes.
-  SettledExact settled_exact(double frequency, const TimeSteppingOptions& stepping,
-                             const ContactPhasesOptions& options = {});
+  /// attractor_motion() at a frequency. Throws std::invalid_argument without modes.
+  ExactAttractor exact_attractor(double frequency, const TimeSteppingOptions& stepping,
+                                 const CollocationOptions& options = {});
   /// The phases of contact near displacements of the contacts, and with rigid laws forces, uniform over the
   /// period; nothing without modes.
-  std::optional<PhaseMotion> phases(double frequency, const Motion& start,
-                                    const ContactPhasesOptions& options = {});
-  /// structure_phases() of a motion at a frequency, and its stability where it has converged.
-  StructurePhases structure_motion(double frequency, const PhaseMotion& motion, int points,
-                                   const StructurePhasesOptions& options = {});
-  MotionStability stability(double frequency, const PhaseMotion& motion);
+  std::optional<ExactSolution> phases(double frequency, const Motion& start,
+                                      const CollocationOptions& options = {});
+  /// exact_structure_motion() of a motion at a frequency, and its stability where it has converged.
+  ExactStructureMotion structure_motion(double frequency, const ExactSolution& motion, int points,
+                                        const ExactStructureOptions& options = {});
+  MotionStability stability(double frequency, const ExactSolution& motion);
   /// The stability of a response, that of the phases `motion` where it is not null.
-  MotionStability stability(const PeriodicResponse& response, const PhaseMotion* motion = nullptr);
+  MotionStability stability(const PeriodicResponse& response, const ExactSolution* motion = nullptr);
   /// Its exponents of the largest multipliers, `most` at most; without values where the structure has no
   /// modes.
   FloquetExponents exponents(const PeriodicResponse& response, int most);
@@ -129,9 +129,10 @@ class ContactProblem {
                                          const ExactCurveOptions& options);
   /// exact_curve_through() over the frequency, from a motion that has converged at a frequency within the
   /// interval; without points without modes.
-  ExactCurve exact_curve_from(double frequency, const PhaseMotion& motion, const ExactCurveOptions& options);
-  /// The stability along a curve that was traced with keep_unknowns, and, if asked for, its special points
-  /// with its slip_points(); without points where the structure has no modes.
+  ExactCurve exact_curve_from(double frequency, const ExactSolution& motion,
+                              const ExactCurveOptions& options);
+  /// The stability along a curve that was traced with keep_unknowns, and, if asked for, its bifurcation and
+  /// grazing points with its slip_points(); without points where the structure has no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
                            const Observer& observer = {}, bool special_points = true);
   /// Makes the pair for motions of so many periods of the curve's, as BranchProblems says.
@@ -150,10 +151,10 @@ class ContactProblem {
   /// a structure without modes, and as this does.
   ImpactResponse impacts(double frequency, const ImpactResponseOptions& options = {});
   /// For what has exact motions at a frequency of the load. Throws std::invalid_argument without modes.
-  PhasesProblem phases_problem(double frequency);
+  ExactProblem exact_problem(double frequency);
 
   /// Motions in time, from rest or the state of the options: settle().
-  SettledMotion settle(double frequency, const SettlingOptions& options = {});
+  AttractorMotion settle(double frequency, const AttractorOptions& options = {});
 
  private:
   void require_well_posed() const;
@@ -162,9 +163,9 @@ class ContactProblem {
   void hold(const FrequencySweep& curve);
   void load_fully(double frequency);
   void add_slip_points(const FrequencySweep& curve, int output_points, CurveStability& stability);
-  PhaseMotion motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
-                          const ResponseStart& start);
-  PhasesProblem phases_problem_here();
+  ExactSolution motion_here(const ExactCurveOptions& options, const ForcedResponseOptions& how,
+                            const ResponseStart& start);
+  ExactProblem exact_problem_here();
   ExactCurve exact_curve_here(SweepParameter parameter, const ExactCurveOptions& options,
                               const ForcedResponseOptions& how, const ResponseStart& start);
 

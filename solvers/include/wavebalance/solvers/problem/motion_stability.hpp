@@ -4,8 +4,8 @@
 
 #include "wavebalance/solvers/balance/condensed_problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"
-#include "wavebalance/solvers/phases/contact_phases.hpp"
 #include "wavebalance/solvers/response/periodic_response.hpp"
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 
@@ -14,7 +14,7 @@ namespace wavebalance::solvers {
 /// The stability of a motion.
 struct MotionStability {
   /// "stable", "unstable", or why it is not known: a StabilityStatus, "no_modes" of the structure, or
-  /// "not_found" of a PhasesStatus.
+  /// "not_found" of a ExactStatus.
   std::string status = "no_modes";
   int unstable = -1;  ///< Floquet multipliers outside the unit circle; -1 where not known
   /// The multiplier of the largest modulus, Im >= 0, of several the one with the largest real part; NaN where
@@ -35,11 +35,11 @@ StabilityOptions stability_options(const CondensedProblem& problem);
 MotionStability stability_of_multipliers(const Eigen::VectorXcd& multipliers);
 
 /// The stability of a response, at whose frequency and load the problem is. By the phases of contact of
-/// `motion` where these are known: all multipliers at once, PhaseMotion::multipliers(), which have no
+/// `motion` where these are known: all multipliers at once, ExactSolution::multipliers(), which have no
 /// harmonics to truncate. Where none was found near the response there is no verdict. `motion` may be
 /// null.
 MotionStability motion_stability(const CondensedProblem& problem, const ContactLaws& laws,
                                  const PeriodicResponse& response, const ContactDynamics& dynamics,
-                                 const PhaseMotion* motion = nullptr);
+                                 const ExactSolution* motion = nullptr);
 
 }  // namespace wavebalance::solvers

@@ -3,14 +3,14 @@
 #include <string_view>
 #include <vector>
 
-#include "wavebalance/solvers/problem/phases_along.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
 
 namespace wavebalance::solvers {
 
 /// The exact counterpart of a bifurcation point of harmonic balance.
 enum class StructurePointStatus {
   found,      ///< one of its type
-  repeated,   ///< one of its type, to which another special point of the balance is nearer
+  repeated,   ///< one of its type, to which another bifurcation or grazing point of the balance is nearer
   none,       ///< none of its type: the curve of its motions passes without one
   not_known,  ///< the curve of its motions was not followed past it, or has no multipliers
   not_sought  ///< it was left out by the limits of the options, or came after an interruption
@@ -30,12 +30,12 @@ struct StructurePointsOptions {
   /// Arc length of the search on either side of a bifurcation point of harmonic balance. A 20th of the
   /// interval and the largest displacement have length 1 each.
   double reach = 0.25;
-  std::size_t max_stretches = 24;  ///< of the curve, those with multipliers at the unit circle first
-  int max_points = 2000;           ///< motions on the whole curve; and on all stretches together
-  double max_operations = 5e11;    ///< floating-point operations of all curves together
-  double max_distance = 0.1;       ///< as of CurvePhasesOptions
+  std::size_t max_segments = 24;  ///< of the curve, those with multipliers at the unit circle first
+  int max_points = 2000;          ///< motions on the whole curve; and on all stretches together
+  double max_operations = 5e11;   ///< floating-point operations of all curves together
+  double max_distance = 0.1;      ///< as of ExactAlongOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
-  ContactPhasesOptions phases{};
+  CollocationOptions phases{};
   int threads = 1;      ///< that take the stretches one by one; 0: one per core
   Observer observer{};  ///< called by the caller's thread alone
 
@@ -48,7 +48,7 @@ struct StructurePoints {
   /// Each once, in the order of the curve; ExactEvent::next_point is the number of the point of the balance's
   /// curve with which the stretch begins in which it was found.
   std::vector<ExactEvent> events;
-  std::vector<NearStructurePoint> of_balance;  ///< one for each special point of the balance
+  std::vector<NearStructurePoint> of_balance;  ///< one for each bifurcation or grazing point of the balance
   /// The curve of the structure through the motion near the first point of the balance's was followed until
   /// it left the interval: `events` are all that it has.
   bool whole = false;
@@ -61,14 +61,13 @@ struct StructurePoints {
   bool cancelled = false;  ///< the observer returned false
 };
 
-/// The special points of the structure along a balance's curve. exact_curve() is followed from a motion by
-/// phases of contact near the first point of the balance's curve, and where it does not come to its last
-/// point, back from that. Where a quarter of the operations is not enough for it, or it is lost, it is
-/// followed along stretches about the special points of the balance alone, likewise from both ends; where the
-/// effort was too small, without those of grazings alone. Points
-/// that lie near each other share a stretch, so that one of the structure stands once where samples make many
-/// of it, and one that the balance does not have is found in a stretch, too; beside all stretches none is
-/// sought.
+/// The bifurcation and grazing points of the structure along a balance's curve. exact_curve() is followed
+/// from a motion by phases of contact near the first point of the balance's curve, and where it does not come
+/// to its last point, back from that. Where a quarter of the operations is not enough for it, or it is lost,
+/// it is followed along stretches about the bifurcation and grazing points of the balance alone, likewise
+/// from both ends; where the effort was too small, without those of grazings alone. Points that lie near each
+/// other share a stretch, so that one of the structure stands once where samples make many of it, and one
+/// that the balance does not have is found in a stretch, too; beside all stretches none is sought.
 ///
 /// `make` makes the problem on which the curve was traced with keep_unknowns; `points` are of its
 /// CurveStability. Neither the order of the stretches nor the threads change a digit. Without events where

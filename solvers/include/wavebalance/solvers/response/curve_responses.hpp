@@ -13,8 +13,8 @@ ArcLengthOptions arc_scales(const FrequencySweep& curve);
 
 /// The response of a curve's solution `unknown` (samples() values, m) at `value`, the frequency (Hz) or load
 /// scale: a point of a curve that frequency_sweep() or amplitude_sweep() traced on `problem` with
-/// keep_unknowns, or one of its special points. The problem is left at that value in the displacement form.
-/// Throws std::invalid_argument for another length. O(C N log N), and a condensation.
+/// keep_unknowns, or one of its bifurcation and grazing points. The problem is left at that value in the
+/// displacement form. Throws std::invalid_argument for another length. O(C N log N), and a condensation.
 PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& laws,
                                 const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown);
 

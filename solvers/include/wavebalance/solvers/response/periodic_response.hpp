@@ -9,7 +9,7 @@
 
 namespace wavebalance::solvers {
 
-struct SettledMotion;
+struct AttractorMotion;
 
 /// Strategies for a periodic response, in the order in which they are tried.
 enum class Strategy {
@@ -20,7 +20,7 @@ enum class Strategy {
   gap_continuation,   ///< arc length in the gaps, from where the first contact touches to the gaps given
   load_continuation,  ///< growing loads, from rest: arc length, or Newton's method for closed contacts
   sticking,           ///< Newton's method from the motion in which all contacts with friction stick
-  settling,           ///< Newton's method from the motion that the structure at rest settles to
+  settling,           ///< Newton's method from the motion that the structure at rest converges to
   recurrence,         ///< Newton's method from a period after which that motion nearly returns
   residual_homotopy,  ///< arc length from that motion, or from the start given, to a solution
   perturbation        ///< Newton's method from a motion of fewer periods and a perturbation of it
@@ -38,10 +38,10 @@ struct PeriodicResponse {
   double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
   int iterations = 0;                  ///< Newton iterations of all attempts
   Strategy strategy = Strategy::none;  ///< what found it
-  /// SettledMotion::attractor_periods where the structure was settled; -1 where it was not, or not known.
+  /// AttractorMotion::attractor_periods where the structure was settled; -1 where it was not, or not known.
   int attractor_periods = -1;
-  /// The motion that it settles to, where that has the period of the problem and the response none near it.
-  std::shared_ptr<const SettledMotion> settled;
+  /// The motion that it converges to, where that has the period of the problem and the response none near it.
+  std::shared_ptr<const AttractorMotion> settled;
   std::vector<double> residual_history;  ///< residuals of the last Newton run
   double condition = 0.0;                ///< NewtonResult::condition of that run
   /// Estimated rounding error of the condensation in the motion, relative: CondensedProblem::rounding_error()

@@ -14,7 +14,7 @@ enum class RefinementStatus {
   converged,      ///< the estimated error meets the tolerance
   size_limit,     ///< the next level would have more functions or points than allowed
   not_converged,  ///< two levels in a row have no response, neither from the previous one nor from the
-                  ///< contact-free response
+                  ///< linear response
   stagnated,      ///< levels do not come closer any more: rounding, or Newton's tolerance
   cancelled       ///< the observer returned false
 };
@@ -32,7 +32,7 @@ struct RefinementLevel {
   double change = 0.0;           ///< distance to the previous level's response
   double residual = 0.0;         ///< relative residual of the response
   int iterations = 0;            ///< Newton iterations
-  bool restarted = false;        ///< solved from the contact-free response, not from the previous level
+  bool restarted = false;        ///< solved from the linear response, not from the previous level
   double seconds = 0.0;          ///< wall time
 };
 
@@ -96,7 +96,7 @@ struct RefinementResult {
 /// are solved next; the path of the homotopy is the last resort.
 ///
 /// Where several responses exist the refinement keeps to one. If the change of a later level exceeds that of
-/// the previous one and 3 %, the level is solved anew from the contact-free response, and the nearer of the
+/// the previous one and 3 %, the level is solved anew from the linear response, and the nearer of the
 /// two responses is kept.
 ///
 /// Throws std::invalid_argument for options out of range and what `make_problem` throws. The cost is near

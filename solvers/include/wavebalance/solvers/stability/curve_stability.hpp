@@ -32,7 +32,7 @@ enum class SpecialPointType {
 
 std::string_view to_string(SpecialPointType type);
 
-/// A special point between two points of a curve that differ in stability or in contact.
+/// A bifurcation or grazing point between two points of a curve that differ in stability or in contact.
 struct SpecialPoint {
   SpecialPointType type = SpecialPointType::fold;
   double frequency = 0.0;             ///< Hz, in the middle of the bracket
@@ -53,8 +53,9 @@ struct CurveStabilityOptions {
   StabilityOptions stability;
   double tolerance = 1e-6;     ///< width of a bracket over the distance of two points of the curve
   bool special_points = true;  ///< whether they are located; without them counts alone take far less
-  int output_points = 1024;    ///< times per period at which the maxima of special points are taken
-  Observer observer;           ///< called after each point
+  int output_points =
+      1024;           ///< times per period at which the maxima of bifurcation and grazing points are taken
+  Observer observer;  ///< called after each point
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -71,15 +72,15 @@ struct CurveStability {
 };
 
 /// The stability of every point of a curve that frequency_sweep() or amplitude_sweep() has traced on
-/// `problem` with keep_unknowns, and its special points. Where two neighbours differ in the count, in a sign
-/// or in the number of intervals of contact, the curve between them is divided, each time with a new solution
-/// of the balance, until each difference stands alone in a bracket of the tolerance: at the grazing that
-/// samples predict, else in the middle. Two changes between
-/// neighbours that cancel each other are not noticed.
+/// `problem` with keep_unknowns, and its bifurcation and grazing points. Where two neighbours differ in the
+/// count, in a sign or in the number of intervals of contact, the curve between them is divided, each time
+/// with a new solution of the balance, until each difference stands alone in a bracket of the tolerance: at
+/// the grazing that samples predict, else in the middle. Two changes between neighbours that cancel each
+/// other are not noticed.
 ///
 /// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
 /// unstable_multipliers() per point, about 7 responses per grazing point, and about 20 responses and counts
-/// per other special point.
+/// per other bifurcation or grazing point.
 CurveStability curve_stability(CondensedProblem& problem, const ContactLaws& laws,
                                const FrequencySweep& curve, DynamicsAlong dynamics,
                                const CurveStabilityOptions& options = {});

@@ -13,7 +13,7 @@ struct MonodromyOptions {
   /// Largest change over a piece of the phase of the highest mode and of the contact's stiffness on the mass
   /// beside it, rad.
   double max_phase = 12.0;
-  int max_pieces = 500;  ///< at most, of a contact that lasts the whole period
+  int max_segments = 500;  ///< at most, of a contact that lasts the whole period
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -31,7 +31,7 @@ struct MonodromyOptions {
 /// rounding after the longest free flight; the multipliers of the others are zero. O(pieces (nodes^2 n C^2 +
 /// (nodes C)^3 + nodes C n m) + m^3). Throws std::invalid_argument for a frequency (Hz) that is not positive
 /// and finite, a stiffness whose status is not converged, and options out of range. NaN where the contact is
-/// so stiff that max_pieces do not resolve it.
+/// so stiff that max_segments do not resolve it.
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                            double frequency, const MonodromyOptions& options = {});
 

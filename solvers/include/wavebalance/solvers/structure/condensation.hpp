@@ -51,14 +51,14 @@ struct CondensedSpectrum {
 /// Estimated rounding errors of a condensation, relative.
 struct RoundingErrors {
   double compliance = 0.0;     ///< largest error over k and contacts, over the largest diagonal entry
-  double load_response = 0.0;  ///< of the contact-free response: 2-norms over k and contacts
+  double load_response = 0.0;  ///< of the linear response: 2-norms over k and contacts
 };
 
 /// How dynamic stiffnesses are solved. n degrees of freedom, C contacts.
 enum class CondensationMethod {
   /// Tridiagonal, or else modal up to 1000 degrees of freedom, or else an LU, as for any damping or stiffness
   /// without symmetry; an LU also from the first
-  /// condense() on in which the modal sum loses so many digits that the relative error of the contact-free
+  /// condense() on in which the modal sum loses so many digits that the relative error of the linear
   /// response is estimated above 1e-8.
   automatic,
   tridiagonal,  ///< tridiagonal matrices (a bar): O(n C^2) per point, O(n) for one contact

@@ -1,0 +1,57 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/solvers/problem/exact_along.hpp"
+
+namespace wavebalance::app {
+
+/// Whether exact bifurcation points are sought along a curve of a scene. With many contacts they can take a
+/// hundred times as long as the curve, and are sought only with analysis.phases.
+bool seeks_exact_points(const Scene& scene);
+
+/// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
+inline constexpr std::size_t most_special_points_with_exact = 24;
+
+/// The exact periodic solutions near a curve. Empty where they were not sought.
+struct ExactAlongSweep {
+  using Point = std::optional<solvers::ExactAtPoint>;
+
+  Point peak;                         ///< of the main curve, with its motion
+  std::vector<Point> special_points;  ///< one for each of CurveStability::special_points
+  std::vector<Point> points;          ///< one for each point of the curve with analysis.phases; else none
+};
+
+/// "converged", "converged_beside" if found only a few points along the curve away, another
+/// solvers::ExactStatus, or "not_computed".
+std::string phases_status(const ExactAlongSweep::Point& point);
+/// Whether the search found none nearby.
+bool was_not_found(const ExactAlongSweep::Point& point);
+
+/// The stability along a curve that its record tells.
+struct StabilityAlong {
+  std::vector<solvers::PointStability> points;
+  /// Of each point: "phases" where the count is that of the structure's motion, "balance", or "none" where
+  /// no motion of the structure was found near and no verdict is given. Empty without
+  /// ExactAlongSweep::points.
+  std::vector<std::string> by;
+  std::string status = "converged";  ///< or why the first count that is not known is not
+};
+
+/// That of a balance with the counts of the structure where its motion is known, null: without any.
+StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* phases);
+
+/// The index of the point with the largest displacement, of a curve with points.
+std::size_t peak_of(const solvers::FrequencySweep& curve);
+/// The index of the point that vibrates most.
+std::size_t vibration_peak_of(const solvers::FrequencySweep& curve);
+
+/// The relative error of the vibration, half the peak-to-peak value, at the peak of a curve against the
+/// motion of the structure near it; NaN where that is not known there.
+double error_of_vibration(const solvers::FrequencySweep& curve, const ExactAlongSweep::Point& peak,
+                          int output_points);
+
+}  // namespace wavebalance::app

@@ -1,0 +1,43 @@
+#pragma once
+#include <Eigen/Core>
+
+#include "collocation/collocation_newton.hpp"
+#include "wavebalance/solvers/collocation/collocation_motion.hpp"
+
+namespace wavebalance::solvers::detail {
+
+/// Relative rms errors of the displacements: by the coefficients that are left out, if they go on to decay as
+/// the last ones do, and by the residual.
+struct EstimatedError {
+  double resolution = 0.0, residual = 0.0;
+  Eigen::VectorXd shares = {};  ///< of each panel in the former; their sum is 1
+
+  double all() const { return resolution + residual; }
+};
+
+/// Of a solution whose displacements have this rms, m.
+EstimatedError error_of(const CollocationResult& solved, double motion_rms);
+
+double rms_of(const Eigen::MatrixXd& values);
+
+/// Cuts the phases where the last coefficients of a panel are above `share` of the largest force: near an end
+/// of the phase, where layers of fast modes lie, or in the middle. Whether it cut any.
+bool divide(CollocationIterate& iterate, double share);
+
+/// Takes away the cuts of panels at an end of their phase that have next to no part in the error: no layer of
+/// fast modes is there. Not where the others need the largest number of nodes, so that every panel counts.
+void join_panels(CollocationIterate& iterate, const EstimatedError& error, const LegendreNodes& nodes,
+                 const CollocationOptions& options);
+
+/// The panels that have more than their part in an error above the tolerance. False where none is or there
+/// are max_panels already.
+bool divide_panels(CollocationIterate& iterate, const EstimatedError& error,
+                   const CollocationOptions& options);
+
+/// So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
+/// least a third more, or divided panels, where these take fewer unknowns or so many nodes are not allowed.
+/// False where neither is left.
+bool make_finer(CollocationIterate& iterate, LegendreNodes& nodes, const EstimatedError& error,
+                const CollocationOptions& options);
+
+}  // namespace wavebalance::solvers::detail

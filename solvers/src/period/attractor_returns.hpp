@@ -1,0 +1,16 @@
+#pragma once
+#include <functional>
+
+#include "wavebalance/solvers/period/attractor_integration.hpp"
+
+namespace wavebalance::solvers {
+
+/// Is called with each of AttractorMotion::returns as it is found, and with AttractorMotion::start. Where it
+/// answers true no more are sought.
+using TakesReturn = std::function<bool(const Motion& piece, double start)>;
+
+/// settle() that hands its returns on one by one, since to find the next one may take long.
+AttractorMotion settle(const CondensedProblem& problem, const ContactLaws& laws,
+                       const AttractorOptions& options, const TakesReturn& takes);
+
+}  // namespace wavebalance::solvers

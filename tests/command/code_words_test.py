@@ -1,0 +1,40 @@
+"""Names and comments of the code use the terms of the field; keys, statuses and columns keep their names."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = [path for room in ("app", "contact", "fem", "python", "reproduce", "solvers", "spectral", "wavelets")
+           for path in sorted((ROOT / room).rglob("*.[ch]pp")) if "tests" not in path.parts]
+TOKEN = re.compile(r'(?P<comment>//[^\n]*|/\*.*?\*/)|(?P<literal>"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\])+\')', re.S)
+# Types of keys and columns that users read: special_points, phases.
+KEPT = {"SpecialPoint", "SpecialPointType", "ModeSpecialPoint", "Piece", "Pieces"}
+
+
+def parts(path):
+    """Code without comments and literals, and the comments."""
+    text = path.read_text()
+    return TOKEN.sub(" ", text), "\n".join(found["comment"] for found in TOKEN.finditer(text) if found["comment"])
+
+
+PARTS = {path.relative_to(ROOT): parts(path) for path in SOURCES}
+
+
+def test_types_have_names_of_the_field():
+    old = re.compile(r"\b(?:struct|class) (\w*(?:Phase|Settl|Tongue|Stretch|Piece|ContactFree|Special)\w*)")
+    assert {(str(path), name) for path, (code, _) in PARTS.items() for name in old.findall(code)
+            if name not in KEPT} == set()
+
+
+def test_files_and_rooms_have_names_of_the_field():
+    old = re.compile("phase|settl|stretch|contact_free|piece|tongue")
+    assert [str(path) for path in PARTS if old.search(str(path))] == []
+
+
+@pytest.mark.parametrize("words", ["contact-free", "contact phases", "held against", "leading contact", "of one's own",
+                                   "side by side", "special points?", "condensation on the contact", "settles? to"])
+def test_comments_use_words_of_the_field(words):
+    pattern = re.compile(rf"\b{words}\b".replace(" ", r"(?:\s|//+)+"))
+    assert [str(path) for path, (_, comments) in PARTS.items() if pattern.search(comments)] == []
