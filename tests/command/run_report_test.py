@@ -51,7 +51,13 @@ def test_tables_have_the_digits_that_a_reader_needs_and_no_column_without_a_valu
 
     def text(column, value):
         places = column == "frequency_Hz"
-        return value if isinstance(value, str) else "" if np.isnan(value) else f"{value:.{10 if places else 6}g}"
+        if isinstance(value, str) or np.isnan(value):
+            return value if isinstance(value, str) else ""
+        shown = f"{value:.{10 if places else 6}g}"
+        if "e" not in shown:
+            return shown
+        mantissa, exponent = shown.split("e")
+        return f"{mantissa}·10" + str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
     assert shown == [[text(name, points[name][i]) for name in head] for i in range(len(shown))]
     assert shown[0][head.index("multiplier_real")] == ""
