@@ -28,8 +28,9 @@ ExactNearResponse exact_near_response(const CondensedProblem& problem, const Per
                                       IntervalFinder find) {
   // A start needs no more, but fewer alias the force of a damper that rises within a small depth.
   constexpr int least_points = 256, enough = 1024, enough_of_dampers = 8192;
-  const int points = std::clamp(problem.points(), least_points,
-                                phases.laws.depend_on_velocity() ? enough_of_dampers : enough);
+  const int points = std::clamp(
+      problem.points(), least_points,
+      phases.laws.depend_on_velocity() && !phases.laws.act_over_period() ? enough_of_dampers : enough);
   const Motion balance = contact_motion(problem, response, phases.laws, points);
   ExactNearResponse result{find(phases, balance.displacement, options, balance.force), missing, missing};
   if (result.motion.parts == nullptr) return result;

@@ -58,8 +58,8 @@ class AttractorIntegration {
     // Friction changes between stick and slip at many instants, each of which costs short steps.
     double tolerance = has_memory_ ? even_steps : first * options_.tolerance;
     if (!has_memory_) least_size_ = size_after_even_steps();
-    for (const double share : {0.4, 1.0, 1.5}) {
-      limit_ = std::min(share, 1.0) * options_.max_operations;  // each accuracy has its part
+    for (const double share : {has_memory_ ? 0.5 : 0.4, 1.0, 1.5}) {
+      limit_ = std::min(share, 1.0) * most_operations();  // each accuracy has its part
       const Verdict now =
           settled(tolerance, static_cast<int>(std::ceil(share * options_.max_periods)), result);
       result.cancelled = now.cancelled;
@@ -208,11 +208,17 @@ class AttractorIntegration {
     return has_memory_ ? state : periodic_near(state).value_or(state);
   }
 
+  // A period with friction needs few.
+  double most_operations() const {
+    constexpr double of_friction = 1e10;
+    return has_memory_ ? std::min(of_friction, options_.max_operations) : options_.max_operations;
+  }
+
   double return_tolerance() const { return has_memory_ ? even_steps : options_.tolerance; }
 
   void add_returns(const TakesReturn& takes, AttractorMotion& result) {
-    constexpr double share = 0.4;
-    return_limit_ = map_.operations() + share * options_.max_operations;
+    const double share = has_memory_ ? 1.0 : 0.4;
+    return_limit_ = map_.operations() + share * most_operations();
     std::vector<PeriodState> found;
     for (const std::size_t k : nearest_returns()) {
       const double change = distance(states_[k + static_cast<std::size_t>(load_periods_)], states_[k]);
