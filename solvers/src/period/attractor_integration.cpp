@@ -68,7 +68,7 @@ class AttractorIntegration {
       before = now;
       tolerance = tolerance == even_steps ? options_.tolerance : std::max(finest, finer * tolerance);
     }
-    const bool ends = result.cancelled || result.grows || result.repeats_after(load_periods_);
+    const bool ends = result.cancelled || result.repeats_after(load_periods_);
     if (!ends && result.integrated()) add_returns(takes, result);
     return result;
   }
