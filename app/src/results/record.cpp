@@ -56,7 +56,7 @@ Record forced_record(const Scene& scene, const StructureModel& model, const Anal
   ResponseOptions options = response_options(scene, how.observer);
   options.stability = scene.analysis.stability;
   options.phases = scene.analysis.phases;
-  options.exact_instead = true;
+  options.exact_instead = scene.analysis.phases;
   if (solves_by_impacts(scene)) return response_record(scene, model, impacts_response(scene, model, options));
   if (solves_exactly(scene)) return response_record(scene, model, exact_response(scene, model, options));
   if (!start.contacts.empty()) {
