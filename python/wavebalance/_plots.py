@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
+
 
 def axes(ax: Any) -> Any:
     """`ax`, or those of a new figure. Raises ImportError without Matplotlib."""
@@ -52,12 +54,21 @@ def record_response(columns: dict[str, Any], ax: Any = None, column: str = "disp
     ax = axes(ax)
     ax.plot(columns["time_fraction"], columns[column])
     ax.set_xlabel("Time (fraction of a period)")
-    ax.set_ylabel(_labelled("Displacement" if column == "displacement_m" else column.replace("_", " "), unit))
+    name_axis(ax.yaxis, "Displacement" if column == "displacement_m" else column.replace("_", " "), unit)
     return ax
 
 
 def _labelled(words: str, unit: str) -> str:
     return f"{words} ({unit})" if unit else words
+
+
+def name_axis(axis: Any, words: str, unit: str) -> None:
+    """Names an axis of Matplotlib. Its ticks have SI prefixes ("1 mm") where the unit can have them; data remain in the unit."""
+    if unit == "Hz" or not _core.takes_prefix(unit):
+        axis.set_label_text(_labelled(words, unit))
+        return
+    axis.set_label_text(words)
+    axis.set_major_formatter(lambda value, _: _core.quantity(value, unit, 4))
 
 
 def record_sweep(columns: dict[str, Any], ax: Any = None, column: str = "max_displacement_m", unit: str = "m") -> Any:
@@ -72,9 +83,9 @@ def record_sweep(columns: dict[str, Any], ax: Any = None, column: str = "max_dis
         curve(ax, columns[name][of], columns[column][of], unstable[of])
     ax.set_xlabel("Frequency (Hz)" if name == "frequency_Hz" else name.replace("_", " "))
     if column == "max_displacement_m":
-        ax.set_ylabel(_labelled("Largest displacement", unit))
+        name_axis(ax.yaxis, "Largest displacement", unit)
     else:
-        ax.set_ylabel(_labelled(column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit))
+        name_axis(ax.yaxis, column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit)
     return ax
 
 
@@ -100,7 +111,7 @@ def record_backbone(columns: dict[str, Any], ax: Any = None, column: str | None 
         known = np.array([one in ("converged", "linear") for one in columns["status"]], bool)
         drawn = columns["damping_ratio" if damped else "frequency_Hz"]
         (ax.semilogx if damped else ax.plot)(columns[column], np.where(known, drawn, np.nan))
-        ax.set_xlabel(_labelled(column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit))
+        name_axis(ax.xaxis, column.split("_half_peak_to_peak")[0].replace("_", " ") + ", half peak to peak", unit)
         ax.set_ylabel("Damping ratio" if damped else "Frequency (Hz)")
         return ax
     if damped:
@@ -136,8 +147,11 @@ _COLOURS = ("#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9")
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _EDGE = 560, 320, 80, 48, 12
 
 
-def svg(lines: list[Line], x_label: str, y_label: str, title: str) -> str:
-    """A picture of curves as SVG, without any library; the title alone where there is nothing to draw."""
+Name = tuple[str, str]  # words and unit of an axis
+
+
+def svg(lines: list[Line], x_name: Name, y_name: Name, title: str) -> str:
+    """A picture of curves as SVG, without any library; only the title if there is nothing to draw."""
     heading = f"<p>{html.escape(title)}</p>"
     x = np.concatenate([line.x for line in lines] or [np.zeros(0)])
     y = np.concatenate([line.y for line in lines] or [np.zeros(0)])
@@ -145,7 +159,7 @@ def svg(lines: list[Line], x_label: str, y_label: str, title: str) -> str:
     if not known.any():
         return heading
     x_range, y_range = _range(x[known]), _range(y[known])
-    body = _frame(x_range, y_range, x_label, y_label)
+    body = _frame(x_range, y_range, x_name, y_name)
     for number, line in enumerate(lines):
         colour = _COLOURS[number % len(_COLOURS)]
         dashed = np.zeros(len(line.x), dtype=bool) if line.dashed is None else line.dashed
@@ -184,9 +198,19 @@ def _runs(dashed: npt.NDArray[np.bool_]) -> list[tuple[int, int, bool]]:
     return runs
 
 
-def _frame(x: tuple[float, float], y: tuple[float, float], x_label: str, y_label: str) -> str:
+def _ends(limits: tuple[float, float], name: Name) -> tuple[str, str, str]:
+    """Label of an axis, and the values at its ends in the unit of the label."""
+    words, unit = name
+    factor, prefix = _core.axis_scale(max(map(abs, limits)), unit)
+    low, high = (_core.short_number(factor * value, 4) for value in limits)
+    return _labelled(words, prefix + unit), low, high
+
+
+def _frame(x: tuple[float, float], y: tuple[float, float], x_name: Name, y_name: Name) -> str:
     """The axes with their labels and the values at their ends."""
     bottom, right = _HEIGHT - _BOTTOM, _WIDTH - _EDGE
+    x_label, x_low, x_high = _ends(x, x_name)
+    y_label, y_low, y_high = _ends(y, y_name)
 
     def text(px: float, py: float, words: str, anchor: str, more: str = "") -> str:
         return f'<text x="{px}" y="{py}" text-anchor="{anchor}"{more}>{html.escape(words)}</text>'
@@ -194,10 +218,10 @@ def _frame(x: tuple[float, float], y: tuple[float, float], x_label: str, y_label
     middle = (_EDGE + bottom) / 2
     return (
         f'<path d="M{_LEFT} {_EDGE}V{bottom}H{right}" fill="none" stroke="#444"/>'
-        + text(_LEFT, bottom + 16, f"{x[0]:.4g}", "start")
-        + text(right, bottom + 16, f"{x[1]:.4g}", "end")
-        + text(_LEFT - 6, bottom, f"{y[0]:.3g}", "end")
-        + text(_LEFT - 6, _EDGE + 10, f"{y[1]:.3g}", "end")
+        + text(_LEFT, bottom + 16, x_low, "start")
+        + text(right, bottom + 16, x_high, "end")
+        + text(_LEFT - 6, bottom, y_low, "end")
+        + text(_LEFT - 6, _EDGE + 10, y_high, "end")
         + text((_LEFT + right) / 2, bottom + 36, x_label, "middle")
         + text(16, middle, y_label, "middle", f' transform="rotate(-90 16 {middle})"')
     )

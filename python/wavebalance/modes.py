@@ -168,7 +168,7 @@ class DampedMode(_core.DampedCurve):
         """Draws the damping ratio over the amplitude with Matplotlib, and returns the axes."""
         ax = _plots.axes(ax)
         ax.semilogx(self.amplitude, self.damping_ratio)
-        ax.set_xlabel("Amplitude (m)")
+        _plots.name_axis(ax.xaxis, "Amplitude", "m")
         ax.set_ylabel("Damping ratio")
         return ax
 

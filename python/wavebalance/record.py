@@ -123,7 +123,7 @@ class Record(Solved):
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><th>{html.escape(name)}</th><td>{html.escape(_shown(value))}</td></tr>"
+            f"<tr><th>{html.escape(name)}</th><td>{html.escape(_shown(name, value))}</td></tr>"
             for name, value in self.summary.items()
             if isinstance(value, (bool, int, float, str))
         )
@@ -136,5 +136,9 @@ def _suffix(unit: str) -> str:
     return unit.replace("µ", "u").replace("/", "_per_").replace("^", "")
 
 
-def _shown(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+def _shown(name: str, value: Any) -> str:
+    """A value of the summary with the unit at the end of its name, such as "max_displacement_m"."""
+    unit = re.search(r"(?:_(m|N|Hz|s|J)|(seconds))$", name)
+    if not isinstance(value, float):
+        return str(value)
+    return _core.quantity(value, "" if unit is None else unit[1] or "s", 5)

@@ -168,7 +168,7 @@ class Response(_core.Response):
         motion = self.motion(points)
         ax.plot(motion.time, motion.displacement.T)
         ax.set_xlabel("Time (fraction of a period)")
-        ax.set_ylabel("Displacement (m)")
+        _plots.name_axis(ax.yaxis, "Displacement", "m")
         return ax
 
     def __repr__(self) -> str:
@@ -178,7 +178,7 @@ class Response(_core.Response):
         motion = self.motion(256)
         time = np.append(motion.time, 1.0)
         lines = [_plots.Line(time, np.append(u, u[0])) for u in motion.displacement]
-        return _plots.svg(lines, "Time (fraction of a period)", "Displacement (m)", repr(self)[1:-1])
+        return _plots.svg(lines, ("Time (fraction of a period)", ""), ("Displacement", "m"), repr(self)[1:-1])
 
 
 def _restored_response(problem: Problem, laws: Any, state: tuple[Any, ...]) -> Response:

