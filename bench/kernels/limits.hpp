@@ -10,8 +10,8 @@
 
 namespace wavebalance::bench {
 
-/// What one call of a kernel has to do at least: floating-point operations and bytes moved. Set as counters
-/// of its benchmark.
+/// Lower bounds for one call of a kernel: floating-point operations and bytes moved. Set as counters of its
+/// benchmark.
 void set_work(benchmark::State& state, double flops, double bytes);
 
 /// Collects a run of Google Benchmark, in which `copy/BYTES` and `dense_lu/SIZE` give this machine's rates.

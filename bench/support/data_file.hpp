@@ -7,7 +7,7 @@
 
 namespace wavebalance::bench {
 
-/// What a table holds, for a reader of the file alone.
+/// Content of a table, for readers of the file.
 struct DataNotes {
   std::string title;               ///< one sentence
   std::string units;               ///< "SI; a column's name ends in its unit"
@@ -15,7 +15,7 @@ struct DataNotes {
   std::vector<std::string> notes;  ///< further sentences
 };
 
-/// Writes folder/stem.csv, and folder/stem.json with `notes`, the project's version beside them. Throws
+/// Writes folder/stem.csv, and folder/stem.json with `notes` and the project's version. Throws
 /// app::IoError.
 void write_data(const std::filesystem::path& folder, const std::string& stem, const app::Table& table,
                 const DataNotes& notes);

@@ -5,7 +5,7 @@
 
 namespace wavebalance::bench {
 
-/// What the benchmark programs are called with: `--output DIR [--quick]`.
+/// Arguments of the benchmark programs: `--output DIR [--quick]`.
 struct Program {
   std::filesystem::path output;  ///< folder of the csv files and pictures
   bool quick = false;            ///< the smallest sizes only, to see that the program works

@@ -8,8 +8,8 @@
 
 namespace wavebalance::bench {
 
-/// The speed of each benchmark of a run: the time of the run's yardstick over its own. The yardstick is work
-/// of libraries alone, so that the speeds of two runs can be compared, also on two machines.
+/// The speed of each benchmark of a run: the time of the run's yardstick over the benchmark's time. The
+/// yardstick calls libraries only, so that the speeds of two runs can be compared, also on two machines.
 using Speeds = std::map<std::string, double>;
 
 /// A table of columns benchmark and speed. Throws std::out_of_range for a column that is missing.
@@ -26,8 +26,7 @@ struct SpeedComparison {
 /// A benchmark fell if its speed was more than `noise` times as high before.
 SpeedComparison compare_speeds(const Speeds& before, const Speeds& now, double noise);
 
-/// What a reader of the terminal is told: how many were compared, which fell and by how much, which are
-/// missing.
+/// Text for the terminal: how many were compared, which fell and by how much, which are missing.
 std::string report(const Speeds& before, const Speeds& now, double noise);
 
 }  // namespace wavebalance::bench

@@ -18,7 +18,7 @@ struct FixedChoice {
   double seconds = 0.0;  ///< processor seconds of composition and solution
 };
 
-/// What a scene with a tolerance gives.
+/// Result of a scene with a tolerance.
 struct Asked {
   double tolerance = 0.0;
   std::string status;
@@ -47,8 +47,8 @@ class ToleranceStudy {
 
   Asked ask(double tolerance) const;
   /// Converged choices of five pairs, functions doubled from 7 or 8 on, points doubled from there until the
-  /// error does not depend on them any more. Left out are sizes that take longer than a choice found before
-  /// whose error is `goal` or less.
+  /// error does not depend on them any more. Sizes slower than a previous choice with an error of `goal` or
+  /// less are left out.
   std::vector<FixedChoice> fixed_choices(double goal) const;
   Beside time_beside(const Asked& asked, const FixedChoice& choice) const;
 

@@ -75,7 +75,7 @@ inline solvers::RefinementResult refine(const app::Scene& scene, const app::Stru
   return solvers::response_to_tolerance(make, law, options);
 }
 
-/// The displacement by collocation, whose own error is below 1e-10. Of a tip without mass by `functions`
+/// The displacement by collocation, whose own error is below 1e-10. For a tip without mass by `functions`
 /// Fourier functions and eight times as many points.
 inline Eigen::VectorXd reference(app::Scene scene, int functions) {
   app::Response response;

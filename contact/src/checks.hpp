@@ -50,7 +50,7 @@ inline double saturate(double value) {
 /// The same on both sides, for forces of either sign.
 inline double saturate_both(double value) { return value < 0.0 ? -saturate(-value) : saturate(value); }
 
-/// What a spring stores at a penetration, nothing up to 0.
+/// Energy of a spring at a penetration; 0 without one.
 inline double spring_energy(double stiffness, double penetration) {
   return penetration <= 0.0 ? 0.0 : saturate(0.5 * (stiffness * penetration * penetration));
 }

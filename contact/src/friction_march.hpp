@@ -19,7 +19,7 @@ struct ReturnStep {
   double last_limit = 0;   // N
 };
 
-/// What comes of it, and the derivatives.
+/// The result and its derivatives.
 struct ReturnResult {
   Pair force{};
   FrictionState state = FrictionState::open;
@@ -71,7 +71,7 @@ class FrictionMarch {
   Pair within_limit(const Pair& force) const;
   /// By how much the force before the period is to change for a force that is `defect` larger after it.
   Pair closed_change(const Pair& defect) const;
-  /// Begins the derivative anew, without memory, or ends it as that of a periodic force.
+  /// Begins the derivative anew, without memory, or completes it for a periodic force.
   void forget() { memory_.clear(); }
   void close_memory();
 

@@ -66,7 +66,7 @@ Number share_in_stick(const std::array<Number, 2>& f, const std::array<Number, 2
   const Number a = d[0] * d[0] + d[1] * d[1] - rise * rise;
   const Number b = f[0] * d[0] + f[1] * d[1] - first * rise;
   const Number c = f[0] * f[0] + f[1] * f[1] - first * first;
-  // Of a force on the limit the step slips at once where it leads outwards, and otherwise after the chord.
+  // From a force on the limit an outward step slips at once, an inward one after the chord.
   const double size = value_of(first) * value_of(first);
   if (value_of(c) >= -1e-13 * size) {
     if (value_of(b) >= 0.0 || value_of(a) <= 0.0) return Number(0.0);

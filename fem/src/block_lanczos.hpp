@@ -7,7 +7,7 @@
 
 namespace wavebalance::fem::detail {
 
-/// What bounds a run of block_lanczos().
+/// Limits of a run of block_lanczos().
 struct LanczosLimits {
   double tolerance = 1e-14;  ///< of the residual of a pair, relative to its eigenvalue
   int max_cycles = 1000;     ///< times that the basis is filled
@@ -29,9 +29,8 @@ struct LanczosResult {
 /// The `count` largest eigenpairs of A^-1 M, A given by its factor, M symmetric positive semidefinite, 1 <=
 /// count < n, by Lanczos' iteration on blocks of two to eight vectors with full orthogonalisation in the
 /// inner product of M [Golub & Underwood 1977; Grimes, Lewis & Simon 1994] and restarts from the best Ritz
-/// vectors [Wu & Simon 2000]. A block takes one pass through factor and mass where single vectors take one
-/// each, and finds multiple eigenvalues. Memory: n (2 count + 40) numbers. Throws std::domain_error if M is
-/// zero.
+/// vectors [Wu & Simon 2000]. A block needs one pass through factor and mass, single vectors need one each,
+/// and finds multiple eigenvalues. Memory: n (2 count + 40) numbers. Throws std::domain_error if M is zero.
 LanczosResult block_lanczos(const SymmetricFactor& factor, const Eigen::SparseMatrix<double>& mass,
                             Eigen::Index count, const LanczosLimits& limits);
 

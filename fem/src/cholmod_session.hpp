@@ -36,7 +36,7 @@ class CholmodSession {
   cholmod_common common_ = {};
 };
 
-/// What `use` makes of a matrix, or of its compressed copy.
+/// Result of `use` for a matrix, or for its compressed copy.
 template <class Use>
 auto with_compressed(const Eigen::SparseMatrix<double>& matrix, Use use) {
   if (matrix.isCompressed()) return use(matrix);

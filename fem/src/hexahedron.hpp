@@ -17,7 +17,7 @@ GaussRule mass_rule(SolidElement element);
 /// Natural coordinates of the nodes, 3 x k.
 Eigen::Matrix3Xd natural_nodes(SolidElement element);
 
-/// The functions of one element at p points: those of the k nodes and, after them and in gradients only, the
+/// The functions of one element at p points: of the k nodes and, after them and in gradients only, the
 /// three incompatible modes of the 8-node element.
 struct Samples {
   Eigen::MatrixXd values;                    // k x p

@@ -20,8 +20,8 @@ inline double phase_per_element(const BarOptions& bar, int mode) {
   return (2 * mode - 1) * std::numbers::pi / (2.0 * bar.elements);
 }
 
-/// Closed form of the discrete natural frequency (rad/s): the symbol of K_e over that of M_e at kappa,
-/// omega^2 = E/(rho h^2) (2 - 2 cos kappa) / ((1-s)(2 + cos kappa)/3 + s).
+/// Closed form of the discrete natural frequency (rad/s): the symbol of K_e over the symbol of M_e at
+/// kappa, omega^2 = E/(rho h^2) (2 - 2 cos kappa) / ((1-s)(2 + cos kappa)/3 + s).
 inline double discrete_omega(const BarOptions& bar, int mode) {
   const double kappa = phase_per_element(bar, mode);
   const double sine = std::sin(kappa / 2);

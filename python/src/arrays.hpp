@@ -27,7 +27,7 @@ inline pybind11::array samples_view(const Eigen::VectorXd& samples, int contacts
   return view(samples.data(), {contacts, points}, {points * size, size}, owner);
 }
 
-/// A member of structs that stand together in `owner`, of which `first` belongs to the first of `count`.
+/// A member of `count` consecutive structs in `owner`; `first` belongs to the first one.
 template <class Struct, class Number>
 pybind11::array member_view(const std::vector<Struct>& structs, const Number Struct::*member,
                             pybind11::handle owner) {

@@ -13,7 +13,7 @@ void add_scenes(pybind11::module_& module);
 void add_studies(pybind11::module_& module);
 /// Comparison of bases in a scene.
 void add_comparison(pybind11::module_& module);
-/// Contact laws, and those of functions of Python.
+/// Contact laws, also from functions of Python.
 void add_laws(pybind11::module_& module);
 /// Matrices in the formats of other codes.
 void add_matrices(pybind11::module_& module);
@@ -25,7 +25,7 @@ void add_response(pybind11::module_& module);
 void add_sweeps(pybind11::module_& module);
 /// Floquet multipliers of a response.
 void add_stability(pybind11::module_& module);
-/// What responses and curves hold as plain values, and back.
+/// Responses and curves as plain values, and back.
 void add_pickles(pybind11::module_& module);
 /// Nonlinear modes.
 void add_modes(pybind11::module_& module);

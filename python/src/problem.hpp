@@ -27,8 +27,8 @@ struct Structure : solvers::LinearStructure {
   Eigen::MatrixXd recovery = {};
 };
 
-/// A structure with its pair of bases, for any laws. Threads of Python may share it. Whoever works with it
-/// holds `alone`, without the lock of the interpreter.
+/// A structure with its pair of bases, for any laws. Threads of Python may share it. Its user holds the
+/// mutex `alone`, without the lock of the interpreter.
 class Problem {
  public:
   Problem(solvers::CondensedProblem problem, Eigen::MatrixXd recovery)
@@ -37,12 +37,12 @@ class Problem {
   std::mutex alone;
 
   const solvers::CondensedProblem& condensed() const { return problem_.condensed(); }
-  /// What there is to ask of it with these laws, which are refused as in ContactProblem.
+  /// The problem with these laws, which are checked as in ContactProblem.
   solvers::ContactProblem& with(const solvers::ContactLaws& laws) {
     problem_.set_laws(laws);
     return problem_;
   }
-  /// Rows of the given degrees of freedom from those of the structure that is solved.
+  /// Rows of the given degrees of freedom from the solved structure.
   Eigen::MatrixXd recovered(const Eigen::MatrixXd& rows) const {
     return recovery_.size() > 0 ? Eigen::MatrixXd(recovery_ * rows) : rows;
   }

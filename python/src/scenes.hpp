@@ -8,7 +8,7 @@ namespace wavebalance::python {
 
 /// Where a scene comes from, and its changes.
 struct SceneSource {
-  std::string text;  ///< TOML; empty: that of the file `name`
+  std::string text;  ///< TOML; empty: read from the file `name`
   std::string name;  ///< of the file, in messages too; its paths are relative to that folder
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"

@@ -6,8 +6,8 @@
 
 namespace wavebalance::python {
 
-/// A dictionary of the columns in their order: arrays of numbers (float64) where a column has numbers and
-/// truth values alone, else lists of text. O(cells).
+/// A dictionary of the columns in their order: arrays of numbers (float64) if a column has only numbers and
+/// truth values, else lists of text. O(cells).
 pybind11::dict columns_of(const app::Table& table);
 
 /// A dictionary of the values in their order; a table is a dictionary of its columns.

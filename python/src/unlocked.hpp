@@ -28,13 +28,13 @@ pybind11::object exchange_progress(pybind11::object callback);
 /// Calls it. False where it raised; Python's exception is then set. With the lock.
 bool tell_progress(const solvers::Progress& progress);
 
-/// Python's lock, released while this object lives, so that other threads of Python run beside a solve.
+/// Python's lock, released while this object lives, so that other threads of Python run during a solve.
 class Unlocked {
  public:
-  /// Stops long work on Ctrl-C: signals are handled about ten times per second, with the lock taken for that
-  /// moment, and the function of exchange_progress() is called. Only the thread that made this object takes
-  /// it, since Python handles signals in its main thread alone; other threads that work for it call the
-  /// observer, too, and never wait for the lock. This object must outlive the work.
+  /// Stops long work on Ctrl-C: signals are handled about ten times per second, with the lock taken for
+  /// that moment, and the function of exchange_progress() is called. Only the thread that made this object
+  /// takes the lock, because Python handles signals only in its main thread; other threads that work for it
+  /// call the observer, too, and never wait for the lock. This object must outlive the work.
   solvers::Observer observer() {
     return [this](const solvers::Progress& progress) { return goes_on(progress); };
   }

@@ -17,8 +17,8 @@ int band_colour(const ColourBands& colours, int band);
 /// brightness 0..255 as 0xRRGGBB.
 int grey(double brightness);
 
-/// Commands that draw the bands with their levels to the right of a panel. gnuplot's own bar would take ten
-/// times the space in an SVG.
+/// Commands that draw the bands with their levels to the right of a panel. gnuplot's bar needs ten times
+/// the space in an SVG.
 std::string colour_bar_text(const ColourBands& colours);
 
 }  // namespace wavebalance::blade

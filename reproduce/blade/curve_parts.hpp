@@ -24,9 +24,9 @@ struct CurveParts {
   std::string counts_text() const;
 };
 
-/// Counts the unstable multipliers at two points of each part, those at a third and two thirds of its
-/// frequencies. With many contacts in a stiff casing a count takes about a second, so that those of all
-/// points would take minutes. `sweep` needs its unknowns.
+/// Counts the unstable multipliers at two points of each part, at a third and two thirds of its
+/// frequencies. With many contacts in a stiff casing a count takes about a second, and all points would
+/// take minutes. `sweep` needs its unknowns.
 CurveParts curve_parts(const app::Scene& scene, const app::StructureModel& model, const app::Sweep& sweep);
 
 }  // namespace wavebalance::blade

@@ -1,7 +1,7 @@
 #pragma once
 #include "wavebalance/report/artefact.hpp"
 
-/// What the blade is computed for beyond the papers, each a function that makes one figure.
+/// Figures of the blade beyond the papers, one function each.
 namespace wavebalance::blade {
 
 void campbell_diagram(report::Artefact& artefact);

@@ -16,8 +16,8 @@ struct BladeResponse {
 };
 
 /// The responses at uniform frequencies from analysis.frequency_from to frequency_to, analysis.largest_step
-/// apart, each from the one before, or where that branch ends from the linear response: upwards this
-/// stays on the branch of large responses, downwards on that of small ones. model: the scene's structure
+/// apart, each from the one before, or from the linear response where that branch ends. Upwards this stays
+/// on the branch of large responses, downwards on the branch of small ones. model: the scene's structure
 /// composed before. O(frequencies) periodic problems.
 std::vector<BladeResponse> stepped_sweep(const app::Scene& scene, const app::StructureModel& model);
 

@@ -27,7 +27,7 @@ struct Surface {
 /// How values become colours, white to dark blue.
 struct ColourBands {
   double lower = 0.0;
-  double upper = 1.0;  ///< > lower; values beyond take the last colour
+  double upper = 1.0;  ///< > lower; values beyond have the last colour
   int bands = 12;      ///< >= 2
   std::string label;   ///< label of the colour bar
 };

@@ -14,13 +14,13 @@ namespace wavebalance::jl14 {
 /// 8, 16, ..., 128 functions [JL14, Figs. 10 and 11].
 std::vector<int> sizes();
 
-/// Those of all_sums() under which Figs. 10 and 11 are judged: the two that the text allows, and others with
-/// one of the details changed at a time and all of them. The first is that of the scenes and of the pictures.
+/// The variants of all_sums() under which Figs. 10 and 11 are judged: the two that the text allows, others
+/// with one detail changed at a time, and one with all changed. The first is used by the scenes and
+/// pictures.
 const std::vector<Sums>& convergence_sums();
 
-/// What one solution is measured by, NaN where it was not found. Errors of the displacement of the tip
-/// against the reference: relative ones over the rms or the mean modulus of the reference, largest ones over
-/// its range.
+/// Measures of one solution, NaN if it was not found. Errors of the displacement of the tip against the
+/// reference: relative ones over the rms or the mean modulus of the reference, largest ones over its range.
 struct Measures {
   bool converged = false;
   double energy_ratio = solvers::missing;      ///< rms of the system energy, eq. (35), over the reference's
@@ -34,9 +34,9 @@ using Measure = double Measures::*;
 /// The measures of all 60 combinations of case, pair and number of functions: what Figs. 10 and 11 draw.
 class Convergence {
  public:
-  /// Under the first of convergence_sums(), or under another one, each solution from that of `start`. A
-  /// response of the first that has not converged is noted in the artefact. Energies are measured if wanted,
-  /// which takes the motion of the whole structure.
+  /// Under the first of convergence_sums(), or under another one, each solution starting from `start`. A
+  /// response of the first that has not converged is noted in the artefact. Energies are measured if
+  /// requested, which requires the motion of the whole structure.
   Convergence(report::Artefact& artefact, bool energies, const Sums& sums, const Convergence* start);
 
   const Sums& sums() const { return sums_; }
@@ -85,7 +85,7 @@ void judge_under_all(report::Artefact& artefact, report::Statement statement,
                      const std::function<Finding(const Convergence&)>& judge,
                      const std::string& because = "");
 
-/// What a figure is over all readings: "1.58 (256 left ends) to 89 (512 left ends)". Missing ones are left
+/// Range of a number over all readings: "1.58 (256 left ends) to 89 (512 left ends)". Missing ones are left
 /// out.
 std::string range_over(const std::vector<Convergence>& all,
                        const std::function<double(const Convergence&)>& figure, bool as_percent = true);
@@ -101,7 +101,7 @@ inline constexpr Measure rms_and_mean[] = {&Measures::rms, &Measures::mean};
 report::Verdict by_rms_and_mean(const std::function<report::Verdict(Measure)>& part);
 
 /// Notes what the readings set, and for each case which pair and number of functions has a resonance of its
-/// own Nyquist coefficient (see nyquist_resonances) nearest to the forcing frequency.
+/// Nyquist coefficient (see nyquist_resonances) nearest to the forcing frequency.
 void note_convergence_sums(report::Artefact& artefact);
 void note_nyquist_resonances(report::Artefact& artefact);
 

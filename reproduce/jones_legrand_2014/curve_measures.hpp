@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-/// What the statements of JL14 on curves are decided by.
+/// Measures that decide the statements of JL14 on curves.
 namespace wavebalance::jl14 {
 
 /// Sum of |v[i+1] - v[i]| round the period: twice the range for a curve that rises once and falls once, more
@@ -17,8 +17,8 @@ double largest_change(const Eigen::VectorXd& values, int steps);
 
 using Mask = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-/// The entries in those of `cells` equal cells of the period whose entries are all in `where`.
-/// Throws std::invalid_argument unless cells divides their number.
+/// The entries of all cells, `cells` equal parts of the period, whose entries are all in `where`. Throws
+/// std::invalid_argument unless cells divides their number.
 Mask whole_cells(const Mask& where, int cells);
 
 /// The mean over each of `cells` equal cells of the period: the best constants there.

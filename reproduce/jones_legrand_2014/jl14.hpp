@@ -7,7 +7,7 @@
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/report/artefact.hpp"
 
-/// What the figures of Jones & Legrand (2014), doi:10.1115/DETC2014-34725, share.
+/// Common parts of the figures of Jones & Legrand (2014), doi:10.1115/DETC2014-34725.
 namespace wavebalance::jl14 {
 
 using app::Series;
@@ -98,7 +98,7 @@ Series reference_series(const Eigen::VectorXd& values, double from = 0.0);
 /// time_fraction, reference and one column per pair, `values` in the order of pairs().
 Table comparison_table(const Eigen::VectorXd& time, const Eigen::VectorXd& reference, const Values& values);
 
-/// What all pictures over a period call their abscissa.
+/// Abscissa title of all pictures over a period.
 inline constexpr const char* time_label = "Normalised time t/T";
 
 /// An axis whose limits hold all of `curves` with a margin of 6 % of their range; missing values are skipped.
@@ -120,14 +120,13 @@ struct PairView {
   std::optional<double> level;  ///< an ordinate to mark, such as the gap
 };
 
-/// One panel per pair in the order of panel_pairs(), without title. The ordinates of all pairs are the same,
-/// or, with `haar_apart`, those of the pairs with Haar trial functions and those of the others; they hold
-/// every curve.
+/// One panel per pair in the order of panel_pairs(), without title. The ordinates of all pairs are the
+/// same, or, with `haar_apart`, the same for all pairs with Haar trial functions and for all others; they
+/// hold every curve.
 std::vector<app::Panel> pair_view(const PairView& view, bool haar_apart);
 
 /// The panels of panel_pairs(), lettered once: in two columns, or, with a second panel for each pair, in a
-/// row per pair, titled `second` where it has no title. `key` says in the first panel what the dashed curve
-/// is, where it stands.
+/// row per pair, titled `second` where it has no title. `key` explains the dashed curve in the first panel.
 app::Figure pair_rows(const std::string& title, app::TextMark key, std::vector<app::Panel> panels,
                       std::vector<app::Panel> more = {}, const std::string& second = "");
 

@@ -18,30 +18,30 @@ struct Sums {
   double offset = 0.0;        ///< 0: at the left ends of the 1/samples, 0.5: at their middles
   bool exact = false;         ///< exact A_d; the force is summed over the samples in any case
   bool keeps_nyquist = true;  ///< the Nyquist coefficient of 64 functions
-  bool sine = false;          ///< the sine in place of the cosine as last Fourier function opposite Haar
+  bool sine = false;          ///< the sine instead of the cosine as last Fourier function opposite Haar
 
   std::string name() const;  ///< "256 left ends, same sums"
   std::string key() const;   ///< "256_left_sums", for the columns of a table
   /// The same in words, one for each of choice_names(): {"256", "left ends", "same sums", "cosine"}.
   std::vector<std::string> choices() const;
-  /// The overrides of a scene with this pair. One sample per function is a reading of pairs with Haar trial
-  /// functions alone, which have one value per cell; the others keep 256. At mid-points the cosine has no
-  /// product with the alternating Haar function, so that this coefficient is zero; a scene takes the sine
+  /// The overrides of a scene with this pair. One sample per function is a reading only for pairs with Haar
+  /// trial functions, which have one value per cell; the others keep 256. At mid-points the cosine has no
+  /// product with the alternating Haar function, so that this coefficient is zero; a scene uses the sine
   /// there unless it drops the coefficient.
   std::vector<std::string> overrides(const Pair& pair) const;
   /// Whether the paper's text allows it.
   bool of_text() const { return samples == 256 && !exact && keeps_nyquist && !sine; }
 };
 
-/// What can be chosen: points, where they lie, the products, the last Fourier function opposite Haar.
+/// Choices: number and places of points, the products, the last Fourier function opposite Haar.
 std::vector<std::string> choice_names();
 
-/// The two that the text allows, 256 points at left ends and at mid-points, come first, and of these that of
-/// the scenes. Then 256 points without the Nyquist coefficient and with the sine; exact products; and 64, 512
-/// and 1024 samples, at left ends and at mid-points, with the same sums for A_d or exact.
+/// The two that the text allows, 256 points at left ends and at mid-points, come first, beginning with the
+/// one of the scenes. Then 256 points without the Nyquist coefficient and with the sine; exact products;
+/// and 64, 512 and 1024 samples, at left ends and at mid-points, with the same sums for A_d or exact.
 const std::vector<Sums>& all_sums();
 
-/// What a statement is found to be under one reading.
+/// Verdict on a statement under one reading.
 struct Finding {
   report::Verdict verdict = report::Verdict::differs;
   std::string measured;
@@ -59,7 +59,7 @@ class Readings {
   const app::Response& at(std::size_t reading, const std::string& pair) const;
   /// Histories of all pairs in the order chosen; missing values where none was found.
   Values values(std::size_t reading, Eigen::VectorXd (app::Response::*history)() const) const;
-  /// The labels of those of `names` without a solution, ", " between them.
+  /// The labels of `names` without a solution, ", " between them.
   std::string missing(std::size_t reading, const std::vector<std::string>& names) const;
 
  private:
@@ -82,7 +82,7 @@ std::vector<report::Reading> judged(const Readings& readings, const std::vector<
                                     const std::function<Finding(std::size_t)>& judge);
 
 /// Whether errors are lower than others or similar to them: "reasonably", "relatively well", "comparable"
-/// beside another pair's. Holds if most entries are at most report::similar_factor times as high, as
+/// with another pair. Holds if most entries are at most report::similar_factor times as high, as
 /// report::mostly; unknown ones count as higher.
 report::Verdict within_twice(const std::vector<double>& errors, const std::vector<double>& others);
 /// The same of each of two pairs, by the rms and the mean of the error.

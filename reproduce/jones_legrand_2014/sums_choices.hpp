@@ -9,7 +9,7 @@ namespace wavebalance::jl14 {
 struct SumsView {
   std::string label;                                  ///< of the ordinate
   Eigen::VectorXd (app::Response::*history)() const;  ///< such as &app::Response::force
-  double scale = 1.0;                                 ///< from SI units to those of the label
+  double scale = 1.0;                                 ///< from SI units to the unit of the label
   double from = -0.5, to = 0.5;                       ///< t/T that is shown
   double level = solvers::missing;                    ///< an ordinate to mark, such as the gap
 };

@@ -21,14 +21,14 @@ Resonance swept(report::Artefact& artefact, const std::string& file, const std::
                 const std::vector<std::string>& overrides = {});
 /// Fourier:Fourier with 63 functions, 31 full harmonics, and steps of 1 Hz at most.
 app::Sweep swept_with_full_harmonics(report::Artefact& artefact, const std::string& file);
-/// What the paper does not say of its continuation, and the Nyquist coefficient, which its 64 functions have.
+/// Choices of the continuation that the paper leaves open, and the Nyquist coefficient of its 64 functions.
 struct SweepReading {
   double largest_step = 0.0;  ///< Hz
   bool keeps_nyquist = true;
 
   std::string name() const;  ///< "steps up to 2 Hz, Nyquist coefficient kept"
 };
-/// The first is that of the scene.
+/// The first is used by the scene.
 std::vector<SweepReading> sweep_readings(const app::Scene& scene);
 /// The scene's curves of all pairs under a reading, without stability.
 std::vector<app::Sweep> swept_under(report::Artefact& artefact, const std::string& file,
@@ -45,15 +45,15 @@ void add_stable_sweep(app::Panel& panel, const app::Sweep& sweep);
 solvers::SweepPoint peak(const app::Sweep& sweep);
 /// "1337.73 Hz and 1315.01 Hz"
 std::string turning_points_text(const app::Sweep& sweep);
-/// Largest distance of a turning point from that of another curve, Hz; NaN where their numbers differ or one
-/// ends early.
+/// Largest distance between turning points of two curves, Hz; NaN where their numbers differ or one ends
+/// early.
 double turning_points_distance(const app::Sweep& sweep, const app::Sweep& other);
 
 /// Where the motions of a sweep are unstable, "from the fold at 1337.7 Hz to the fold at 1315 Hz"; "nowhere";
 /// or "not known".
 std::string unstable_text(const app::Sweep& sweep);
 
-/// A panel with the response without contact, broad, and the gap; its legend stands beside it.
+/// A panel with the linear response, broad, and the gap, and with its legend at the side.
 app::Panel sweep_panel(const std::string& title, const Resonance& resonance);
 /// max |u| over the frequency, mm over Hz.
 Series modulus_curve(const std::string& label, const app::Sweep& sweep);

@@ -7,7 +7,7 @@
 #include "ll10.hpp"
 #include "modes/mode_augmented_lagrangian.hpp"
 
-/// What the figures of Laxalde & Legrand (2010), section 5.2, share.
+/// Common parts of the figures of Laxalde & Legrand (2010), section 5.2.
 namespace wavebalance::ll10 {
 
 /// The energies of the paper's mode shapes [LL10, Fig. 8].
@@ -20,7 +20,7 @@ struct SecondSolution {
   double condensed = 0.0;   ///< frequency over the linear one
   double lagrangian = 0.0;  ///< the same by the second solver
 };
-/// Those of `energies` that both reach. Throws report::NotConverged where the curve has no such energy.
+/// The `energies` that both reach. Throws report::NotConverged where the curve has no such energy.
 std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const app::Backbone& curve,
                                              const std::vector<double>& energies);
 
@@ -28,7 +28,7 @@ std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const 
 /// mm), contact_fraction along the accepted points of a backbone.
 Table blade_measures(const app::ModeStudy& study, const app::Backbone& curve);
 
-/// The largest of the eight lowest frequencies of the reduced blade over those of the whole one, less 1.
+/// The largest of the eight lowest frequencies of the reduced blade over the whole one, less 1.
 double reduction_error(const app::ModeStudy& study);
 
 }  // namespace wavebalance::ll10

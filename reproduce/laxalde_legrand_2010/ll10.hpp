@@ -8,7 +8,7 @@
 #include "wavebalance/app/plot/plot.hpp"
 #include "wavebalance/report/artefact.hpp"
 
-/// What the figures of Laxalde & Legrand (2010), section 5.1, share.
+/// Common parts of the figures of Laxalde & Legrand (2010), section 5.1.
 namespace wavebalance::ll10 {
 
 using app::Series;

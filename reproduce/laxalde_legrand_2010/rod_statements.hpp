@@ -3,7 +3,7 @@
 
 #include "curves.hpp"
 
-/// What LL10 says of the rod's frequencies, section 5.1 and the equations behind it, and what is found.
+/// Statements of LL10 on the rod's frequencies, section 5.1 with its equations, and the findings.
 namespace wavebalance::ll10 {
 
 /// Adds the statements that Fig. 3 decides.

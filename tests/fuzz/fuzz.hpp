@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-/// What libFuzzer and the replaying driver call: returns 0, or ends the program where a property fails.
+/// Called by libFuzzer and the replaying driver: returns 0, or ends the program where a property fails.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 /// Ends the program unless `holds`, so that every driver sees the failure and keeps the input.

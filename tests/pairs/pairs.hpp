@@ -62,7 +62,7 @@ inline solvers::TimePairOptions options(
   return result;
 }
 
-/// The options of [JL14, section 4.1]: sums over the points but for Daubechies:Daubechies, which takes
+/// The options of [JL14, section 4.1]: sums over the points, except that Daubechies:Daubechies uses
 /// connection coefficients.
 inline solvers::TimePairOptions paper_options(const Pair& pair, int functions, int points = 256) {
   const bool connection = pair.trial == Family::daubechies6 && pair.weight == Family::daubechies6;

@@ -2,8 +2,8 @@
 #include <Eigen/Core>
 #include <complex>
 
-/// Factorizations and eigenvalues by Eigen, which tests hold results against, compiled once: each of Eigen's
-/// templates for them takes seconds in every source that includes them. The solvers' own go through LAPACK.
+/// Factorizations and eigenvalues by Eigen, as references of tests, compiled once: each of Eigen's
+/// templates for them needs seconds in every source that includes them. The solvers use LAPACK.
 namespace wavebalance::oracle {
 
 using LongComplexMatrix = Eigen::Matrix<std::complex<long double>, Eigen::Dynamic, Eigen::Dynamic>;

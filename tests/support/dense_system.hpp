@@ -19,7 +19,7 @@ using InnerProductMatrices = std::array<Eigen::MatrixXd, 3>;
 Eigen::MatrixXd translate_samples(const solvers::AnyTimeBasis& basis, int points, int derivative,
                                   double offset = 0.0);
 
-/// The sums over uniform points that the paper takes [JL14, eqs. (14)-(16), section 4.1]. O(M^2 points).
+/// The sums over uniform points of the paper [JL14, eqs. (14)-(16), section 4.1]. O(M^2 points).
 InnerProductMatrices sampled_inner_products(const solvers::AnyTimeBasis& trial,
                                             const solvers::AnyTimeBasis& weight,
                                             solvers::Formulation formulation, int points,
@@ -30,7 +30,7 @@ InnerProductMatrices series_inner_products(const solvers::AnyTimeBasis& trial,
 /// Circulant matrices from their first columns.
 InnerProductMatrices circulant_inner_products(const std::function<Eigen::VectorXd(int)>& first_column);
 
-/// What the nonlinear algebraic system needs besides the structure.
+/// Data of the nonlinear algebraic system in addition to the structure.
 struct TimeDiscretisation {
   InnerProductMatrices products;
   Eigen::MatrixXd trial;   ///< N x M, samples of the trial functions
@@ -38,14 +38,14 @@ struct TimeDiscretisation {
   Eigen::VectorXd load;    ///< M, <p_i, time function of the load>
 };
 
-/// The discretisation that TimePair stands for with the same arguments, every matrix formed.
+/// The discretisation of TimePair with the same arguments, every matrix formed.
 TimeDiscretisation discretise(const solvers::AnyTimeBasis& trial, const solvers::AnyTimeBasis& weight,
                               const solvers::TimePairOptions& options, const Eigen::VectorXcd& harmonics);
 
 struct NewtonOptions {
   double tolerance = 1e-12;  ///< on ||residual|| / (||G a|| + ||load|| + ||contact||)
   int max_iterations = 60;
-  double smallest_step = 1.0 / 4096;  ///< of the step halving; 1 takes full steps only
+  double smallest_step = 1.0 / 4096;  ///< of the step halving; 1: full steps only
 };
 
 struct Solution {

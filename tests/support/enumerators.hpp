@@ -6,7 +6,7 @@
 
 namespace wavebalance {
 
-/// Whether the compiler has a name for the value: it writes that of another one as a cast, "(Enum)7".
+/// Whether the compiler has a name for the value: it writes others as a cast, "(Enum)7".
 template <class Enum, Enum value>
 constexpr bool is_enumerator() {
   const std::string_view text = __PRETTY_FUNCTION__;

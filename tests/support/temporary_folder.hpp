@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-/// A folder of its own for one test, removed with it. CTest runs tests in parallel, each in a process of its
-/// own, so that a name that two tests have in common would be written by both.
+/// A separate folder for one test, removed with it. CTest runs tests in parallel processes, so two tests
+/// would write files of a common name.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -1,5 +1,5 @@
 #pragma once
-// What nearly every test needs, most of it in the precompiled headers of all test programs.
+// Headers that nearly every test needs, most of them in the precompiled headers of all test programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

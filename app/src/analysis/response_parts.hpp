@@ -15,21 +15,20 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
                                              Response& result);
 
 /// Operations allowed for the exact motion near a response: seconds of one processor for a few contacts,
-/// which take a thousandth of that or less where a motion is near, and less than a minute for 100, whose
-/// phases take as long.
+/// less than a minute for 100. A motion nearby usually needs a thousandth.
 double most_operations_of_exact(int contacts);
 
 /// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 
-/// Sets Response::settled where the response of the problem's load period at the scene's frequency is
+/// Sets Response::settled if the response of the problem's load period at the scene's frequency is
 /// unstable.
 void note_attractor(solvers::ContactProblem& problem, const Scene& scene, const Observer& observer,
                     Response& result);
 
-/// Sets the numbers of an exact motion and, if there is one, what copy_motion() does. `load_periods` are
-/// those of its period.
+/// Sets the numbers of an exact motion and, if there is one, what copy_motion() does. `load_periods`:
+/// forcing periods per period of the motion.
 void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, int load_periods,
                  const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                  Response& result);
@@ -44,7 +43,7 @@ void note_structure(Response& result, solvers::ExactStructureMotion whole);
 /// `time` with the pair, functions and points that a response to a tolerance chose.
 Time solved_time(Time time, const Response& response);
 
-/// rms of `found` less `start` over that of `start`; NaN if that is empty.
+/// rms of `found` less `start` over the rms of `start`; NaN if that is empty.
 double relative_distance(const Eigen::VectorXd& found, const Eigen::VectorXd& start);
 
 /// The status of a result whose rounding error is above largest_rounding_error.

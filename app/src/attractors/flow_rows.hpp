@@ -10,9 +10,8 @@
 
 namespace wavebalance::app {
 
-/// A scene's structure as it is integrated from event to event: behind the directions of its contacts those
-/// of those analysis.outputs that are displacements, along which no law acts, so that their motion is as
-/// exact as that of the contacts.
+/// A scene's structure for the integration from event to event. After its contact degrees of freedom come
+/// the displacements of analysis.outputs, on which no law acts, so that their motion is equally exact.
 class FlowRows {
  public:
   /// Throws as make_problem() and ContactDynamics do.
@@ -20,7 +19,7 @@ class FlowRows {
 
   /// Null where the structure has no modes to compute.
   const solvers::ContactDynamics* dynamics() const { return model_.contact_dynamics(); }
-  /// What each row is, and its unit.
+  /// Name and unit of each row.
   const std::vector<MotionPlace>& places() const { return places_; }
   int contacts() const { return contacts_; }  ///< rows of contacts, which are the first
   bool has_outputs() const { return contacts_ < int(places_.size()); }

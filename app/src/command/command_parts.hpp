@@ -8,7 +8,7 @@
 #include "report/run_report.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"
 
-/// What several commands have in common.
+/// Common parts of commands.
 namespace wavebalance::app {
 
 /// Throws std::invalid_argument where no folder of results is named.

@@ -14,8 +14,8 @@ struct NextStep {
   SceneChange change;
 };
 
-/// What to try where the scene's analysis ended with `status`, the most promising first, each a change that
-/// the scene's own rules accept; empty if nothing is known.
+/// Remedies for a scene whose analysis ended with `status`, the most promising first. Each is a change that
+/// the rules of scenes accept; empty if none is known.
 std::vector<NextStep> next_steps(const Scene& scene, const std::string& status);
 
 /// The statuses for which there are steps at all; for tests, which ask for each of them.

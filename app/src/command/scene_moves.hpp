@@ -20,7 +20,7 @@ Move always(const std::string& words, const SceneChange& change = {});
 Move scaled(const std::string& words, const std::string& key, double factor,
             double most = std::numeric_limits<double>::infinity());
 
-// Of the balance in a pair of bases.
+// Remedies for harmonic or wavelet balance.
 std::optional<NextStep> more_functions(const Scene& scene);
 std::optional<NextStep> odd_functions(const Scene& scene);
 std::optional<NextStep> more_points(const Scene& scene);
@@ -28,12 +28,12 @@ std::optional<NextStep> tolerance_in_place(const Scene& scene);
 std::optional<NextStep> sizes_in_place(const Scene& scene);
 std::optional<NextStep> dropped_nyquist(const Scene& scene);
 
-// Of the analysis and its method.
+// Remedies that change the analysis or its method.
 std::optional<NextStep> balance(const Scene& scene);
 std::optional<NextStep> response(const Scene& scene);
 std::optional<NextStep> response_of_periods(const Scene& scene);
 
-// Of structure, load and contact.
+// Remedies that change structure, load or contact.
 std::optional<NextStep> more_damping(const Scene& scene);
 std::optional<NextStep> fewer_modes(const Scene& scene);
 std::optional<NextStep> elastic_friction(const Scene& scene);
@@ -42,14 +42,14 @@ std::optional<NextStep> no_rebound(const Scene& scene);
 std::optional<NextStep> more_rebound(const Scene& scene);
 std::optional<NextStep> stiff_law(const Scene& scene);
 
-// Of a curve.
+// Remedies for curves.
 std::optional<NextStep> reversed(const Scene& scene);
 std::optional<NextStep> other_start(const Scene& scene);
 std::optional<NextStep> exact_curve(const Scene& scene);
 std::optional<NextStep> curve_of_balance(const Scene& scene);
 std::optional<NextStep> smaller_step(const Scene& scene);
 
-// Of modes, time stepping and the search for motions.
+// Remedies for modes, time stepping and the search for motions.
 std::optional<NextStep> samples_of_harmonics(const Scene& scene);
 std::optional<NextStep> more_harmonics(const Scene& scene);
 std::optional<NextStep> more_starts(const Scene& scene);

@@ -12,8 +12,8 @@
 
 namespace wavebalance::app {
 
-/// A response of the balance with Fourier functions, refined to a tolerance, beside which the motion of a
-/// structure is sought.
+/// A response of the balance with Fourier functions, refined to a tolerance, from which the exact solution
+/// starts.
 struct Guide {
   solvers::ContactProblem problem;
   solvers::PeriodicResponse response;
@@ -35,8 +35,9 @@ std::optional<Guide> sized_guide(const Scene& scene, const StructureModel& model
 struct ExactReference {
   std::string missing_because;  ///< empty where the motion is known
   bool refused = false;         ///< whether it is missing wherever the search starts
-  solvers::Motion contacts;     ///< displacements and forces at as many points as those of the balance
-  /// Relative rms of the displacements: the estimate, times what that of the motion before was too small by.
+  solvers::Motion contacts;     ///< displacements and forces at the points of the harmonic balance
+  /// Relative rms error of the displacements: the estimate, corrected by the error of the previous
+  /// estimate.
   double error = solvers::missing;
   double force_error = solvers::missing;  ///< the distance from the motion found before with fewer nodes
   /// The last one that met its tolerance, for its stability.
@@ -46,7 +47,7 @@ struct ExactReference {
 /// Phases to tolerances that fall to 1e-12, or as far as the observer lets them.
 ExactReference phase_reference(Guide& guide, const solvers::Observer& observer);
 
-/// Why the exact solution is not sought in a structure; empty where it is.
+/// Why the exact solution is not available for a structure; empty if it is.
 std::string exact_refusal(const StructureModel& model);
 
 /// The exact solution at `points` uniform times.

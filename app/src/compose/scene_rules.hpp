@@ -13,8 +13,8 @@ namespace wavebalance::app {
 [[noreturn]] void fail_rule(const Document& document, std::initializer_list<std::string_view> names,
                             const std::string& rule);
 
-/// Checks that the laws of contact can be made from their constants and files, and that the analysis takes
-/// them. Throws SceneError.
+/// Checks that the laws of contact can be made from their constants and files, and that the analysis
+/// supports them. Throws SceneError.
 void check_laws(const Document& document, const Scene& scene);
 
 /// Checks the rules between the keys of a scene's structure, and its files, which are read and kept in the
@@ -38,7 +38,7 @@ void check_without_load(const Document& document, const Scene& scene);
 /// the key at fault.
 void check_scene_rules(const Document& document, Scene& scene);
 
-/// What analysis.outputs, contact_outputs and peak_of may be.
+/// Checks analysis.outputs, contact_outputs and peak_of.
 void check_outputs(const Document& document, const Scene& scene);
 
 /// The interval of a sweep or a diagram, and the load that varies.

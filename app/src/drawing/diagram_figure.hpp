@@ -8,7 +8,8 @@ namespace wavebalance::app {
 /// it is unstable, and below the period found at each value. Without panels where there is no value.
 Figure diagram_figure(const Diagram& diagram);
 
-/// Of a motion that did not repeat: the Poincare section and the power spectral density of its leading place.
+/// Figures of a motion that did not repeat: the Poincare section and the power spectral density of its
+/// leading place.
 std::vector<Panel> recorded_panels(const RecordedMotion& motion);
 
 }  // namespace wavebalance::app

@@ -8,7 +8,7 @@
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/solvers/collocation/collocation_motion.hpp"
 
-/// Panels of one motion beside its displacement and force.
+/// Panels of one motion in addition to its displacement and force.
 namespace wavebalance::app {
 
 /// Adds the loops of friction force over tangential displacement of the contacts that dissipate most, and a

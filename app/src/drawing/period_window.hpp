@@ -12,8 +12,8 @@ namespace wavebalance::app {
 /// is cut in two by the edges of the picture.
 class PeriodWindow {
  public:
-  /// That of the contact that `response` leads with; from 0 on where it is always open or always closed, and
-  /// of a motion that does not repeat.
+  /// The window of the first contact of `response`; from 0 on if it is always open or always closed, or if
+  /// the motion does not repeat.
   explicit PeriodWindow(const Response& response);
 
   /// Where it begins, in [-0.5, 0.5), a multiple of 1 / points.

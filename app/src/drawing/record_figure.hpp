@@ -18,10 +18,10 @@ Figure motion_figure(const Scene& scene, const Response& response, double freque
 /// How a scene is solved and of which size, as titles of its pictures begin.
 std::string method_title(const Scene& scene);
 
-/// A sweep over its frequency or amplitude, with its bifurcation and grazing points. The first output, or
-/// that of analysis.peak_of, leads with its vibration; without outputs the contacts do where static loads,
-/// preloads or a rigid obstacle make their largest displacement say little. The largest and rms displacement
-/// of the contacts follow beside their gap, and with impacts their impulses and speeds.
+/// A sweep over its frequency or amplitude, with its bifurcation and grazing points. The first panel is the
+/// vibration of the first output or of analysis.peak_of. Without outputs it is the vibration of the
+/// contacts if static loads, preloads or a rigid obstacle dominate their largest displacement. The largest
+/// and rms displacement of the contacts follow with their gap, and with impacts their impulses and speeds.
 Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs = {});
 
 }  // namespace wavebalance::app

@@ -15,12 +15,12 @@ struct BoundaryCoordinate {
   std::vector<double> weights;
 };
 
-/// What a reduction keeps beside its modes: the unknowns that contacts touch, then those loaded. Rows of one
-/// name, as those of a node of an expanded beam, are one coordinate where all contacts and loads take them in
-/// the same proportions.
+/// Coordinates that a reduction keeps in addition to its modes: the unknowns that contacts touch, then
+/// those loaded. Rows of one name, as those of a node of an expanded beam, are one coordinate if all
+/// contacts and loads have them in the same proportions.
 std::vector<BoundaryCoordinate> boundary_coordinates(const Scene& scene, const StructureFiles& files);
 
-/// The unknowns whose places the coordinates take, each the first of its own.
+/// The unknowns that the coordinates replace, the first one of each.
 std::vector<int> unknowns_of(const std::vector<BoundaryCoordinate>& boundary);
 
 /// B, n x n, of u = B w with the coordinates in those places of w; 0 x 0 where each coordinate is an unknown.
@@ -29,7 +29,7 @@ Eigen::SparseMatrix<double> merging(const std::vector<BoundaryCoordinate>& bound
 /// B^T A B of M, C and K.
 fem::Matrices merged(const fem::Matrices& matrices, const Eigen::SparseMatrix<double>& merging);
 
-/// S B without the rounding errors that stand for its zeros.
+/// S B with exact zeros in place of rounding errors.
 solvers::ContactDirections merged(const solvers::ContactDirections& directions,
                                   const Eigen::SparseMatrix<double>& merging);
 

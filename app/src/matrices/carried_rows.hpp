@@ -7,9 +7,9 @@
 namespace wavebalance::app {
 
 /// S, n x moving rows, of a structure whose contacts touch rows that a base displacement moves; 0 x 0 where
-/// none does. The unknowns y of x = y + S x_b are those with which a contact moves alone: its displacement is
-/// its direction times y, so that no law and no solver knows of the base. S is the least one. Throws
-/// StructureFault of a contact between rows of the base alone.
+/// none does. With the unknowns y of x = y + S x_b the displacement of a contact is its direction times y,
+/// so laws and solvers need no motion of the base. S has the least norm. Throws StructureFault for a
+/// contact between rows of the base only.
 Eigen::MatrixXd carried_rows(const Scene& scene, const StructureFiles& files);
 
 /// S times the base's displacement of a term, n values, for an amplitude of 1.

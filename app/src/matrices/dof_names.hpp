@@ -17,17 +17,17 @@ struct NamedDof {
 
 /// "node 1042 z" or "node 2 z #2", with a minus sign before it or not; none if the text is another.
 std::optional<NamedDof> named_dof(std::string text);
-/// The rows from 0 that a name means: all of those of a node of an expanded beam or shell. None if the map
+/// The rows from 0 that a name means: all copies for a node of an expanded beam or shell. None if the map
 /// has none.
 std::vector<int> rows_of(const fem::DofMap& map, const NamedDof& named);
 /// Why a map, the file `path`, has no such row.
 std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const std::string& path);
 
-/// The document with rows of the matrices, counted from 1, in place of names such as "node 1042 z" or
-/// "-node 1042 z" in its lists of degrees of freedom. structure.dof_map says which row a name is. A name of
+/// The document with rows of the matrices, counted from 1, instead of names such as "node 1042 z" or "-node
+/// 1042 z" in its lists of degrees of freedom. structure.dof_map says which row a name is. A name of
 /// several rows is their mean: in contacts and forces its coefficient is shared equally by all of them, so
-/// that a force does work with the mean. Throws SceneError at a name that is none or is not in the map, or if
-/// there is no map.
+/// that a force does work with the mean. Throws SceneError at a name that is none or is not in the map, or
+/// if there is no map.
 Document with_rows_for_names(Document document);
 
 }  // namespace wavebalance::app

@@ -20,8 +20,8 @@ void check_unknown(const std::vector<int>& dofs, const StructureFiles& files, st
 
 /// The loads of amplitude 1 on at most most_loaded_dofs degrees of freedom, n x loads.
 Eigen::MatrixXd boundary_loads(const Scene& scene, const StructureFiles& files);
-/// Rows (from 0) of the loaded degrees of freedom, ascending. Those of a load on more than most_loaded_dofs
-/// of them are left out, and all where they are more together: they act through the modes of a reduction.
+/// Rows (from 0) of the loaded degrees of freedom, ascending. A load on more than most_loaded_dofs of them
+/// is left out, and all loads if they have more together: they act through the modes of a reduction.
 std::vector<int> loaded_rows(const Scene& scene, const StructureFiles& files);
 inline constexpr int most_loaded_dofs = 30;
 
@@ -35,8 +35,7 @@ Eigen::VectorXd base_direction(const ForcingTerm& term, const StructureFiles& fi
 Eigen::VectorXd inertia_of(const ForcingTerm& term, const StructureFiles& files);
 /// M g of forcing.weight, n values, N; without one no values.
 Eigen::VectorXd weight_of(const Forcing& forcing, const StructureFiles& files);
-/// The force of a term of amplitude 1 on all n degrees of freedom; `elsewhere` where it has no place of its
-/// own.
+/// The force of a term of amplitude 1 on all n degrees of freedom; `elsewhere` if it has no place.
 Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const StructureFiles& files,
                          const Eigen::VectorXd& elsewhere);
 /// 1 or -1, times its coefficient where there are some, as a force at each of `dofs`, from 1 with a sign,
@@ -44,8 +43,8 @@ Eigen::VectorXd force_of(const Forcing& forcing, std::size_t term, const Structu
 Eigen::VectorXd forces_at_dofs(const std::vector<int>& dofs, const StructureFiles& files,
                                const std::vector<double>& coefficients = {});
 
-/// The plane in which a rotor turns, 2 x n: how displacements move along the two rows of the first unbalance
-/// that has two, or else along those of the first ring; 0 x 0 without.
+/// The plane in which a rotor turns, 2 x n: displacements along the two rows of the first unbalance that
+/// has two, or else of the first ring; 0 x 0 without.
 Eigen::MatrixXd rotor_plane(const Scene& scene, const StructureFiles& files,
                             const solvers::ContactDirections& directions);
 

@@ -17,9 +17,9 @@ class SamplesFault : public std::runtime_error {
 
 /// Where the terms of a scene's forcing act on its n degrees of freedom.
 struct LoadPlaces {
-  Eigen::VectorXd force;                  ///< n, that of forcing.amplitude, for 1 N
+  Eigen::VectorXd force;                  ///< n, of forcing.amplitude, for 1 N
   Eigen::VectorXd inertia;                ///< n, M r, kg, for a base of which all move alike
-  const StructureFiles* files = nullptr;  ///< of matrices, whose terms have places of their own
+  const StructureFiles* files = nullptr;  ///< of matrices, whose terms have places
   double stiffness_damping = 0.0;         ///< s
   Eigen::MatrixXd carried = {};           ///< carried_rows()
 };
@@ -42,8 +42,8 @@ void check_amplitude_table(const Scene& scene, const std::string& file);
 /// Forcing::amplitude, or 0 where it follows a table, by which forces_of() has it.
 double plain_amplitude(const Forcing& forcing);
 
-/// The forces of the weight, of an amplitude by a table and of all terms, those of the same shape together.
-/// Throws as harmonics_of().
+/// The forces of the weight, of an amplitude by a table and of all terms; forces of the same shape are
+/// added. Throws as harmonics_of().
 std::vector<solvers::PeriodicForce> forces_of(const Forcing& forcing, const LoadPlaces& places);
 
 }  // namespace wavebalance::app

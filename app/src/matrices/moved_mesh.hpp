@@ -7,9 +7,9 @@
 
 namespace wavebalance::app {
 
-/// The mesh in a file, whose nodes move with the rows that the dof map gives them; those of no row stay where
-/// they are. Rows of one name, as those of shells that a code has expanded to solids, count with their mean.
-/// Throws StructureFault without a map, and where none of its nodes is in the mesh.
+/// The mesh in a file, whose nodes move with the rows that the dof map gives them; nodes without rows do
+/// not move. Rows of one name, as those of shells that a code has expanded to solids, count with their
+/// mean. Throws StructureFault without a map, and where none of its nodes is in the mesh.
 std::shared_ptr<const MovedMesh> moved_mesh(const std::string& path, const StructureFiles& files);
 
 }  // namespace wavebalance::app

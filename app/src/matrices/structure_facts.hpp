@@ -7,7 +7,7 @@
 
 namespace wavebalance::app {
 
-/// What tells a user of matrices whether units, boundary conditions and files are right.
+/// Facts by which a user of matrices checks units, boundary conditions and files.
 struct StructureFacts {
   int rigid_motions = 0;  ///< at 0 Hz, of a structure that is free to move
   Eigen::VectorXd
@@ -19,7 +19,7 @@ struct StructureFacts {
   std::vector<std::string> contacts;  ///< one per compliance: "node 7 z", "row 20", "node 7 z, node 9 z"
 };
 
-/// The directions of contact of a scene of matrices, or of those of `scene` with each pair once: "node 7 z".
+/// The names of contact degrees of freedom of a scene of matrices, each pair once: "node 7 z".
 std::vector<std::string> contact_names(const Scene& scene);
 
 /// Facts of a scene of matrices with at most `modes` modes: a pair with obstacles on both sides is one

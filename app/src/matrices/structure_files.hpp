@@ -28,8 +28,8 @@ struct StructureFiles {
   std::vector<int> base_rows;  ///< rows of the files, from 0, that a base displacement moves, ascending
   std::vector<int> moving;     ///< these and the rows that the stiffness marks as held, ascending
   std::vector<int> massless;   ///< rows of the files, from 0, without mass, which are condensed
-  Eigen::MatrixXd followers;   ///< massless x n: their displacements from those of the unknowns
-  std::vector<int> rows;       ///< n, the other rows of the files: those of the unknowns
+  Eigen::MatrixXd followers;   ///< massless x n: their displacements from the unknowns
+  std::vector<int> rows;       ///< n, the other rows of the files: the unknowns
   fem::Matrices matrices;      ///< n x n; damping 0 x 0 if there is no file of it
   fem::Matrices coupling;      ///< n x moving, the parts of M, C and K between unknowns and moving rows
   Eigen::VectorXd load;        ///< n, or 0 if there is no file of it
@@ -60,8 +60,7 @@ struct StructureFiles {
   Eigen::VectorXd forces_at_unknowns(const Eigen::VectorXd& forces) const;
 };
 
-/// What is doubtful about a structure that can nevertheless be solved, and where its contacts act, a sentence
-/// each.
+/// Warnings about a structure that can be solved, and the places of its contacts, a sentence each.
 std::vector<std::string> warnings_of(const Scene& scene, const StructureFiles& files);
 
 /// A key of a structure of matrices that does not fit its files, and why.

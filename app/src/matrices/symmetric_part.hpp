@@ -31,8 +31,8 @@ inline double shift_of(bool free, const Eigen::SparseMatrix<double>& stiffness,
   return largest > 0.0 ? -1e-8 * largest : -1.0;
 }
 
-/// The matrices with the symmetric parts of C and K; nothing where those are symmetric, since a copy of a
-/// large structure takes as much memory as the structure.
+/// The matrices with the symmetric parts of C and K; nothing if they are symmetric, to save a copy of a
+/// large structure.
 inline std::optional<fem::Matrices> symmetric_parts(const fem::Matrices& matrices) {
   const bool no_damping = matrices.damping.size() == 0;
   if (solvers::is_symmetric(matrices.stiffness) && (no_damping || solvers::is_symmetric(matrices.damping)))

@@ -26,12 +26,12 @@ class PointMeasurer {
         evaluate_(problem_.pair().trial(), points_),
         rows_(rows_of_outputs(outputs, scene, model)) {}
 
-  /// Of a balance.
+  /// For a harmonic or wavelet balance.
   MeasuredPoint operator()(const solvers::FrequencySweep& curve, const solvers::SweepPoint& point) {
     return measured(curve, parameter_of(point, curve.parameter), point.unknown);
   }
 
-  /// Of a balance at a value of the curve's parameter.
+  /// For a balance at a value of the curve's parameter.
   MeasuredPoint measured(const solvers::FrequencySweep& curve, double value, const Eigen::VectorXd& unknown) {
     const solvers::PeriodicResponse response = problem_.response(curve, value, unknown);
     solvers::CondensedProblem& problem = problem_.condensed();
@@ -46,7 +46,7 @@ class PointMeasurer {
                    periods_);
   }
 
-  /// Of an exact motion. The force of an impact is not known.
+  /// For an exact motion. The force of an impact is not known.
   MeasuredPoint operator()(const solvers::SweepPoint& point, const solvers::ExactSolution& motion) {
     const Eigen::VectorXd times = time_fractions(points_);
     const bool impulses = impacts_alone_ && motion.phases.empty();

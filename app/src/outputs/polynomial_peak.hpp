@@ -10,8 +10,8 @@ namespace wavebalance::app {
 struct PolynomialPeak {
   double place, height;
 };
-/// Nothing near an end of the curve, beside points that are not known, and where the polynomial is highest
-/// beyond the two neighbours.
+/// Nothing near an end of the curve, next to unknown points, and where the polynomial is highest beyond the
+/// two neighbours.
 std::optional<PolynomialPeak> polynomial_peak(std::span<const double> places, std::span<const double> heights,
                                               std::size_t index, std::size_t neighbours);
 

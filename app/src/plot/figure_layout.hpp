@@ -12,7 +12,7 @@ std::string style_text(const Series& series, std::size_t index);
 /// "lc rgb ... lw ... dt ..."
 std::string stroke_text(Colour colour, Dash dash, double width);
 
-/// A name of the legend with what it stands for.
+/// A name of the legend with its symbol.
 struct LegendEntry {
   std::string label;
   std::string style;
@@ -26,9 +26,9 @@ struct Box {
   double left = 0, bottom = 0, width = 0, height = 0;
 };
 
-/// Where the parts of a figure stand, in px: its title, below it the panels in rows, filled from the left,
-/// and at the bottom one legend. Names that do not fit beside each other take more rows, and the picture
-/// becomes higher by them, so that they never take room of the panels.
+/// Places of the parts of a figure, in px: its title, below it the panels in rows, filled from the left,
+/// and at the bottom one legend. If the names do not fit into one row, the picture becomes higher and the
+/// panels keep their size.
 struct FigureLayout {
   explicit FigureLayout(const Figure& figure);
   Box panel(std::size_t index) const;

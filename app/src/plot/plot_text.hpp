@@ -17,7 +17,7 @@ std::string quoted(const std::string& text);
 /// "#E69F00"
 std::string colour_code(Colour colour);
 
-/// The colour of the index-th series of a panel that has none of its own, from 0.
+/// The colour of the index-th series of a panel without an explicit colour, from 0.
 Colour automatic_colour(std::size_t index);
 
 /// The colours of a map, at equal steps from its least value to its largest.

@@ -12,9 +12,9 @@ namespace wavebalance::app {
 std::vector<std::size_t> kept_points(const std::vector<double>& x, const std::vector<double>& y,
                                      double tolerance);
 
-/// What a picture shows of a series of more than 8192 points: the first, lowest, highest and last of each of
-/// 2048 runs of neighbours, in their order. gnuplot takes minutes for millions of points, and kept_points()
-/// may keep all of a curve that oscillates. Shorter series are returned as they are. O(n).
+/// Points drawn of a series of more than 8192 points: the first, lowest, highest and last of each of 2048
+/// runs of neighbours, in their order. gnuplot takes minutes for millions of points, and kept_points() may
+/// keep all of a curve that oscillates. Shorter series are returned as they are. O(n).
 Series extremes_of_runs(const Series& series);
 
 }  // namespace wavebalance::app

@@ -11,9 +11,9 @@ struct RunArguments {
   std::filesystem::path output;
   std::vector<std::string> overrides;  ///< "section.key=value"
   std::vector<std::string> removed;    ///< "section.key"
-  std::string analysis;                ///< --analysis; empty: that of the scene
+  std::string analysis;                ///< --analysis; empty: as in the scene
   std::filesystem::path start_from;    ///< a motion to start near, see read_start_motion(); empty: none
-  double max_memory = 0.0;             ///< GB that a run may be expected to take; 0: what the machine has
+  double max_memory = 0.0;             ///< limit of the expected memory, GB; 0: memory of the machine
   int threads = 0;                     ///< AnalysisOptions::threads, ComparisonOptions::threads
   bool quiet = false;
   bool verbose = false;      ///< prints all values of the summary, not sentences

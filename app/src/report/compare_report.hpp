@@ -8,9 +8,9 @@
 
 namespace wavebalance::app {
 
-/// report.html of a comparison: what to take with the [time] tables to paste, the pictures with curves that
-/// zoom, how each pair did and what failed, the reference with its stability, warnings, the command, and all
-/// values and files. Like that of a run it holds all that it shows.
+/// report.html of a comparison: recommendation with [time] tables to paste, pictures with curves that zoom,
+/// results and failures of each pair, reference with its stability, warnings, command, all values and
+/// files. The page is self-contained.
 std::string comparison_report(const CompareArguments& arguments, const Scene& scene,
                               const ComparisonRecord& record, const Summary& summary,
                               const std::vector<RecordFile>& files);

@@ -5,8 +5,8 @@
 
 namespace wavebalance::app {
 
-/// Whether motions beside those of a record were sought, and of a curve where and what was found; empty where
-/// there are none to seek.
+/// Whether other motions than the record's were searched for, for curves at which frequencies, and the
+/// result; empty if not applicable.
 std::string other_motions_sentence(const Summary& summary, bool curve);
 
 }  // namespace wavebalance::app

@@ -11,9 +11,9 @@
 
 namespace wavebalance::app {
 
-/// What is drawn over the frequency: of the displacement of contacts, or the vibration of an output.
+/// Quantity over the frequency: a measure of the contact displacement, or the vibration of an output.
 struct OverlayQuantity {
-  std::string name;         ///< "max", "min", "max_abs" or "rms", or that of the output
+  std::string name;         ///< "max", "min", "max_abs" or "rms", or the output's name
   std::string column;       ///< of sweep.csv
   std::string words;        ///< "Largest displacement"
   std::string unit = "m";   ///< empty of a ratio
@@ -53,25 +53,24 @@ struct Overlay {
 bool is_over_time(const Overlay& overlay);
 
 /// Reads sweep.csv, backbone.csv, envelope.csv or response.csv of each folder; motions are of the contact
-/// with the largest force in the first. The quantity is one of OverlayQuantity::name or, where none is said,
-/// the output that leads in the first folder and that all have, else "max". Throws IoError for a folder
-/// without results or without that output, and std::invalid_argument for no quantity, and if one is of
-/// another structure than the first, which names the key: mass, stiffness and places of contact must agree;
-/// damping, reduction, load, law and gap may differ. All curves are over the frequency, or over the amplitude
-/// of the load.
+/// with the largest force in the first. The quantity is one of OverlayQuantity::name or by default the
+/// first output of the first folder if all have it, else "max". Throws IoError for a folder without results
+/// or without that output, and std::invalid_argument for no quantity, and if one is of another structure
+/// than the first, which names the key: mass, stiffness and places of contact must agree; damping,
+/// reduction, load, law and gap may differ. All curves are over the frequency, or over the amplitude of the
+/// load.
 Overlay read_overlay(std::span<const std::filesystem::path> folders, const std::string& quantity);
 
-/// All curves in one panel: modes black, sweeps coloured, dashed where unstable, responses beside curves as
-/// points.
+/// All curves in one panel: modes black, sweeps coloured, dashed where unstable, responses as points.
 Figure overlay_figure(const Overlay& overlay);
 
 /// curve, kind, frequency_Hz or the amplitude, of motions time_fraction, displacement_m or the output's
 /// column, unstable, and with quasi-periodic motions second_frequency_Hz.
 Table overlay_table(const Overlay& overlay);
 
-/// The values of envelope.csv in a folder of a bifurcation diagram, those of periodic, quasi-periodic and
-/// other motions each a curve of points: of an output half the way between its extremes over all recorded
-/// periods. Throws as read_overlay().
+/// The values of envelope.csv in a folder of a bifurcation diagram, with a curve of points each for
+/// periodic, quasi-periodic and other motions: of an output half the way between its extremes over all
+/// recorded periods. Throws as read_overlay().
 std::vector<OverlayCurve> diagram_curves(const std::filesystem::path& folder, const Scene& scene,
                                          const std::string& label, const OverlayQuantity& quantity);
 

@@ -21,10 +21,10 @@ std::string list_html(const std::vector<std::string>& items);
 std::string section_html(const std::string& title, const std::string& body);
 /// A body of HTML that opens below its title.
 std::string folded(const std::string& title, const std::string& body);
-/// Text in a box of its own, as it is.
+/// Preformatted text in a box.
 std::string code_html(const std::string& text);
 
-/// An argument as a shell takes it.
+/// An argument quoted for a shell.
 std::string shell_word(const std::string& text);
 
 /// The cells of a table as text below the names of its columns: frequencies and amplitudes with ten digits,
@@ -55,7 +55,7 @@ bool holds_file(const std::vector<RecordFile>& files, const std::string& name);
 /// The sections with which all reports end; `asked` is HTML.
 std::string last_sections(const std::vector<std::string>& warnings, const std::string& asked,
                           const std::vector<RecordFile>& files, const Summary& summary);
-/// A report of its own, with the heading, the sections of page.body and the version.
+/// A self-contained report with the heading, the sections of page.body and the version.
 std::string report_page(PageParts page, const std::string& heading);
 /// The version and the list of the files of a record, as its summary ends.
 void append_files(Summary& summary, const std::vector<RecordFile>& files);

@@ -17,14 +17,14 @@ struct RunFiles {
   std::string no_picture;         ///< why there is no picture; empty where one is drawn or none is due
 };
 
-/// The files of a record. The picture takes gnuplot, without which it is left out.
+/// The files of a record. Without gnuplot there is no picture.
 RunFiles run_files(const RunArguments& arguments, const Scene& scene, const Record& record);
 
 /// Whether a file of a record is a copy that scene_of_record() makes, by its name.
 bool is_copy(std::string_view name);
 
 /// The scene as a record in arguments.output holds it: its files are copies, which are appended to `files`,
-/// or have names relative to the record where they lie beside or below the scene that was given. Throws
+/// or have names relative to the record if they are in the folder of the given scene or below it. Throws
 /// IoError where a file cannot be read.
 Scene scene_of_record(const RunArguments& arguments, const Scene& scene, std::vector<RecordFile>& files);
 
@@ -43,8 +43,8 @@ InputFiles inputs_of(const std::filesystem::path& file, const Scene& scene,
 /// require_replaceable() for the files that a run of the scene may write, before it is solved.
 void check_run_output(const RunArguments& arguments, const Scene& scene);
 
-/// Writes all files at once, in place of those of an earlier record. The summary is last, so that it exists
-/// only if the others do. Throws IoError, also where require_replaceable() does.
+/// Writes all files at once and replaces the files of an earlier record. The summary is last, so that it
+/// exists only if the others do. Throws IoError, also where require_replaceable() does.
 void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs);
 
 }  // namespace wavebalance::app

@@ -7,9 +7,8 @@
 
 namespace wavebalance::app {
 
-/// What a run found, in sentences: the motion or the curve, contact, isolas; first of all, if so, that it was
-/// not solved. `gap` in m; NaN where contacts have different gaps or there are none. `axis` is that of a
-/// sweep.
+/// Results of a run in sentences: a failure first, then the motion or the curve, contact, isolas. `gap` in
+/// m; NaN where contacts have different gaps or there are none. `axis` belongs to a sweep.
 std::vector<std::string> finding_sentences(const Summary& summary, double gap, const SweepAxis& axis = {});
 
 /// Why one may trust it: time and residual, the error, and whether other motions were searched for.

@@ -8,9 +8,8 @@
 
 namespace wavebalance::app {
 
-/// The files of a study. Its page says how many runs ended how, with quantiles of all quantities and the runs
-/// that did not converge with the command that repeats one. The picture takes gnuplot, without which it is
-/// left out.
+/// The files of a study. Its page has the numbers of runs by status, quantiles of all quantities, and the
+/// runs that did not converge with the command that repeats one. Without gnuplot there is no picture.
 RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record);
 
 /// The files that a study reads: its own, the scene, and those that the first run names.

@@ -4,23 +4,23 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/record.hpp"
 
-/// What solves each analysis: beside its row of analysis_kinds, its keys and its rules all that the rest of
-/// the program needs of it.
+/// The solver of each analysis. The rest of the program needs only this, its row of analysis_kinds, its
+/// keys and its rules.
 namespace wavebalance::app {
 
-/// Of forced_response and shooting.
+/// forced_response and shooting.
 Record forced_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
-/// Of frequency_sweep and amplitude_sweep, with stability, phases and isolas.
+/// frequency_sweep and amplitude_sweep, with stability, exact solutions and isolas.
 Record curve_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
-/// Of time_stepping, with the statistics of what does not repeat.
+/// time_stepping, with the statistics of aperiodic motions.
 Record stepping_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
 /// The table `motions` in the summary, and the files of each.
 Record motions_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
-/// Of nonlinear_mode: its curve, or its one motion.
+/// nonlinear_mode: a curve or one motion.
 Record mode_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
 /// The same with friction or dampers: frequency and damping over the amplitude.
 Record damped_mode_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
-/// That of a response at the frequency of the cycle, with its period, its multipliers and the starts.
+/// limit_cycle: a response at the frequency of the cycle, with period, multipliers and starts.
 Record limit_cycle_record(const Scene& scene, const StructureModel& model, const AnalysisOptions& how);
 /// The points of a diagram as the table `section`, intervals of equal period and of hysteresis in the
 /// summary, and the exact curve in exact_curve.csv.
@@ -32,7 +32,7 @@ std::string motions_plan(const Scene& scene);
 std::string limit_cycle_plan(const Scene& scene);
 std::string diagram_plan(const Scene& scene);
 
-/// What an analysis is by functions.
+/// The functions of an analysis.
 struct AnalysisPart {
   AnalysisType type;
   Record (*record)(const Scene&, const StructureModel&, const AnalysisOptions&);

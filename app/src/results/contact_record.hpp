@@ -14,13 +14,13 @@ std::string state_name(State state) {
   return state == State::slip ? "slip" : "closed";
 }
 
-/// What contacts with friction do: their work, shares of the period, slip and wear in the summary, and
-/// friction.csv with the loops of force and displacement and the state at every instant, and how far the
-/// friction work is from the work of the load (frequency, Hz) less that of the damping.
+/// Results of contacts with friction. The summary has work, fractions of the period, slip, wear, and the
+/// difference of the friction work from the work of the load (frequency, Hz) less damping. friction.csv has
+/// the loops of force and displacement and the state at every instant.
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency);
 
-/// The damping ratio of an oscillator with the same largest kinetic energy that loses as much in a cycle as
-/// the friction takes in a period of the load: work / (4 pi energy), relative to a moving base. Missing
+/// The damping ratio of an oscillator with the same largest kinetic energy that dissipates per cycle as
+/// much as the friction per forcing period: work / (4 pi energy), relative to a moving base. Missing
 /// without Response::structure and its velocities. Nothing without friction. O(entries of the mass,
 /// instants).
 void append_equivalent_damping(Record& record, const Scene& scene, const StructureModel& model,
@@ -30,8 +30,8 @@ void append_equivalent_damping(Record& record, const Scene& scene, const Structu
 /// energy_lost_J: a row for each impact of the motion's period, by time; contacts are counted from 1.
 Table impacts_table(const Scene& scene, const std::vector<solvers::Impact>& impacts);
 
-/// What impacts do in a response: how many there are, the largest impulse, the energy that they take in a
-/// period of the load, impacts.csv, and where there is no such motion what happens in its place.
+/// Results of impacts: their number, the largest impulse, the energy dissipated per forcing period,
+/// impacts.csv, and without a solution the reason.
 void append_impacts(Record& record, const Scene& scene, const Response& response);
 
 }  // namespace wavebalance::app

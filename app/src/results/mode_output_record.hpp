@@ -11,7 +11,7 @@ namespace wavebalance::app {
 /// what is known of each along the mode to its summary. Returns the outputs as pictures draw them.
 std::vector<ModeOutput> append_outputs(Record& record, const Scene& scene, const ModeOutputs& outputs);
 
-/// The output that leads; null where contacts alone are outputs.
+/// The first output; null if contacts are the only outputs.
 const ModeOutput* leading_of(const std::vector<ModeOutput>& outputs, const Scene& scene);
 
 /// Adds the picture of the outputs along a mode; none without any, and none of a single one that leads, which

@@ -7,10 +7,10 @@
 
 namespace wavebalance::app {
 
-/// The motion of the whole structure from that of the reduced one (r x frames, uniform over the period):
-/// with a mesh a series for ParaView, whose times are fractions of the period, with displacement and stress;
-/// without one motion.mtx, a Matrix Market array of a column an instant. Nothing for no frames. `name` stands
-/// in place of "motion" in the names of the files.
+/// The motion of the whole structure from the reduced one (r x frames, uniform over the period): with a
+/// mesh a series for ParaView, whose times are fractions of the period, with displacement and stress;
+/// without one motion.mtx, a Matrix Market array of a column an instant. Nothing for no frames. `name`
+/// replaces "motion" in the names of the files.
 std::vector<RecordFile> motion_files(const StructureModel& model, const Eigen::MatrixXd& coordinates,
                                      const std::string& name = "motion");
 
@@ -22,8 +22,8 @@ struct WrittenMotion {
   Table impacts = {};                ///< impacts_table(); without columns: none
 };
 
-/// Its files NAME.csv of the contact with the largest force, NAME_contacts.csv of all where there are
-/// several, NAME_impacts.csv, and those of the structure; `about` says which motion it is.
+/// Its files: NAME.csv of the contact with the largest force, NAME_contacts.csv of all if there are
+/// several, NAME_impacts.csv, and files of the structure. `about` describes the motion.
 void append_motion_files(Record& record, const Scene& scene, const StructureModel& model,
                          const WrittenMotion& motion, const std::string& name, const std::string& about);
 

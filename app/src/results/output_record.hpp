@@ -5,8 +5,8 @@
 
 namespace wavebalance::app {
 
-/// The table with the columns of all outputs. Rows have those of their points, null or empty where they were
-/// not measured.
+/// The table with the columns of all outputs. Rows have the values of their points, null or empty if not
+/// measured.
 Table with_outputs(const Table& table, const std::vector<Output>& outputs,
                    const std::vector<const MeasuredPoint*>& points, int harmonics);
 
@@ -18,17 +18,17 @@ void insert_outputs(Summary& summary, const Scene& scene, const std::vector<Outp
 /// summary, and their picture.
 void append_outputs(Record& record, const Scene& scene, const Sweep& sweep, const SweepOutputs& outputs);
 
-/// Adds the motion of the scene's outputs over one period to the record, what is measured of them to its
-/// summary, and their picture. The response has the structure's motion at all output_points instants. The
-/// load is that of the scene or, of a free motion, none.
+/// Adds the motion of the scene's outputs over one period to the record, their measures to its summary, and
+/// their picture. The response has the structure's motion at all output_points instants. The load is the
+/// scene's, or none for a free motion.
 void append_outputs(Record& record, const Scene& scene, const StructureModel& model, const Response& response,
                     const LoadAt& load);
 
-/// The same of a motion that does not repeat: what the recorded periods say of the outputs that are
-/// displacements of a place, to the summary. One period alone gives no motion of the structure.
+/// The same for a motion that does not repeat: the summary gets the statistics of outputs that are
+/// displacements. One period does not determine the motion of the structure.
 void append_outputs(Record& record, const Scene& scene, const RecordedMotion& motion);
 
-/// Puts the motion of the leading output before that of the contacts in the record's picture.
+/// Puts the motion of the first output before the contacts in the record's picture.
 void lead_with_output(Record& record, const Scene& scene);
 
 }  // namespace wavebalance::app

@@ -69,7 +69,7 @@ inline constexpr Quantity max_displacement{"max_displacement_m", result, "m", "m
     leading_multiplier_imag{"leading_multiplier_imag", result},
     leading_multiplier_error{"leading_multiplier_error", result};
 
-// Those of motions that do not repeat, with half the width of their 95 % confidence intervals, and of
+// Quantities of motions that do not repeat, with half the width of their 95 % confidence intervals, and of
 // diagrams.
 inline constexpr std::string_view aperiodic = "aperiodic";  ///< the status of such a record
 inline constexpr Quantity lyapunov_exponent{"lyapunov_exponent", result},
@@ -87,13 +87,13 @@ inline constexpr Quantity diagram_values{"values", setting}, aperiodic_values{"a
     quasi_periodic_values{"quasi_periodic_values", result}, hysteresis_values{"hysteresis_values", result},
     longest_found{"longest_period_found", result};
 
-// Those of nonlinear modes.
+// Quantities of nonlinear modes.
 inline constexpr Quantity energy_ratio{"energy_ratio", result}, frequency_ratio{"frequency_ratio", result},
     rayleigh_frequency_ratio{"rayleigh_frequency_ratio", result}, virial_residual{"virial_residual", result},
     largest_energy_ratio{"largest_energy_ratio", result},
     largest_frequency_ratio{"largest_frequency_ratio", result},
     max_penetration_over_gap{"max_penetration_over_gap", result};
-// Those of modes with friction.
+// Quantities of modes with friction.
 inline constexpr Quantity linear_damping_ratio{"linear_damping_ratio", setting},
     slip_amplitude{"slip_amplitude_m", result, "m", "amplitude at which a contact first acts"},
     damping_ratio{"damping_ratio", result}, largest_damping_ratio{"largest_damping_ratio", result},
@@ -108,7 +108,7 @@ inline constexpr std::array peak_places{
     Quantity{"amplitude_at_max_displacement_g", result, "g", "amplitude at max displacement"},
     Quantity{"amplitude_at_max_displacement_kg_m", result, "kg m", "amplitude at max displacement"}};
 
-/// That of a curve over a frequency or an amplitude in `unit`.
+/// For a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& peak_place(std::string_view unit) {
   return *std::find_if(peak_places.begin(), peak_places.end(),
                        [&](const Quantity& one) { return one.unit == unit; });
@@ -123,7 +123,7 @@ inline constexpr std::array vibration_places{
     Quantity{"amplitude_at_largest_vibration_g", result, "g", "amplitude at largest vibration"},
     Quantity{"amplitude_at_largest_vibration_kg_m", result, "kg m", "amplitude at largest vibration"}};
 
-/// That of a curve over a frequency or an amplitude in `unit`.
+/// For a curve over a frequency or an amplitude in `unit`.
 constexpr const Quantity& vibration_place(std::string_view unit) {
   return *std::find_if(vibration_places.begin(), vibration_places.end(),
                        [&](const Quantity& one) { return one.unit == unit; });

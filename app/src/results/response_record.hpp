@@ -4,8 +4,8 @@
 
 namespace wavebalance::app {
 
-/// With the instants at which the motion of the whole structure is computed: those that the scene writes,
-/// those of its outputs or its energy beside friction, or those of a bar's report.
+/// With the instants at which the motion of the whole structure is computed: as needed for files, outputs,
+/// energies with friction, or a bar's report.
 ResponseOptions response_options(const Scene& scene, const Observer& observer);
 
 /// The record of one response, whatever it was solved by.

@@ -14,8 +14,8 @@ Table with_structure_points(std::vector<Summary> special_points, const Sweep& sw
 /// The folds of the structure in the order of its curve, where this was followed as a whole.
 std::optional<std::vector<double>> structure_folds(const Sweep& sweep);
 
-/// The table of the exact bifurcation points along a sweep, and warnings where the balance has others
-/// and where it misses part of the structure's curve. Nothing where they were not sought.
+/// The table of the exact bifurcation points along a sweep, and warnings where the balance has others and
+/// where it misses part of the structure's curve. Nothing if not requested.
 void append_structure_points(Record& record, const Sweep& sweep);
 
 /// The parts of a sweep, its branches and its isolas whose motions are unstable, in their order: `branch` (0

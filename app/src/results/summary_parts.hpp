@@ -18,7 +18,7 @@ void warn(Record& record, fmt::format_string<Values...> text, Values&&... values
 /// The first entries of every summary.
 Summary solution_entries(bool converged, const std::string& status, double residual, int iterations,
                          int unknowns, double solve_seconds);
-/// Puts the time of everything before that of the solution.
+/// Puts the total time before the time of the solution.
 void insert_wall_seconds(Summary& summary, double seconds);
 
 /// Pair of bases, its formulation and its sizes.
@@ -35,7 +35,7 @@ void append_condition(Record& record, double condition, double rounding_error);
 /// The table of all contacts, and which of them the record shows, where there are several.
 void add_contacts(Record& record, const Scene& scene, const solvers::Motion& contacts, int leading);
 
-/// Which motion was found where those of several periods of the load were sought.
+/// Which motion a search for several forcing periods found.
 void append_period(Record& record, int periods, int motion_periods);
 
 /// Sentences about loads and gaps that were probably meant otherwise: no load at all, and a gap below zero

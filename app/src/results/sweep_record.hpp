@@ -26,7 +26,7 @@ struct PeakResolution {
   double place = 0.0;  ///< how far from it the parabola is highest, in the unit of `places`
 };
 
-/// Of the point `index` of a curve; zeros at an end of the curve, which is where it is.
+/// At the point `index` of a curve; zeros at the ends of the curve.
 PeakResolution peak_resolution(std::span<const double> places, std::span<const double> values,
                                std::size_t index);
 

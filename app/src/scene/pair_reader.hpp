@@ -16,12 +16,12 @@ bool is_pair_section(std::string_view section);
 /// The number of these entries in `document`. Throws SceneError for more than most_pairs.
 std::size_t count_pairs(const Document& document);
 
-/// The document with contact.law = that of the first pair, where it has none and all pairs have laws of their
-/// own. Throws SceneError where some pairs alone have one.
+/// The document with contact.law set to the law of the first pair, if it has none and all pairs have laws.
+/// Throws SceneError if only some pairs have one.
 Document with_law_of_pairs(Document document);
 
 /// Reads all entries of [[contact.pairs]] into scene.contact.pairs, which has their number, once the other
-/// keys are read. What an entry leaves out is taken from [contact]. Throws SceneError.
+/// keys are read. Missing keys of an entry are taken from [contact]. Throws SceneError.
 void read_pairs(const Document& document, Scene& scene);
 
 }  // namespace wavebalance::app

@@ -124,7 +124,7 @@ void describe(SceneKey& key) {
   }
 }
 
-/// What a key may be or when it belongs; a Section applies it to the key that it makes.
+/// Range or condition of a key; a Section applies it to the key that it makes.
 using Property = std::function<void(SceneKey&)>;
 
 inline Property within(double lower, double upper) {

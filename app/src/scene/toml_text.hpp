@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-/// What readers of scenes and of studies share.
+/// Common parts of readers of scenes and studies.
 namespace wavebalance::app {
 
 inline constexpr int max_key_parts = 8;  ///< between dots; a scene's keys have two
 
-/// What is wrong with a key of more than max_key_parts parts.
+/// The error of a key with more than max_key_parts parts.
 std::string long_key_text();
 
 /// Parses TOML. Throws SceneError with the line of a syntax error, or of a key of too many parts.

@@ -49,8 +49,8 @@ class StudyWorkers {
 std::chrono::milliseconds look_interval(double mean_seconds);
 
 /// How many runs a worker thread of another process is given before the first of them has ended, so that it
-/// does not wait for the next one: more where runs are as short as the interval between looks, and one where
-/// few are left, so that no run waits beside a free worker.
+/// does not wait for the next one: more where runs are as short as the interval between looks, and one
+/// where few are left, so that no run waits while a worker is idle.
 int runs_ahead(double mean_seconds, bool few_left);
 
 }  // namespace wavebalance::app

@@ -3,13 +3,13 @@
 
 #include "wavebalance/app/compare/comparison.hpp"
 
-// What tests of comparisons share.
+// Common parts of tests of comparisons.
 namespace wavebalance::app {
 
 inline const std::vector<BasisPair> two_pairs{{"fourier", "fourier"}, {"bspline", "bspline"}};
 
-// By how much longer solves take under the sanitizers: budgets in seconds are as much longer there. clang
-// tells of them by __has_feature, gcc by a macro.
+// Factor by which sanitizers slow solves down: budgets in seconds are as much longer there. clang reports
+// them by __has_feature, gcc by a macro.
 #ifdef __has_feature
 inline constexpr bool sanitized = __has_feature(address_sanitizer);
 #elif defined(__SANITIZE_ADDRESS__)

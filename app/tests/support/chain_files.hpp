@@ -4,8 +4,8 @@
 #include "temporary_folder.hpp"
 
 /// A chain of three masses of 2 kg between springs of 1e6 N/m, free at its end, as Matrix Market files in a
-/// folder, and a scene of them in which its last two masses touch obstacles. Of the scene every test changes
-/// one thing.
+/// folder, and a scene of them in which its last two masses touch obstacles. Every test changes one thing
+/// in the scene.
 inline const std::string chain_stiffness =
     "%%MatrixMarket matrix coordinate real symmetric\n3 3 5\n"
     "1 1 2e6\n2 1 -1e6\n2 2 2e6\n3 2 -1e6\n3 3 1e6\n";

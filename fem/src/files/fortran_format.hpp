@@ -19,7 +19,7 @@ struct FortranFormat {
 /// The format that a text in parentheses is, or none if it is another one.
 std::optional<FortranFormat> fortran_format(std::string_view text);
 
-/// The real that stands in a field, as Fortran reads it: with the exponent letter E or D, with the sign alone
+/// The real number in a field, as Fortran reads it: with the exponent letter E or D, with only a sign
 /// (1.5-101), or without an exponent. None if it is no finite number. Blanks around it do not count.
 std::optional<double> fortran_real(std::string_view field, const FortranFormat& format);
 

@@ -7,7 +7,7 @@
 
 namespace wavebalance::fem::detail {
 
-/// What is wanted of a file.
+/// The requested part of a file.
 enum class MatrixPart { all, matrix, load };
 
 /// The matrix of a Harwell-Boeing file, named by its title, and its right-hand side: of all, where the header

@@ -11,7 +11,7 @@ using MatrixEntries = std::vector<Eigen::Triplet<double, int>>;
 /// On the diagonal, what Abaqus writes for a row that is held; no size of stiffness.
 constexpr double held_diagonal = 1e36;
 
-/// What errors call the entry of a row and a column from 0.
+/// Name of the entry of a row and a column (from 0) in errors.
 using EntryName = std::function<std::string(int row, int column)>;
 /// "(3, 1)"
 std::string place_text(int row, int column);

@@ -19,7 +19,7 @@ std::optional<FoundFormat> format_if_known(const std::filesystem::path& file);
 /// The same, or MatrixFileError with all formats that are known.
 FoundFormat found_format(const std::filesystem::path& file);
 
-/// What `reader` makes of a file; its errors say which format the file was taken for.
+/// Result of `reader` for a file; errors name the format.
 template <class Reader>
 auto read_as(const FoundFormat& found, Reader reader) {
   try {

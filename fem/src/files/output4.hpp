@@ -13,7 +13,7 @@ namespace wavebalance::fem::detail {
 struct Output4Header {
   std::string name;
   long long columns = 0, rows = 0, form = 0, type = 0;
-  bool big = false;  ///< BIGMAT: rows of strings stand in a word of their own
+  bool big = false;  ///< BIGMAT: rows of strings have a separate word
 
   bool is_complex() const { return type > 2; }
 };
@@ -52,7 +52,7 @@ class Output4Source {
   virtual std::string place() const = 0;
 };
 
-/// All matrices of a source; those but `wanted` have names alone.
+/// All matrices of a source; all but `wanted` have only names.
 std::vector<NamedMatrix> read_output4(Output4Source& source, const std::string& file,
                                       std::string_view wanted);
 
@@ -63,7 +63,7 @@ std::vector<NamedMatrix> read_output4_binary(std::istream& input, const std::str
 
 /// Whether this is the header of a matrix in text, in letters of either case.
 bool is_output4_header(std::string_view line);
-/// Whether the first bytes are those of a binary file, whose first record has 24 or 48 bytes.
+/// Whether the first bytes belong to a binary file, whose first record has 24 or 48 bytes.
 bool is_output4_binary(std::istream& input);
 
 }  // namespace wavebalance::fem::detail

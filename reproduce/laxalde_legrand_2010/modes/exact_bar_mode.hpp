@@ -15,8 +15,8 @@ struct RigidObstacleBar {
   void validate() const;
 };
 
-/// How the energy of a mode is measured, each as a ratio to that of linear grazing (the linear mode whose tip
-/// amplitude is the gap).
+/// How the energy of a mode is measured, each as a ratio to the energy of linear grazing (the linear mode
+/// whose tip amplitude is the gap).
 enum class EnergyMeasure {
   total,         ///< E = kinetic + elastic energy, constant in time
   mean_kinetic,  ///< the period mean of the kinetic energy

@@ -64,7 +64,7 @@ struct LagrangianStart {
   Eigen::MatrixXd force;        ///< c x m, N; or empty: none
 };
 
-/// A motion of prescribed energy; its series and its units are those of ModePoint.
+/// A motion of prescribed energy; series and units as in ModePoint.
 struct LagrangianPoint {
   LagrangianStatus status = LagrangianStatus::outer_limit;
   double prescribed_ratio = 0.0;   ///< gamma over its value at linear grazing, as prescribed
@@ -73,7 +73,8 @@ struct LagrangianPoint {
   double rayleigh = 0.0;           ///< r, (rad/s)^2 [LL10, eq. (24a)]
   Eigen::MatrixXcd amplitudes;     ///< r x (N+1), m sqrt(kg)
   Eigen::MatrixXd force;           ///< c x m, N, at the samples: lambda m/2
-  double equation_residual = 0.0;  ///< norm of K u_n - n^2 omega^2 M u_n + force_n over that of K u_n, all n
+  double equation_residual = 0.0;  ///< norm of K u_n - n^2 omega^2 M u_n + force_n over the norm of K u_n,
+                                   ///< all n
   double virial_residual = 0.0;    ///< |omega^2 - (r - mu m/2)| / omega^2, mu the multiplier of h
   double max_penetration = 0.0;    ///< over the gap, at the samples
   double min_force = 0.0;          ///< N
@@ -95,10 +96,10 @@ struct LagrangianPoint {
 ///     contact::MultiplierUpdate outer(std::vector<double>(mode.constraints(), 300.0), {300.0});
 ///     const LagrangianPoint point = mode.solve(1.5, outer, mode.linear_start(1.5));
 ///
-/// The strategy works in units omega_1 = gap = 1, those of the mode continued and of the contact that it
-/// reaches first; the mode's amplitude at grazing is 1. Penalties of 1e2 to 1e3 and tolerances are in these
-/// units. Cold starts, in energy steps from grazing, work for N <= 2; for more harmonics start from a
-/// condensed point. Immutable.
+/// The strategy works in units omega_1 = gap = 1, of the continued mode and of the contact that it reaches
+/// first; the mode's amplitude at grazing is 1. Penalties of 1e2 to 1e3 and tolerances are in these units.
+/// Cold starts, in energy steps from grazing, work for N <= 2; for more harmonics start from a condensed
+/// point. Immutable.
 class LagrangianMode {
  public:
   /// Throws std::invalid_argument for a model or options out of range, options first.
@@ -113,7 +114,7 @@ class LagrangianMode {
   LagrangianStart linear_start(double energy_ratio) const;
 
   /// The motion of prescribed energy ratio. At ratios <= 1 the start is the linear mode, whatever is given.
-  /// predicted_rayleigh: r to freeze in the sequential way, (rad/s)^2; that of the start if absent. Throws
+  /// predicted_rayleigh: r to freeze in the sequential way, (rad/s)^2; from the start if absent. Throws
   /// std::invalid_argument if the strategy has other than c m and 1 constraints, or the start does not fit.
   /// A Newton step is O((r (2N + 1))^3).
   LagrangianPoint solve(double energy_ratio, Multipliers& multipliers, const LagrangianStart& start,

@@ -20,9 +20,9 @@ enum class ModeFormulation {
 ///   L(x) = r(x) + 1/2 (1/m) sum_k kappa_k (g_k + theta_k)_+^2 + 1/2 kappa_e (h(x) + theta_e)^2,
 ///   g(x) = B x - gap at t_k = k T/m,   h(x) = 1/2 sum_b w_b n_b^2 |x_b|^2 - gamma (published: no n^2),
 /// x the real Fourier coefficients (FourierLayout) of the modal amplitudes. With r frozen at rho, as the
-/// sequential Algorithm 2 does, the gradient is (2/m)(A - rho D) x in place of grad r [LL10, eq. (24d)], and
-/// is no longer one of a functional. In the consistent formulation the solution x is the same for any rho:
-/// the multiplier of h, which has the form of D x, takes up the difference.
+/// sequential Algorithm 2 does, the gradient is (2/m)(A - rho D) x instead of grad r [LL10, eq. (24d)], and
+/// is no longer the gradient of a functional. In the consistent formulation the solution x is the same for
+/// any rho: the multiplier of h, which has the form of D x, compensates for the difference.
 ///
 /// Works in whatever consistent units the model has; LagrangianMode gives it a model with omega_1 = gap = 1.
 /// Constraints are numbered contact * m + time. Immutable.
@@ -47,7 +47,7 @@ class ModeLagrangian {
   /// frozen: rho, in the place of r.
   Eigen::VectorXd gradient(const Eigen::VectorXd& x, double gamma, const Multipliers& multipliers,
                            std::optional<double> frozen = {}) const;
-  /// Its derivative, dense; on the kink that of contact. O((r N)^2 active).
+  /// Its derivative, dense; at the kink the derivative in contact. O((r N)^2 active).
   Eigen::MatrixXd hessian(const Eigen::VectorXd& x, double gamma, const Multipliers& multipliers,
                           std::optional<double> frozen = {}) const;
 

@@ -5,7 +5,7 @@
 
 namespace wavebalance::ll10 {
 
-/// What one outer iteration did. The measures are Powell's G_i and G_e before the update.
+/// Result of one outer iteration. The measures are Powell's G_i and G_e before the update.
 struct MultiplierReport {
   bool converged = false;
   bool stalled = false;  ///< the same problem would follow
@@ -32,7 +32,7 @@ class Multipliers {
   virtual MultiplierReport update(std::span<const double> g, double h) = 0;
 };
 
-/// Those of the augmented Lagrangian; refers to the update, which must outlive this.
+/// Of the augmented Lagrangian; refers to the update, which must outlive this.
 class AugmentedMultipliers final : public Multipliers {
  public:
   explicit AugmentedMultipliers(contact::MultiplierUpdate& update) : update_(update) {}

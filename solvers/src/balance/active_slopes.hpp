@@ -8,10 +8,10 @@
 
 namespace wavebalance::solvers {
 
-/// The derivative D of the contact forces by a motion, D = S B on the active samples, those whose force
-/// changes with the motion: B takes a motion to one number per active sample, S these to forces. Where the
-/// forces depend on the displacement of their own sample alone, S is that slope and B takes the samples of
-/// the motion. Otherwise the scale S of a sample is the largest of its slopes, so that B has numbers of the
+/// The derivative D of the contact forces by a motion, D = S B on the active samples, whose force changes
+/// with the motion: B maps a motion to one number per active sample, S maps these to forces. If forces
+/// depend only on the displacement of the same sample, S is that slope and B selects the samples of the
+/// motion. Otherwise the scale S of a sample is the largest of its slopes, so that B has numbers of the
 /// order of displacements.
 class ActiveSlopes {
  public:
@@ -22,7 +22,7 @@ class ActiveSlopes {
   std::span<const int> samples() const { return samples_; }  ///< ascending
   Eigen::Index count() const { return static_cast<Eigen::Index>(samples_.size()); }
   const Eigen::VectorXd& scale() const { return scale_; }  ///< S, N/m
-  /// Whether B takes the samples of the motion.
+  /// Whether B selects the samples of the motion.
   bool takes_samples() const { return own_.size() == 0; }
 
   /// B of a motion of samples(), m.

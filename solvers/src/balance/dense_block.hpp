@@ -14,7 +14,7 @@ class DenseBlock {
   /// J x + b y = r, c.x + d y = s; x = J^-1 r and y = 0 without a border.
   void solve(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y);
 
-  /// 1 or -1: the sign of the determinant of the matrix last factorized, that of the whole [J b; c^T d].
+  /// 1 or -1: the sign of the determinant of the matrix last factorized, the whole [J b; c^T d].
   int determinant_sign() const { return lu_.determinant_sign(); }
   /// Estimate of the condition number, in the 1-norm, of the matrix last factorized. O(count^2).
   double condition() const { return lu_.condition(); }

@@ -22,9 +22,9 @@ class FreeContacts {
   /// `harmonics` as of CondensedProblem. O(n^3), or a reordering of the sparse matrices.
   FreeContacts(const LinearStructure& structure, Eigen::VectorXcd harmonics, double holding);
 
-  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. The frequency is that of the
-  /// problem, Hz; every harmonic of the load but the static one is multiplied by `factor`. O(n^3) for each
-  /// harmonic of the load.
+  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. Frequency of the problem in
+  /// Hz; every harmonic of the load but the static one is multiplied by `factor`. O(n^3) for each harmonic
+  /// of the load.
   Eigen::MatrixXcd at(double frequency, double factor);
 
  private:

@@ -14,8 +14,8 @@ namespace wavebalance::solvers {
 
 /// J = I + K D of the displacement form to the M coefficients of each of C contacts, whatever the number of
 /// samples: K = U V with the compliances V from force samples to coefficients and the synthesis U of these,
-/// R = V D and E = U. All of D counts, also what a force remembers of other samples. The coefficients are
-/// those of the spectrum over translates, real and imaginary parts. The slopes and the operator must outlive
+/// R = V D and E = U. All of D counts, also the dependence of a force on other samples. The coefficients
+/// are real and imaginary parts of the spectrum over translates. The slopes and the operator must outlive
 /// the solves. One object per thread and pair.
 class FunctionReduction final : public Reduction {
  public:

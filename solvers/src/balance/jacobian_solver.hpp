@@ -10,10 +10,10 @@
 namespace wavebalance::solvers {
 
 /// Solves with J = I + K D, D the slopes of the contact forces, plain or bordered, by LU of the active
-/// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the LU
-/// is used, and after three times in a row from then on. For laws with memory in the displacement form it is
-/// that of the coefficients of the functions where these are fewer. Few of them come before GMRES, whose
-/// preconditioner leaves memory out.
+/// samples or by GMRES, chosen by their number. Where GMRES does not converge and an LU is affordable, the
+/// LU is used, and after three times in a row from then on. For laws with memory in the displacement form
+/// the unknowns are the coefficients of the functions if these are fewer. A few coefficients are preferred
+/// to GMRES, whose preconditioner ignores memory.
 class JacobianSolver {
  public:
   /// `rates` gives the velocities of motions and is kept; null where no law reads them.

@@ -17,12 +17,11 @@ namespace wavebalance::solvers {
 /// part of few of them, U V D. The preconditioner
 ///   P = I + B U V S   (bordered: with b, c, d as J)
 /// leaves out the rest of K; its inverse costs two FFTs per contact and a dense solve with I + V D U of the
-/// size s of the coarse space. What it leaves is then small and compact, and the number of iterations does
-/// not grow with the number of samples or contacts. In I + V D U the entries of D beside those of a sample by
-/// its own motion are left out.
-/// An iteration costs two products with K, a new preconditioner O(C N log N + C^2 M + C s^2 + s^3). That of a
-/// state before, whose frequency and slopes were others, is kept as long as the iterations that it takes more
-/// cost less than a new one, which of one contact is never: GMRES solves with J as it is now.
+/// size s of the coarse space. The rest is then small and compact, and the number of iterations does not
+/// grow with the number of samples or contacts. I + V D U ignores the entries of D between different
+/// samples. An iteration costs two products with K, a new preconditioner O(C N log N + C^2 M + C s^2 +
+/// s^3). The preconditioner of a previous state is kept as long as its additional iterations cost less than
+/// a new one, which is never the case for one contact. GMRES always solves with the present J.
 class KrylovBlock {
  public:
   struct Outcome {
@@ -41,8 +40,8 @@ class KrylovBlock {
   Outcome solve(ContactOperator& contact, const Eigen::VectorXd& r, double s, double reduction,
                 Eigen::VectorXd& x, double& y);
 
-  /// 1 or -1: the sign of det P, which is made anew where it was kept. That of det J is the same where K - U
-  /// V is small.
+  /// 1 or -1: the sign of det P, which is made anew where it was kept. det J has the same sign if K - U V
+  /// is small.
   int determinant_sign();
   /// Lower bound of the condition number, in the 2-norm, of J on the active samples: the largest over the
   /// smallest ||J z|| / ||z|| of all z multiplied since the last factorisation, and of a few power iterations

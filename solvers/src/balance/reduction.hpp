@@ -3,7 +3,7 @@
 
 namespace wavebalance::solvers {
 
-/// What stands beside J in [J b; c^T d]; J alone where there is no column.
+/// The border of J in [J b; c^T d]; only J if there is no column.
 struct Border {
   Eigen::VectorXd column, row;  ///< b and c
   double corner = 0.0;          ///< d
@@ -11,9 +11,9 @@ struct Border {
   bool exists() const { return column.size() > 0; }
 };
 
-/// J = I + K D as the identity plus a product of few numbers, K D = E R: R takes a motion of samples() to
-/// count() numbers, and E these to a motion. Then x = J^-1 r is r - E z with (I + R E) z = R r, and the
-/// determinants of J and I + R E are the same.
+/// J = I + K D as the identity plus a product of few numbers, K D = E R: R maps a motion of samples() to
+/// count() numbers, and E maps these to a motion. Then x = J^-1 r is r - E z with (I + R E) z = R r, and
+/// the determinants of J and I + R E are the same.
 class Reduction {
  public:
   virtual ~Reduction() = default;

@@ -7,10 +7,10 @@
 
 namespace wavebalance::solvers {
 
-/// The compliance of a structure of matrices in a pair of bases: Z(k) = lambda_2(k) f^2 M + lambda_1(k) f C +
-/// lambda_0(k) K (1 + i eta) with the symbols lambda of the pair and the loss factor eta below the Nyquist
-/// coefficient. Where the structure turns, C has the part Omega G and K the part Omega^2 K_s at each f, with
-/// Omega = 2 pi f times the periods of its load. That at rest of a structure that is free to move is that of
+/// The compliance of a structure of matrices in a pair of bases: Z(k) = lambda_2(k) f^2 M + lambda_1(k) f C
+/// + lambda_0(k) K (1 + i eta) with the symbols lambda of the pair and the loss factor eta below the
+/// Nyquist coefficient. For a rotor C has the part Omega G and K the part Omega^2 K_s at each f, with Omega
+/// = 2 pi f times the periods of its load. The static compliance of a free structure is the compliance of
 /// the held one, at any frequency. A Nyquist coefficient that the pair drops has no compliance.
 class StructureCompliance final : public HarmonicCompliance {
  public:

@@ -35,8 +35,8 @@ struct Scales {
 };
 
 /// A start of a curve at the solution in the plane perpendicular to `change` through its end from the point
-/// `origin` of another curve, at whatever frequency or load scale; nothing where there is none. Sets that of
-/// the problem.
+/// `origin` of another curve, at whatever frequency or load scale; nothing if there is none. Sets it in the
+/// problem.
 std::optional<SweepStart> motion_beside(ContactSystem& system, const CurvePoint& origin,
                                         const Eigen::VectorXd& change, const Scales& scales,
                                         SweepParameter parameter = SweepParameter::frequency);
@@ -53,7 +53,7 @@ class Arrival {
 
   /// Whether a step of the branch meets the other curve.
   bool operator()(const CurvePoint& before, const CurvePoint& after);
-  /// After a branch was lost at `last`: whether that is beside the curve that it left.
+  /// After a branch was lost at `last`: whether that is near the curve that it left.
   bool is_beside(const CurvePoint& last) const;
   /// Takes as the end the bifurcation or grazing point nearest to the last one, within `reach`.
   void note_nearest(const CurvePoint& last, double reach);

@@ -11,7 +11,7 @@ struct Perturbation {
   Eigen::VectorXd displacement;  ///< contact-major, with the largest rms of all phases; its rms is 1 m
   Eigen::VectorXd force;         ///< N
 
-  /// What it is in the unknown of a form, see ContactOperator.
+  /// The perturbation in the unknown of a form, see ContactOperator.
   Eigen::VectorXd unknown(const Eigen::VectorXd& series_flexibility) const;
 };
 

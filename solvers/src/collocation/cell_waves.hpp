@@ -53,16 +53,16 @@ class WavesAtNodes {
   WavesAtNodes(const CellWaves& waves, const LegendreNodes& nodes, const Eigen::VectorXd& points);
 
   Eigen::MatrixXcd values() const;  ///< q x P. O(N P q)
-  /// What a fast pole does from a state at the begin and by a force with these Legendre coefficients: the
-  /// states at the nodes. `number` counts CellWaves::fast(). O(q^2).
+  /// States of a fast pole at the nodes, from a state at the beginning and a force with these Legendre
+  /// coefficients. `number` counts CellWaves::fast(). O(q^2).
   Eigen::VectorXcd states(std::size_t number, std::complex<double> start,
                           const Eigen::VectorXcd& force) const;
   const FarPoles::Decay& far_decay() const { return far_decay_; }
   /// q x K: Legendre's polynomials at the nodes.
   const Eigen::MatrixXd& polynomials() const { return own_points_ ? own_values_ : nodes_.values; }
-  /// count x q: takes Legendre coefficients of a force to what the poles, weighted by w, make of it up to
-  /// each of the nodes from `first` on: Re sum of w_r times the integral of exp(z_r (x - s)) f(s) over s from
-  /// -1 to x. O(N q (q + P / q)).
+  /// count x q: maps Legendre coefficients of a force to the response of the poles, weighted by w, at each
+  /// of the nodes from `first` on: Re sum of w_r times the integral of exp(z_r (x - s)) f(s) over s from -1
+  /// to x. O(N q (q + P / q)).
   Eigen::MatrixXd up_to(const Eigen::VectorXcd& weights, Index first, Index count) const;
   /// For each pole, its integrals of exp(z_r (x - s)) P_k(s) over s from -1 to x at the nodes, N x q. O(N P
   /// q).
@@ -77,7 +77,7 @@ class WavesAtNodes {
   const LegendreNodes& nodes_;
   Eigen::VectorXd points_;  // of the nodes
   bool own_points_ = false;
-  Eigen::MatrixXd own_values_;  // Legendre's polynomials at points of its own
+  Eigen::MatrixXd own_values_;  // Legendre polynomials at given points
   struct Integrals {
     Eigen::MatrixXd real, imag;  // q x q; imag is empty where z is real
     Eigen::VectorXcd decay;

@@ -38,8 +38,8 @@ struct Evaluation {
     const double places = m > 0 ? residual.tail(m).cwiseAbs().maxCoeff() / displacement_size : 0.0;
     return std::max(force_error(), places);
   }
-  /// Whether the residual is that of rounding: it fell no more, from `before`, and is small beside the
-  /// largest force, or forces of its size move the contacts by nothing. A short contact has a small force and
+  /// Whether the residual is rounding: it did not fall from `before`, and is small compared with the
+  /// largest force, or forces of its size do not move the contacts. A short contact has a small force and
   /// the rounding errors of large displacements. `influence`: of the iterate before, of as many unknowns.
   bool is_rounding(double before, const Influence& influence) const {
     constexpr double small = 1e-9, nothing = 1e-11;
@@ -62,7 +62,7 @@ Evaluation evaluate(const CollocationModel& model, const CollocationIterate& at,
 /// 1 for each force, and for each passage the impulse, N, that it adds if it comes later.
 Eigen::VectorXd impulses_of(const Layout& layout, const Evaluation& now, const LegendreNodes& nodes);
 
-/// What the evaluation of a solution is on other panels of the same phases and passages, by its polynomials:
+/// The evaluation of a solution on other panels of the same intervals and passages, by its polynomials:
 /// without residual and period.
 Evaluation on_panels_of(const Layout& layout, const CollocationModel& model, const Evaluation& solved,
                         const LegendreNodes& nodes);

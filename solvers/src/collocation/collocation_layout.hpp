@@ -19,7 +19,7 @@ struct Passage {
 struct LayoutInterval {
   int contact = 0, piece = 0;
   int begin = -1, end = -1;       ///< numbers of passages
-  double turns = 0.0;             ///< added to the time of `end`, so that it comes after that of `begin`
+  double turns = 0.0;             ///< added to the time of `end`, so that it comes after `begin`
   std::vector<double> cuts = {};  ///< shares in (0, 1) of the phase at which panels meet, ascending
 };
 
@@ -27,8 +27,8 @@ struct LayoutInterval {
 struct Layout {
   std::vector<Passage> passages;
   std::vector<LayoutInterval> phases;
-  /// Whether passages and cuts of other phases cut the panels of a phase: its force has kinks in high
-  /// derivatives there. Of many contacts that act together, panels without these cuts are far fewer.
+  /// Whether passages and cuts of other intervals cut the panels of an interval: its force has kinks in
+  /// high derivatives there. With many active contacts, panels without these cuts are far fewer.
   bool cut_by_others = true;
 
   double begin(const LayoutInterval& phase) const;
@@ -40,10 +40,10 @@ struct Layout {
   CellGrid grid() const;
 };
 
-/// The phases of a motion that is sampled at times l / N: displacements, m, and velocities, m per period, C x
-/// N each. Between two samples it is the cubic that has both. Whether contacts graze between them is noticed.
-/// What lasts less than `least` periods between two intervals on the same piece of a law is left out. The
-/// frequency in Hz.
+/// The contact intervals of a motion sampled at times l / N: displacements, m, and velocities, m per
+/// period, C x N each. Between two samples the motion is the cubic through both, so grazing between samples
+/// is found. An interval shorter than `least` periods between two intervals on the same segment of a law is
+/// ignored. The frequency in Hz.
 Layout layout_of(const std::vector<LawSegments>& laws, double frequency, const Eigen::MatrixXd& displacement,
                  const Eigen::MatrixXd& velocity, double least = 0.0);
 

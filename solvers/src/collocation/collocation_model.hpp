@@ -13,7 +13,7 @@ struct Instant {
   double time = 0.0;  ///< periods
 };
 
-/// What does not change while a motion is sought.
+/// Constants of a search for a motion.
 struct CollocationModel {
   CollocationModel(const ExactProblem& problem, double length);
 

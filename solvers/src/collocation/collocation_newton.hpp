@@ -9,7 +9,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// What is known of a period with certain instants and nodes.
+/// Quantities of a period with given instants and nodes.
 struct KnownPeriod {
   std::shared_ptr<const PeriodCells> period = nullptr;
   std::optional<Influence> influence = std::nullopt;
@@ -24,7 +24,7 @@ struct CollocationResult {
   /// rms at the nodes, m: displacements by the last two Legendre coefficients of each panel as if they were
   /// missing, and by the residual, with what forces and passages do in answer.
   double resolution_error = 0.0, residual_error = 0.0;
-  Eigen::VectorXd panel_errors;  ///< the former of each panel alone, without an answer
+  Eigen::VectorXd panel_errors;  ///< the former for each panel, without an answer
   /// At the instants and nodes of the iterate, which it refers to; the influence of solve_forces only.
   KnownPeriod known;
   Eigen::VectorXd tangent, damping;  ///< n, slopes of the laws by displacement (N/m) and by velocity (N s/m)
@@ -36,7 +36,7 @@ struct NewtonLimits {
   const Observer& observer;
 };
 
-/// About so many floating-point operations a step takes.
+/// Estimated floating-point operations of a step.
 inline double step_operations(double unknowns, double poles) {
   return unknowns * unknowns * (unknowns / 1.5 + 4.0 * poles) + 1.0;
 }
@@ -45,7 +45,7 @@ inline double step_operations(double unknowns, double poles) {
 /// the residual of rounding, Evaluation::is_rounding(), is converged, too. `known`: of the start.
 CollocationResult solve_phases(const CollocationModel& model, CollocationIterate start,
                                const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known);
-/// The same on the forces alone.
+/// The same, only for the forces.
 CollocationResult solve_forces(const CollocationModel& model, CollocationIterate start,
                                const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known);
 
@@ -59,8 +59,8 @@ void move(CollocationIterate& at, const Evaluation& now, const LegendreNodes& no
 /// Whether a phase has no length, or more than a period.
 bool has_collapsed(const Layout& layout);
 
-/// Sets what a converged solution tells beside its iterate. `answer`: the unknowns by which Newton's method
-/// answers a residual.
+/// Sets the results of a converged solution in addition to its iterate. `answer`: the unknowns by which
+/// Newton's method answers a residual.
 void set_errors(CollocationResult& result, const Evaluation& now, const LegendreNodes& nodes,
                 const Influence& influence, double frequency,
                 const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& answer);

@@ -15,7 +15,7 @@ struct EstimatedError {
   double all() const { return resolution + residual; }
 };
 
-/// Of a solution whose displacements have this rms, m.
+/// For a solution whose displacements have this rms, m.
 EstimatedError error_of(const CollocationResult& solved, double motion_rms);
 
 double rms_of(const Eigen::MatrixXd& values);
@@ -34,9 +34,9 @@ void join_panels(CollocationIterate& iterate, const EstimatedError& error, const
 bool divide_panels(CollocationIterate& iterate, const EstimatedError& error,
                    const CollocationOptions& options);
 
-/// So many nodes that the last coefficients fall to the tolerance if they go on to decay as they do, and at
-/// least a third more, or divided panels, where these take fewer unknowns or so many nodes are not allowed.
-/// False where neither is left.
+/// Enough nodes that the last coefficients reach the tolerance at their present decay, and at least a third
+/// more; or divided panels, if these need fewer unknowns or the nodes exceed their limit. False if neither
+/// is possible.
 bool make_finer(CollocationIterate& iterate, LegendreNodes& nodes, const EstimatedError& error,
                 const CollocationOptions& options);
 

@@ -26,7 +26,7 @@ struct ExactSolution::Parts {
 
 namespace detail {
 
-/// Gives a motion its phases and its parts, those of a solution.
+/// Gives a motion the contact intervals and parts of a solution.
 void set_parts(ExactSolution& motion, const CollocationModel& model, const CollocationResult& solved,
                const LegendreNodes& nodes);
 

@@ -35,9 +35,9 @@ class FarPoles {
   const Eigen::MatrixXcd& at_begin() const { return at_begin_; }
   const Eigen::MatrixXcd& at_end() const { return at_end_; }
   Decay decay(const Eigen::VectorXd& points) const;
-  /// q x q: takes the Legendre coefficients of a force to those of Re sum w_r p_r. O(P q^2).
+  /// q x q: maps the Legendre coefficients of a force to the coefficients of Re sum w_r p_r. O(P q^2).
   Eigen::MatrixXd polynomials(const Eigen::VectorXcd& weights) const;
-  /// What forces on each pole make, P x q. O(P q).
+  /// The response of each pole to forces, P x q. O(P q).
   Series solve(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag) const;
 
  private:

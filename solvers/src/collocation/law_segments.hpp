@@ -17,9 +17,9 @@ struct Yielding {
 /// does not pull.
 class LawSegments {
  public:
-  /// `length`, m: that the motion has, by which the pieces are sampled. `holding`, N/m: of a spring that
-  /// holds the contact in its compliance, so that the law takes it back. `yielding`, by which a rigid law
-  /// becomes an equation for the force.
+  /// `length`, m: of the motion, for sampling the segments. `holding`, N/m: of a spring in the compliance
+  /// that holds the contact; the law subtracts it. `yielding`, by which a rigid law becomes an equation for
+  /// the force.
   LawSegments(AnyContactLaw law, double length, double holding, const Yielding& yielding);
 
   int count() const { return static_cast<int>(breakpoints_.size()) + 1; }
@@ -36,7 +36,7 @@ class LawSegments {
   bool may_vanish() const { return !rigid_ && law_.depends_on_velocity(); }
   /// Whether it does, m and m/s.
   bool vanishes(int piece, double displacement, double velocity) const;
-  /// Whether there is one in the equations: that, or the one which takes the spring back.
+  /// Whether the equations have a law: the contact's, or the one that subtracts the spring.
   bool acts(int piece) const { return holding_ > 0.0 || exerts(piece); }
   bool rigid() const { return rigid_; }
   /// Whether rigid contact is an equation for the velocity, where the force jumps as it begins.

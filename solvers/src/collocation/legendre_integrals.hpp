@@ -56,9 +56,9 @@ Index exponential_series(std::complex<double> z, Eigen::Ref<Eigen::VectorXd> rea
                          Eigen::Ref<Eigen::VectorXd> imag);
 Index most_coefficients(std::complex<double> z);
 
-/// Takes the Legendre coefficients of f to those of the integral of k(x - s - 1) f(s) over s from -1 to x,
-/// for the Legendre coefficients of a kernel k, N, and of f, q: (N + q) x q [N. Hale, A. Townsend, SIAM J.
-/// Sci. Comput. 36, 2014, doi:10.1137/140955835]. O((N + q) q).
+/// Maps the Legendre coefficients of f to the coefficients of the integral of k(x - s - 1) f(s) over s from
+/// -1 to x, for the Legendre coefficients of a kernel k, N, and of f, q: (N + q) x q [N. Hale, A. Townsend,
+/// SIAM J. Sci. Comput. 36, 2014, doi:10.1137/140955835]. O((N + q) q).
 Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count);
 
 /// Gauss and Legendre's nodes on [-1, 1] and what leads from values there to Legendre coefficients.

@@ -9,9 +9,9 @@
 
 namespace wavebalance::solvers::detail {
 
-/// An interval on which the force of a contact is one polynomial: a part of a phase, and as long as so many
-/// cells of the period that follow each other, of which none but the first is cell 0. Times are in periods,
-/// those of its phase: begin < end.
+/// An interval on which the force of a contact is one polynomial: a part of a contact interval that covers
+/// consecutive cells of the period, of which only the first may be cell 0. Times in periods as in its
+/// contact interval: begin < end.
 struct Panel {
   int contact = 0, phase = 0, cell = 0;
   double begin = 0.0, end = 0.0;
@@ -58,7 +58,8 @@ struct CellGrid {
   int before(int cell) const { return cell == 0 ? cells() - 1 : cell - 1; }
 };
 
-/// What the poles do within each cell of a grid, for forces at so many nodes; in pole_response_parts.hpp.
+/// Responses of the poles within each cell of a grid, for forces at so many nodes; in
+/// pole_response_parts.hpp.
 struct PeriodCells;
 
 /// How the contacts move where contact forces act periodically: displacements (m) and velocities (m per
@@ -79,7 +80,7 @@ struct ForcedMotion {
 
 /// Cells that follow each other and begin with any states of the poles, n nodes and m marks in them.
 struct FreeCells {
-  Influence influence;                            ///< within these cells alone
+  Influence influence;                            ///< only within these cells
   Eigen::MatrixXcd displacement_by, velocity_by;  ///< (n + m) x poles and n x poles: by states of 1
   Eigen::MatrixXcd states_by;  ///< poles x (n + m): the last states, by forces and impulses
   Eigen::VectorXcd decay;      ///< poles: the last states, by the first
@@ -91,8 +92,8 @@ struct ContactMotion {
 };
 
 /// The compliance of the contacts by its poles r and residues R: the periodic solutions of y' = r y + f for
-/// each pole, and u = -sum R y - constant f. The integrals are exact for forces that are polynomials in time.
-/// The sign of a force is that of one which moves the contact towards its obstacle.
+/// each pole, and u = -sum R y - constant f. The integrals are exact for forces that are polynomials in
+/// time. Positive forces move the contact towards its obstacle.
 ///
 /// Immutable; may be shared between threads.
 class PoleResponse {
@@ -102,8 +103,8 @@ class PoleResponse {
 
   int contacts() const { return static_cast<int>(constant_.rows()); }
   Eigen::Index poles() const { return exponents_.size(); }
-  /// What contact c does at once by a force of 1 N: the displacement, m, and without mass the velocity, m per
-  /// period.
+  /// Immediate response of contact c to a force of 1 N: the displacement, m, and without mass the velocity,
+  /// m per period.
   double displacement_at_once(int c) const { return constant_(c, c); }
   double velocity_at_once(int c) const { return jump_(c, c); }
   /// With mass the acceleration, m per period squared, its size.
@@ -126,8 +127,8 @@ class PoleResponse {
   }
   /// The multipliers of all states without forces, exp(exponent), both of each pair.
   Eigen::VectorXcd free_multipliers() const;
-  /// CellGrid::Begin::states by states y of ContactDynamics::poles(), N s, of which a force f on contacts
-  /// takes y' = exponent y - left f.
+  /// CellGrid::Begin::states by states y of ContactDynamics::poles(), N s, with y' = exponent y - left f
+  /// for a force f on contacts.
   Eigen::VectorXcd states(const Eigen::VectorXcd& by_pole) const;
   /// By forces with these Legendre coefficients, q x panels, N, at times in periods. O(K poles C + panels q
   /// (poles + C q)).

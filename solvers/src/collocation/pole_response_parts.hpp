@@ -8,12 +8,12 @@
 
 namespace wavebalance::solvers::detail {
 
-/// What of a panel lies in one of its cells: nodes, at the cell's points from `row` on, and the polynomial.
+/// The part of a panel in one of its cells: nodes, at the cell's points from `row` on, and the polynomial.
 struct PoleResponse::Part {
   std::size_t panel;
   Index first = 0, count = 0, row = 0;
   Eigen::VectorXd points;        ///< of these nodes, in [-1, 1] of the cell
-  Eigen::MatrixXd restriction;   ///< takes the panel's Legendre coefficients to those in the cell
+  Eigen::MatrixXd restriction;   ///< maps the panel's Legendre coefficients to coefficients in the cell
   Eigen::MatrixXd coefficients;  ///< the same of values at the panel's nodes
 
   bool acts(const CellGrid& grid, int contact) const { return grid.panels[panel].contact == contact; }
@@ -89,12 +89,12 @@ class MovingStates {
       imag_.col(numbers[k]).head(count) += own.imag();
     }
   }
-  /// Of equations by the states.
+  /// Derivatives of equations by the states.
   Eigen::MatrixXd seen_by(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag) const {
     return product(real.leftCols(left_), real_.topRows(left_)) -
            product(imag.leftCols(left_), imag_.topRows(left_));
   }
-  /// Of the first poles.
+  /// For the first poles.
   Eigen::MatrixXcd top(Index poles) const {
     Eigen::MatrixXcd result(poles, real_.cols());
     result.real() = real_.topRows(poles);

@@ -10,9 +10,9 @@ namespace wavebalance::solvers {
 /// number of points 2^n. A cycle of points entered at any point is noticed before its points have doubled
 /// twice [R. P. Brent, BIT 20 (1980) 176-184], with a memory of log2(points) states.
 ///
-/// A return is a point at scaled distance at most `same` from a kept one, with a tangent within max_angle of
-/// that of the kept one, after the curve has been farther away than `away`. It is the last point itself, or
-/// that where the last step meets the plane through the kept point perpendicular to its tangent.
+/// A return is a point at scaled distance at most `same` from a kept one, with a tangent within max_angle
+/// of the tangent there, after the curve has been farther away than `away`. It is the last point, or the
+/// point where the last step meets the plane through the kept point perpendicular to its tangent.
 class ReturnDetector {
  public:
   struct KeptPoint {

@@ -20,7 +20,7 @@ struct CurvePoint {
 
 using PointOnCurve = std::shared_ptr<const CurvePoint>;
 
-/// What does not change along a curve.
+/// Constants along a curve.
 class CurvePath {
  public:
   CurvePath(const ProblemFamily& family, const ExactSolution& first, const ExactCurveOptions& options);
@@ -41,7 +41,7 @@ class CurvePath {
   /// Calls the observer with the number of points that a curve has and with the value of the last one, which
   /// are its progress in what follows, too. False where it returns false, or has.
   bool goes_on(int points, double value);
-  /// Whether the observer has returned false. What was not found since then says nothing.
+  /// Whether the observer has returned false. Later failures are then not significant.
   bool cancelled() const { return cancelled_; }
 
  protected:

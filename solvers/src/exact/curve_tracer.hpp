@@ -7,8 +7,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// Follows one curve, from its first point forwards. What is left to a derived class is how to go on by a
-/// step. A path is used by one tracer at a time.
+/// Follows one curve, from its first point forwards. Derived classes define a step. A path is used by one
+/// tracer at a time.
 class CurveTracer {
  public:
   CurveTracer(CurvePath& path, ExactCurve& curve, PointOnCurve first);
@@ -17,7 +17,7 @@ class CurveTracer {
   void run();
 
  protected:
-  /// Adds points, takes another step length, or gives the curve a status.
+  /// Adds points, changes the step length, or sets the status of the curve.
   virtual void advance() = 0;
   /// About so many floating-point operations a point took.
   virtual double operations_of(const CurvePoint& point) const = 0;

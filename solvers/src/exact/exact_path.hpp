@@ -18,11 +18,11 @@ struct PathPoint : CurvePoint {
   CollocationIterate iterate;
   Eigen::VectorXd direction;   ///< as of HeldSolution, forwards along the curve
   double force_size = 1.0;     ///< N
-  Layout intervals_of_motion;  ///< others than those of the iterate where it is no motion of the structure
+  Layout intervals_of_motion;  ///< differ from the iterate's if it is no exact motion
 
   Eigen::Index passages() const { return static_cast<Eigen::Index>(iterate.layout.passages.size()); }
   Eigen::Index forces() const { return direction.size() - 1 - passages(); }
-  /// Of the parameter, the passage and the unknown held, forwards along the curve.
+  /// Changes of the parameter, the passage and the fixed unknown, forwards along the curve.
   double motion_of_parameter() const { return direction[direction.size() - 1]; }
   double motion_of(int passage) const { return direction[forces() + passage]; }
   double motion_of(const Held& held) const { return direction[held.number(forces(), passages())]; }
@@ -32,7 +32,7 @@ struct PathPoint : CurvePoint {
   }
 };
 
-/// What is expected at another place of the curve.
+/// Prediction at another place of the curve.
 struct Prediction {
   double value = 0.0;
   CollocationIterate iterate;
@@ -50,17 +50,16 @@ class PathModel : public CurvePath {
   /// parameter; and by what share of a unit of arc length it does.
   Held fastest(const PathPoint& at, bool parameter) const;
   double speed(const PathPoint& at) const;
-  /// Of the change of the unknown held, forwards: 1 or -1.
+  /// Sign of the change of the fixed unknown, forwards: 1 or -1.
   double sign_of(const PathPoint& at, const Held& held) const;
-  /// Of the angle between the way from one point to another with the same phases and the direction there, in
-  /// the parameter and the passages; of that to a prediction, with the direction of the point.
+  /// Cosine of the angle between the secant from one point to another with the same contact intervals and
+  /// the tangent there, in the parameter and the passages; for a prediction, with the tangent at the point.
   double cosine(const PathPoint& from, const PathPoint& to) const;
   double cosine(const PathPoint& from, const Prediction& to) const;
-  /// Of a point from where it was expected, of the parameter and the passages; as arc length.
+  /// Distance of a point from its prediction, in the parameter and the passages; as arc length.
   double distance(const Prediction& expected, const PathPoint& found) const;
 
-  /// A start with fewer panels or nodes, where those of the last point resolve it far better than they have
-  /// to.
+  /// A start with fewer panels or nodes, if the last point resolves the solution far better than necessary.
   CollocationIterate coarser(const PathPoint& last, CollocationIterate start) const;
 
   /// The solution near a start with an unknown held, with as many nodes and panels as the tolerance needs and

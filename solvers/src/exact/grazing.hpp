@@ -18,8 +18,8 @@ std::vector<Interval> intervals_of(const Layout& layout);
 /// How an interval's length changes along a direction, as of PathPoint.
 double growth(const PathPoint& at, const Interval& interval);
 
-/// The cuts of phases of another layout, wherever they lie in phases of the same contact on the same piece,
-/// beside those of a layout: what resolves the forces by those phases then resolves them by these.
+/// The cuts of a layout together with the cuts of another layout in intervals of the same contact on the
+/// same segment. Forces that the other layout resolves are then resolved too.
 Layout with_cuts_of(const Layout& other, Layout layout);
 
 /// The phases without intervals that vanish, with the cuts of all.
@@ -39,7 +39,7 @@ Grazing grazing_of(const PathPoint& at, const Layout& layout, const Interval& in
 /// By how much the extremum passes the breakpoint, m; NaN where there is none.
 double passed_by(const ExactSolution& motion, const Grazing& grazing);
 
-/// The start of a solution with other phases, its forces those of the point.
+/// The start of a solution with other contact intervals, with the forces of the point.
 CollocationIterate with_layout(const PathPoint& at, Layout layout);
 
 }  // namespace wavebalance::solvers::detail

@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// The unknown that is held while the parameter of the family is sought in its place.
+/// The unknown that is fixed while the parameter of the family is solved for instead.
 struct Held {
   enum class Kind { parameter, passage, force };
   Kind kind = Kind::parameter;
@@ -20,8 +20,8 @@ struct Held {
 struct HeldSolution {
   CollocationResult newton;
   double value = 0.0;  ///< of the parameter
-  /// How all unknowns change along the curve of solutions: n forces at fixed times, the passages, the
-  /// parameter. That of the unknown held is 1. Empty where it is not known.
+  /// Changes of all unknowns along the curve of solutions: n forces at fixed times, the passages, the
+  /// parameter. The change of the fixed unknown is 1. Empty if not known.
   Eigen::VectorXd direction;
 };
 

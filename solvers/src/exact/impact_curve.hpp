@@ -3,7 +3,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// exact_curve() from a motion of impacts alone, between which no contact exerts a force: by pseudo arc
+/// exact_curve() from a motion with impacts only, between which no contact exerts a force: by pseudo arc
 /// length on the equations of impact_motion() and the parameter. The unknowns are instants and impulses, a
 /// 20th of the period and velocity_scale / J of which have length 1.
 ///

@@ -14,15 +14,15 @@ namespace wavebalance::solvers::detail {
 /// Instants and impulses of impacts and a parameter, with their tangent.
 using ImpactPoint = solvers::CurvePoint;
 
-/// What does not change along a curve of motions with impacts.
+/// Constants along a curve of motions with impacts.
 struct ImpactPathScales {
   int periods = 1;         ///< of the load
   double impulse = 1.0;    ///< N s
   double parameter = 1.0;  ///< Hz or load scale
 };
 
-/// The equations of K impacts and a parameter, as CurveCorrector takes them: u has the instants (periods),
-/// then the impulses over ImpactPathScales::impulse. The residual is relative to its rounding errors.
+/// The equations of K impacts and a parameter for CurveCorrector: u has the instants (periods), then the
+/// impulses over ImpactPathScales::impulse. The residual is relative to its rounding errors.
 class ImpactCurveEquations {
  public:
   struct Pieces {};
@@ -42,7 +42,7 @@ class ImpactCurveEquations {
 
   const std::vector<int>& contacts() const { return contacts_; }
   Eigen::Index impacts() const { return static_cast<Eigen::Index>(contacts_.size()); }
-  /// Of the displacement less gap of impact i along a tangent of the others, where it was evaluated last.
+  /// Derivative of displacement less gap of impact i along a tangent of the others, at the last evaluation.
   double height_slope(Eigen::Index i, const ImpactPoint& tangent) const;
   /// The unit vector of unknowns that changes the equations least, where they were evaluated last.
   Eigen::VectorXd null_direction() const;
@@ -84,7 +84,7 @@ class ImpactPath : private CurveCorrector<ImpactCurveEquations> {
   using CurveCorrector::inner;
   using CurveCorrector::normalize;
   using CurveCorrector::tangent_at;  // where it was solved for last
-  /// With the direction in which the parameter alone grows, or falls, as its tangent.
+  /// With the direction in which only the parameter increases or decreases as tangent.
   ImpactPoint along_parameter(bool grows) const;
 
   /// The place at a value of the parameter near these unknowns, without a tangent.

@@ -26,7 +26,7 @@ struct ImpactStep {
 /// other. Its motion has converged. Nothing where there is no such place within about the step.
 std::optional<ImpactSwitch> impact_switch(const ImpactStep& step);
 
-/// The unknowns but those of impact i.
+/// The unknowns without impact i.
 Eigen::VectorXd without_impact(const Eigen::VectorXd& unknowns, Eigen::Index i);
 /// The unknowns with an impact before impact i that has an instant and no impulse.
 Eigen::VectorXd with_impact(const Eigen::VectorXd& unknowns, Eigen::Index i, double time);

@@ -16,17 +16,17 @@ struct MapStart : PeriodStart {
   double value = 0.0;
 };
 
-/// What changes along a curve where a contact begins to touch, to open, to slip or to stick.
+/// Events along a curve: a contact begins to touch, to open, to slip or to stick.
 struct ContactPattern {
   std::vector<int> passages;  ///< of each contact, between open and not open, in a period
   std::vector<bool> sticks;   ///< whether each contact sticks in some of the period
   bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
 };
-/// That of the last period of a flow.
+/// Of the last period of a flow.
 ContactPattern pattern_of(const ContactFlow& flow);
 
-/// Of states and the parameter, the direction of the parameter alone.
+/// In states and parameter, the direction of the parameter.
 inline Eigen::VectorXd along_parameter(Eigen::Index states) {
   return Eigen::VectorXd::Unit(states + 1, states);
 }
@@ -49,8 +49,8 @@ struct MapPoint : CurvePoint {
   }
 };
 
-/// A curve of motions that come back after a period of the flow from event to event: x - P(x, parameter) = 0.
-/// What contacts do in a period follows from the laws, so that nothing is to be done where it changes.
+/// A curve of motions that come back after a period of the flow from event to event: x - P(x, parameter) =
+/// 0. The contact states in a period follow from the laws, so their changes need no special treatment.
 class MapPath : public CurvePath {
  public:
   using CurvePath::CurvePath;
@@ -60,7 +60,7 @@ class MapPath : public CurvePath {
   std::shared_ptr<MapPoint> first(double value, const ExactSolution& motion, double forwards) const;
   /// The same point from a time farther from all events.
   std::shared_ptr<MapPoint> begun_anew(const MapPoint& point) const;
-  /// The point near a start on the plane through it across the direction of a point beside.
+  /// The point near a start on the plane through it perpendicular to the direction of a neighbouring point.
   std::shared_ptr<MapPoint> solve(const MapStart& start, const MapPoint& beside) const;
   /// Displacements of all contacts, near these, that come back where contacts keep the states which they have
   /// at the beginning, and the point there.
@@ -109,7 +109,7 @@ class MapPath : public CurvePath {
   std::shared_ptr<MapPoint> solved(const MapStart& start, const Eigen::VectorXd& held,
                                    const std::optional<MapSlopes>& slopes) const;
   std::shared_ptr<MapPoint> point_of(Closed found, const Eigen::VectorXd& held) const;
-  /// What moves by a tangent: displacements (m), and how far states do not come back.
+  /// Changes by a tangent: displacements (m), and the residual of the states.
   struct Along {
     Eigen::VectorXd displacement, away;
   };
@@ -117,8 +117,8 @@ class MapPath : public CurvePath {
   bool set_direction(MapPoint& point, const Eigen::VectorXd& held) const;
   std::pair<MapStart, Eigen::VectorXd> on_chord(const MapPoint& a, const MapPoint& b, double share,
                                                 bool turns) const;
-  /// Of the plane across a change of states and parameter, with displacements and the parameter by their
-  /// scales; `weights` are displacements by states.
+  /// The plane perpendicular to a change of states and parameter, with displacements and the parameter by
+  /// their scales; `weights` are displacements by states.
   Eigen::VectorXd plane_across(const Eigen::VectorXd& change, const Eigen::VectorXd& weights) const;
 
   mutable double tolerance_ = 1e-10, operations_ = 0.0;

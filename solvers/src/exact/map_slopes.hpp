@@ -18,8 +18,8 @@ struct MapSlopes {
 
   /// The change of state and parameter that leaves `right` of x - P and `held_right` of the plane held.
   Eigen::VectorXd step(const Eigen::VectorXd& held, const Eigen::VectorXd& right, double held_right) const;
-  /// What a step has left becomes the change that the matrix had for it [C. G. Broyden, Math. Comp. 19,
-  /// 1965]; `plane`: that across the step.
+  /// The residual after a step updates the matrix [C. G. Broyden, Math. Comp. 19, 1965]; `plane`:
+  /// perpendicular to the step.
   void learn(const Eigen::VectorXd& left, const Eigen::VectorXd& step, const Eigen::VectorXd& plane);
   /// How the free states follow positions of sliders at rest and, in the last column, the parameter, so that
   /// they come back.

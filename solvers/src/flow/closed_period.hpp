@@ -25,14 +25,13 @@ struct ClosedPeriod {
 /// near, which serves as long as a step leaves a tenth at most; else each step carries all perturbations over
 /// a period.
 ///
-/// With `free_period`, of a flow without periodic load, the period is an unknown, too, and each step goes
-/// across the motion, so that its phase stays that of the start.
+/// With `free_period`, of a flow without periodic load, the period is an unknown, too, and each step is
+/// perpendicular to the motion, so that the phase of the start is kept.
 ClosedPeriod close_period(ContactFlow& flow, int most_iterations, const Observer& observer = {},
                           Eigen::MatrixXd map = {}, bool free_period = false);
 
-/// About so many floating-point operations a panel takes with so many states and rows, and perturbations that
-/// are carried along; and the last period of a flow with those that it carried took, in those of small
-/// matrices.
+/// Estimated floating-point operations of a panel with so many states, rows and perturbations; and of the
+/// last period of a flow with its perturbations, in operations of small matrices.
 double panel_operations(Eigen::Index states, int rows, Eigen::Index perturbations);
 double period_operations(const ContactFlow& flow, int rows);
 
@@ -40,12 +39,12 @@ double period_operations(const ContactFlow& flow, int rows);
 /// and one without a meaning none.
 std::vector<Eigen::Index> free_states(const Eigen::MatrixXd& map);
 
-/// The multipliers of a map by falling modulus; that of 1 of a slider which does not move is left out.
+/// The multipliers of a map by falling modulus, without the multiplier 1 of a slider that does not move.
 Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd& map);
 
-/// The multipliers of a state that comes back by falling modulus. That of 1 of a slider which does not move
-/// is left out, and with `free_period` that of a perturbation along the motion. Empty where perturbations are
-/// not resolved.
+/// The multipliers of a state that comes back by falling modulus. The multiplier 1 of a slider that does
+/// not move is excluded, and with `free_period` the one of a perturbation along the motion. Empty where
+/// perturbations are not resolved.
 Eigen::VectorXcd multipliers_of(ContactFlow& flow, const ClosedPeriod& closed, bool free_period = false);
 
 }  // namespace wavebalance::solvers::detail

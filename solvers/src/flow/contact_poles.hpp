@@ -16,8 +16,8 @@ struct Signals : std::array<Eigen::MatrixXd, kinds> {
   Eigen::MatrixXd memory, memory_rate;
 };
 
-/// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative of
-/// the displacements Re(c r^d y) - sum_k feed(d, k) f^(k) beside the motion without contact. The feeds are
+/// The structure between its contacts by P poles, each pair once: y' = r y - b f, and the d-th derivative
+/// of the displacements Re(c r^d y) - sum_k feed(d, k) f^(k) relative to the linear response. The feeds are
 /// the moments H_i = Re(c r^i b) and the flexibility of contacts without mass. Times in s.
 class ContactPoles : public RealStates {
  public:

@@ -10,7 +10,7 @@
 
 namespace wavebalance::solvers {
 
-/// What ContactFlow keeps.
+/// Data of ContactFlow.
 class ContactFlow::Engine {
  public:
   Engine(const ExactProblem& problem, const FlowOptions& options);
@@ -70,7 +70,7 @@ class ContactFlow::Engine {
   }
   void set_small_force(const ExactProblem& problem);
   const detail::PanelShape& shape(int level);
-  /// Whether memories turn as fast as forces tell, and at what rate others settle, 1/s.
+  /// Whether memories change at once with the forces, and the rate at which others decay, 1/s.
   struct Moving {
     bool turn = false;
     double settling_rate = 0.0;
@@ -132,7 +132,7 @@ class ContactFlow::Engine {
       margins_;  // by contact and exit, while it does not change its state
   int level_ = 0, coarsest_ = 0, idle_ = 0, rests_ = 0, sampled_ = 0, steps_ = 0;
   Eigen::VectorXcd states_;
-  // At the end of the last panel: its forces less those of the holding springs, and rates of memories.
+  // At the end of the last panel: its forces without the holding springs, and rates of memories.
   Eigen::VectorXd end_force_, end_memory_rate_;
   detail::ContactStates now_;
   detail::Variation variation_;

@@ -11,9 +11,9 @@ namespace wavebalance::solvers::detail {
 /// q, of all panels.
 inline constexpr Index panel_nodes = 12;
 
-/// What poles and forces at q nodes become at N points of a panel [t, t + 2 h]: exp(r h (x + 1)), P x N, of
-/// each pole the response to node forces, N x q, s, and the first derivatives by time of the forces, N x q,
-/// 1/s^k.
+/// Values of poles and forces at q nodes, evaluated at N points of a panel [t, t + 2 h]: exp(r h (x + 1)),
+/// P x N, of each pole the response to node forces, N x q, s, and the first derivatives by time of the
+/// forces, N x q, 1/s^k.
 struct PoleWaves {
   PoleWaves(const ContactPoles& poles, const LegendreNodes& nodes, double half,
             const Eigen::VectorXd& points);

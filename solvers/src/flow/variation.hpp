@@ -29,7 +29,7 @@ class Variation {
   double unresolved(const Contacts& contacts, const ContactStates& now, const PanelMotion& motion,
                     const NodeValues& values) const;
 
-  /// What an exit of contact c changes, from signals just before it.
+  /// Changes by an exit of contact c, from signals just before it.
   struct Event {
     Index contact;
     const Dual& guard;
@@ -54,13 +54,12 @@ class Variation {
 
   Eigen::MatrixXd poles_;   // real states x K
   Eigen::MatrixXd memory_;  // memories x K
-  // Of the signals at the end of the last panel: kinds of each row, R x K each, and the forces without
-  // springs.
+  // Signals at the end of the last panel: kinds of each row, R x K each, and the forces without springs.
   std::array<Eigen::MatrixXd, 4> ends_;
   double force_size_ = 0.0;  // the largest change of a force
   // The change of an instant behind which the forces are not known yet.
   Eigen::RowVectorXd delay_;
-  // That of the last instant.
+  // At the last instant.
   Eigen::RowVectorXd last_delay_;
 };
 

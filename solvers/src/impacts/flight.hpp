@@ -6,7 +6,7 @@
 
 namespace wavebalance::solvers::detail {
 
-/// What a flight without impacts meets.
+/// Events of a flight without impacts.
 struct Touch {
   enum class Kind {
     none,       ///< no contact passes its gap

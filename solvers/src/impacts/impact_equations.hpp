@@ -12,10 +12,10 @@ struct ParameterSlopes {
   double frequency = 0.0;          ///< Hz per unit
 };
 
-/// The 2 K equations of K impacts in ascending order: displacement less gap over the scale of displacements,
-/// then (p J / (1 + e) - v) over that of velocities. Unknowns: instants (periods), then impulses (N s) over
-/// impulse_scale. Between two instants the Green function is that of their order, so that the equations are
-/// smooth where impacts pass each other.
+/// The 2 K equations of K impacts in ascending order: displacement less gap over the scale of
+/// displacements, then (p J / (1 + e) - v) over the scale of velocities. Unknowns: instants (periods), then
+/// impulses (N s) over impulse_scale. The Green function between two instants depends on their order, so
+/// that the equations are smooth where impacts pass each other.
 class ImpactEquations {
  public:
   /// `impulse_scale`, N s.

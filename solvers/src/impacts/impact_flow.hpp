@@ -8,7 +8,7 @@
 namespace wavebalance::solvers::detail {
 
 /// A motion with impacts in time, by exact flights of the modes from one impact to the next. Times are in
-/// periods of the model; those of events are shifted with each period, so that they keep their digits.
+/// periods of the model; times of events are shifted with each period, so that they keep their digits.
 class ImpactFlow {
  public:
   explicit ImpactFlow(const ImpactModel& model);
@@ -21,8 +21,8 @@ class ImpactFlow {
     int contact = 0;
     double time = 0.0, impulse = 0.0;
   };
-  /// Goes on for a period, after which the time is again what it was before, and those of all events are one
-  /// less. False where it ends within, by what end() says.
+  /// Continues for a period and then shifts time and events back by one period. False if it ends earlier;
+  /// end() has the reason.
   bool advance_period();
   ExactStatus end() const { return end_; }
   /// When chattering ends, or lasting contact begins.

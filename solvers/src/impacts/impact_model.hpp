@@ -27,13 +27,13 @@ struct FreeScales {
 };
 FreeScales free_scales(const ExactProblem& problem);
 
-/// What does not change while impacts of one period are sought: the poles of the contacts, y' = lambda y
-/// between impacts and y -> y - p left at one, with the displacements Re(shapes y) beside the motion without
-/// contact. Immutable.
+/// Constants of a search for impacts of one period: the poles of the contacts, y' = lambda y between
+/// impacts and y -> y - p left at one, with the displacements Re(shapes y) relative to the linear response.
+/// Immutable.
 class ImpactModel {
  public:
-  /// Keeps no reference but that to the dynamics. What belongs to these alone is taken from a model that has
-  /// the same ones.
+  /// Keeps only a reference to the dynamics. Data that depend only on these are copied from a model with
+  /// the same dynamics.
   explicit ImpactModel(const ExactProblem& problem, const ImpactModel* like = nullptr);
 
   const ExactProblem& problem() const { return problem_; }
@@ -57,11 +57,11 @@ class ImpactModel {
   /// The motion without contact at a time in periods, and the sums of moduli of its harmonics for contact c.
   ContactsAt free_motion(double time) const;
   double free_magnitude(int c, int derivative) const;
-  /// Whether the structure without contact has a motion of this period of its own.
+  /// Whether the linear structure has a free motion of this period.
   bool is_resonant() const;
 
-  /// Of contact c by contact d at a share of the period after the impulse, 0 < share <= 1; at 1 the limit
-  /// from below. O(poles).
+  /// Response of contact c to contact d at a fraction of the period after the impulse, 0 < share <= 1; at 1
+  /// the limit from below. O(poles).
   GreenValues green(int c, int d, double share) const;
   /// The state of all poles a share of the period (0..1) after an impulse of 1 N s at contact c in each
   /// period, at 0 right after it; with the sign of a force against the contact.

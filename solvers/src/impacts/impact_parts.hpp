@@ -41,13 +41,13 @@ ExactSolution motion_of(std::shared_ptr<const ImpactSolution> solution);
 /// s^3) for n states of the structure, of which s are left.
 Eigen::VectorXcd multipliers_of(const ImpactSolution& motion);
 
-/// N s, the size of impulses: that of the heaviest contact at velocity_scale().
+/// N s, the size of impulses: of the heaviest contact at velocity_scale().
 double impulse_scale_of(const ImpactModel& model);
 
 /// How far a contact may pass its gap between impacts without penetrating, m.
 double allowed_penetration(const ImpactModel& model);
-/// The same of a motion, and at least the rounding errors of its impulses' responses: those of a nearly free
-/// body are large and cancel.
+/// The same of a motion, and at least the rounding errors of its impulses' responses, which are large and
+/// cancel for a nearly free body.
 double allowed_penetration(const ImpactSolution& motion);
 
 /// Instants and impulses of impacts in ascending order, which solve the equations or are a start.
@@ -78,7 +78,7 @@ ImpactUnknowns unknowns_of(const ImpactModel& model, const std::vector<ImpactGue
 /// The solution that unknowns describe, and whether it is a motion of the structure.
 ImpactSolution solution_of(std::shared_ptr<const ImpactModel> model, const ImpactUnknowns& unknowns);
 
-/// Whether the impacts of b are those of a so many shares of the period later, to 1e-6.
+/// Whether the impacts of b equal the impacts of a shifted by this fraction of the period, to 1e-6.
 bool same_impacts_later(const std::vector<Impact>& a, const std::vector<Impact>& b, double later);
 
 /// The periods of the load after which impacts of so many of them already repeat.

@@ -12,9 +12,9 @@ struct Bracket {
   bool has_sign_change() const { return low_value * high_value <= 0.0; }
 };
 
-/// Narrows `bracket` by false position. Every third step halves it, because false position alone is slow at a
-/// kink. `function(x)` returns its value as std::optional<double>. The search ends when that is empty, which
-/// gives false, when `is_close(bracket, value)`, or after `max_steps` steps.
+/// Narrows `bracket` by false position. Every third step halves it, because pure false position is slow at
+/// a kink. `function(x)` returns its value as std::optional<double>. The search ends when that is empty,
+/// which gives false, when `is_close(bracket, value)`, or after `max_steps` steps.
 template <class Function, class IsClose>
 bool narrow(Bracket& bracket, int max_steps, Function&& function, IsClose&& is_close) {
   for (int step = 0; step < max_steps; ++step) {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-/// Dense factorizations and eigenvalues, compiled once: Eigen's templates for them take most of the compile
-/// time of any source that includes them.
+/// Dense factorizations and eigenvalues, compiled once: Eigen's templates for them need most of the compile
+/// time of a source.
 namespace wavebalance::solvers::detail {
 
 /// P A = L U with partial pivoting, for double and std::complex<double>. Copies share the factors, which do
@@ -54,7 +54,7 @@ extern template class Lu<std::complex<double>>;
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// A B^T on and below the diagonal alone, where A has the same number of rows for each row of B.
+/// A B^T only on and below the diagonal, where A has the same number of rows for each row of B.
 Eigen::MatrixXd lower_product_transposed(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// A^* B.
@@ -92,7 +92,7 @@ std::optional<SymmetricEigen> symmetric_eigen(const Eigen::MatrixXd& matrix, con
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
 
 /// Whether a power of a square matrix, by squaring it up to 12 times, has a norm below 1/2: all its
-/// eigenvalues then lie within the unit circle. Products take a tenth of the time that eigenvalues do. False
+/// eigenvalues then lie within the unit circle. Products need a tenth of the time of eigenvalues. False
 /// where that is not shown. O(n^3).
 bool powers_vanish(Eigen::MatrixXd matrix);
 

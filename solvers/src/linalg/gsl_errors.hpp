@@ -5,8 +5,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// While one lives, in any thread, GSL returns its errors in place of ending the program. GSL has one handler
-/// of errors per process: the first object replaces it and the last one puts it back.
+/// While one lives, in any thread, GSL returns its errors instead of ending the program. GSL has one
+/// handler of errors per process: the first object replaces it and the last one puts it back.
 class SilencedGslErrors {
  public:
   SilencedGslErrors() {

@@ -1,13 +1,13 @@
 #pragma once
 #include <complex>
-// The types of LAPACK's C interface are those of C unless they are given.
+// By default LAPACK's C interface uses types of C.
 #define lapack_complex_float std::complex<float>
 #define lapack_complex_double std::complex<double>
 #include <lapacke.h>
 
 #include <Eigen/Core>
 
-/// BLAS by its Fortran names: GSL has a slow library with those of its C interface.
+/// BLAS by its Fortran names: GSL has a slow library with the names of its C interface.
 extern "C" {
 void dgemm_(const char* left, const char* right, const lapack_int* rows, const lapack_int* columns,
             const lapack_int* inner, const double* alpha, const double* a, const lapack_int* lda,

@@ -9,9 +9,9 @@ struct Sample {
   double at, value;
 };
 
-/// A zero between two places at which a function has different signs, to `tolerance` of their distance or to
-/// rounding, by Brent's method (GSL). Nothing where the signs are the same or a value is not finite. What
-/// the function throws is thrown again.
+/// A zero between two places at which a function has different signs, to `tolerance` of their distance or
+/// to rounding, by Brent's method (GSL). Nothing where the signs are the same or a value is not finite.
+/// Exceptions of the function are passed on.
 std::optional<double> root(const std::function<double(double)>& function, Sample a, Sample b,
                            double tolerance);
 

@@ -10,8 +10,8 @@
 
 namespace wavebalance::solvers {
 
-/// What the equations of a damped mode are made of: the structure in its linear modes with the contacts as
-/// they are at rest, normalised by its stiffness there, X^T (K + S^T D S) X = 1. Immutable.
+/// Data of the equations of a damped mode: the structure in its linear modes with the contacts as at rest,
+/// normalised by its stiffness there, X^T (K + S^T D S) X = 1. Immutable.
 struct DampedProblem {
   int mode = 0;                    ///< of the columns, from 0: natural frequencies ascend
   Eigen::VectorXd shape_inertia;   ///< r, X^T M X times omega_m^2: 1 of mode m, 0 of one without mass
@@ -23,7 +23,7 @@ struct DampedProblem {
   double reach = 0.0;              ///< the largest contact displacement of the mode's shape
   double wave = 0.0;               ///< amplitude of the first harmonic of a unit Re a(1)
   Eigen::VectorXd rest_state;      ///< n, displacements under the static loads
-  Eigen::VectorXd rest;            ///< C, m, those of the contacts
+  Eigen::VectorXd rest;            ///< C, m, of the contacts
   Eigen::VectorXd rest_force;      ///< C, N
   Eigen::MatrixXd rest_slope;      ///< C x C, N/m: D
   DampedTransform transform;
@@ -49,12 +49,13 @@ DampedProblem damped_problem(const LinearStructure& structure, const TimePair& p
 ///
 ///   u(k) - [k = 1] A h + G(k) psi(k) = 0,   t A + l^T psi(1) = 0,
 ///
-/// psi the coefficients of what the force has beside its value and slope at rest. h, G, t and l follow from
-/// the modes but m, whose equation is the last one and whose coefficient is real; all are regular at omega_m.
+/// psi the coefficients of the force without its value and slope at rest. h, G, t and l follow from the
+/// modes but m, whose equation is the last one and whose coefficient is real; all are regular at omega_m.
 /// Real and imaginary parts of the last equation determine omega and xi.
 ///
-/// A point of the curve holds the coefficients of the contacts over A, omega / omega_m and xi / omega_m; the
-/// parameter is ln A. Lengths are those of the samples over A, rms, and of the others over options.
+/// A point of the curve holds the coefficients of the contacts over A, omega / omega_m and xi / omega_m;
+/// the parameter is ln A. Lengths are the rms of the samples over A, and the others over the scales of
+/// options.
 class DampedMotions {
  public:
   struct Pieces {};
@@ -77,14 +78,14 @@ class DampedMotions {
   const Eigen::MatrixXd& displacement() const { return samples_; }
   Eigen::MatrixXd force() const;
 
-  /// Coefficients of the modes in a motion of the curve, r x (K + 1), beside the state of rest. O(M r^3).
+  /// Coefficients of the modes in a motion of the curve, r x (K + 1), relative to rest. O(M r^3).
   Eigen::MatrixXcd modal_coefficients(const DampedPoint& point) const;
 
   /// The derivatives of the residual by the unknowns, and by the parameter in the last column.
   Eigen::MatrixXd jacobian() const;
 
  private:
-  struct Block {  // of psi's coefficients of one contact by those of another
+  struct Block {  // of psi's coefficients of one contact by another
     int force, displacement;
     Eigen::MatrixXd slope;
   };

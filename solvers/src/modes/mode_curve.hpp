@@ -14,8 +14,8 @@ struct CurveState : CurvePoint {
   int iterations = 0;
 };
 
-/// ModeEquations as the equations of a curve. The length of a change dy is that of the contacts' samples, rms
-/// over their gaps, and of the frequency, over the scale of the options.
+/// ModeEquations as the equations of a curve. The length of a change dy combines the contacts' samples, rms
+/// over their gaps, and the frequency over the scale of the options.
 class FreeMotions {
  public:
   struct Pieces {};
@@ -56,13 +56,13 @@ class ModeCurve : private CurveCorrector<FreeMotions> {
   bool project_onto_curve_at(double frequency, double direction, CurveState& state);
   /// One step from `state`, as long as the last one allows. False when even the shortest one fails.
   bool advance(CurveState& state);
-  /// A step that passes what lies directly ahead: the first of growing length whose end `accepts` takes.
+  /// A step that passes an obstacle directly ahead: the first of growing length whose end `accepts`.
   bool leap(CurveState& state, const std::function<bool()>& accepts);
 
   /// Begins with the first step length again.
   void restart() { step_ = options_.initial_step; }
 
-  /// omega of a state over that of the linear mode without a time basis.
+  /// omega of a state over omega of the linear mode without a time basis.
   double frequency(const CurveState& state) const { return state.parameter; }
   /// A state between two unknowns of ModeEquations, in the plane across their chord at `share` of it. False
   /// where Newton's method does not converge, or does so farther from the chord than a quarter of its length.

@@ -7,7 +7,7 @@
 
 namespace wavebalance::solvers {
 
-/// What the equations of an elastic mode are made of. Immutable.
+/// Data of the equations of an elastic mode. Immutable.
 struct ModeProblem {
   ModalModel model;
   int mode = 0;  ///< of the model's columns, from 0
@@ -33,15 +33,15 @@ struct ModeProblem {
 ///
 /// psi the coefficients of the contact force and s_j the mode shapes at the contacts. Unlike the compliance
 /// of all modes these are regular at omega_m. A real q fixes the phase. The imaginary part of the last
-/// equation is left out for it: it is the work that the sampled force does over the period, which is zero for
-/// exact integrals and for motions even in time. The force form has v = u + psi / epsilon in place of u.
+/// equation is left out for it: it is the work of the sampled force over the period, which is zero for
+/// exact integrals and for motions even in time. The force form has v = u + psi / epsilon instead of u.
 ///
 /// Unknowns y, C R + 2: coefficients of each contact over `unit`, q over `amplitude`, omega over omega_m.
 class ModeEquations {
  public:
   explicit ModeEquations(const ModeProblem& problem);
 
-  /// Leaves out all coefficients above harmonic `highest`, at least 1; K takes all.
+  /// Leaves out all coefficients above harmonic `highest`, at least 1; K keeps all.
   void set_highest(int highest) { highest_ = highest; }
   int highest() const { return highest_; }
 

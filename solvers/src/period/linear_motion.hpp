@@ -12,10 +12,9 @@ namespace wavebalance::solvers {
 Eigen::MatrixXcd linear_response(const LinearStructure& structure, const Eigen::MatrixXcd& amplitudes,
                                  double frequency);
 
-/// The motion without contact of a structure under the load of a problem, over one period of the load from a
-/// maximum of the load's first harmonic on: a load that comes later then gives the same motion later. Of a
-/// structure that is free to move without the part of the static load that accelerates it.
-/// Immutable.
+/// The linear response of a structure to the load of a problem, over one period of the load from a maximum
+/// of the load's first harmonic on: a load that comes later then gives the same motion later. For a free
+/// structure, without the part of the static load that accelerates it. Immutable.
 class LinearMotion {
  public:
   /// `samples` uniform instants of the period are kept. Throws std::invalid_argument where the dynamic

@@ -10,17 +10,17 @@ namespace wavebalance::solvers {
 ///
 ///   y(t + h) = E y(t) + B0 f(t) + B1 f(t + h),
 ///
-/// y = (sigma q, dq/dt) the state of its modes q, in which the norm of y is that of the energy: sigma is the
-/// natural angular frequency or, if that is larger, the load's. Modes are those of M and the symmetric part
-/// of K, and the skew parts of C and K couple them. Structural damping is replaced by the viscous one that
-/// damps each mode as much at its own frequency. E, B0 and B1 are integrals of the matrix exponential [C. F.
-/// Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
+/// y = (sigma q, dq/dt) the state of its modes q, in which the norm of y is the energy norm: sigma is the
+/// natural angular frequency or, if that is larger, the load's. Modes belong to M and the symmetric part of
+/// K, and the skew parts of C and K couple them. Structural damping is replaced by the viscous one with the
+/// same damping of each mode at its natural frequency. E, B0 and B1 are integrals of the matrix exponential
+/// [C. F. Van Loan, IEEE Trans. Autom. Control 23, 1978]. Immutable; O(m^2) per step with m modes.
 class ModalFlow {
  public:
-  /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are taken; the others follow their static
-  /// deflection. So do those of degrees of freedom without mass, as many as there are, which are found with
-  /// 1e-9 of the mean mass. Nothing when the modes are not found: mass neither positive definite nor zero on
-  /// its diagonal. O(n^3).
+  /// step in s, frequency in Hz (> 0). The lowest `max_modes` modes are used; the others follow their
+  /// static deflection. So do modes of massless degrees of freedom, which are found with 1e-9 of the mean
+  /// mass. Nothing when the modes are not found: mass neither positive definite nor zero on its diagonal.
+  /// O(n^3).
   static std::optional<ModalFlow> make(const LinearStructure& structure, double frequency, double step,
                                        int max_modes);
   /// The same structure over another step, in s. O(m^3).
@@ -44,14 +44,14 @@ class ModalFlow {
   void add_contact_displacement(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
   /// The same at the end of a step without contact forces. O(C m).
   void add_contact_displacement_after(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
-  /// C x C, m/N: what forces at the end of a step take from the displacements there, static deflection of the
-  /// omitted modes included. Symmetric, not negative.
+  /// C x C, m/N: reduction of the displacements at the end of a step by forces there, static deflection of
+  /// the omitted modes included. Symmetric, not negative.
   const Eigen::MatrixXd& step_compliance() const { return step_compliance_; }
-  /// The part of the omitted modes alone.
+  /// The part of the omitted modes.
   const Eigen::MatrixXd& static_compliance() const { return static_compliance_; }
   /// Velocities of the contacts (C, m/s) in a state.
   void add_contact_velocity(const Eigen::VectorXd& state, Eigen::VectorXd& to) const;
-  /// C x C, m/s/N: what forces at the end of a step take from the velocities there.
+  /// C x C, m/s/N: reduction of the velocities at the end of a step by forces there.
   const Eigen::MatrixXd& step_mobility() const { return step_mobility_; }
   /// State of a displacement (n, m) and a velocity (n, m/s). O(n m).
   Eigen::VectorXd state(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) const;

@@ -31,17 +31,17 @@ struct Period {
   Motion contacts;        ///< at uniform instants from its start on; only of a complete period
 };
 
-/// The map of a structure in contact over a period of its load, state to state with what the contacts do in
-/// between, by exact motions of the modes. Between contacts a step is a share of the period. Where contact
-/// forces act, the step is halved until its result differs little from that of its halves, which are then
-/// extrapolated [E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993,
-/// section II.4]; and where a contact opens or closes, until it differs much less. So an impact of any length
-/// is resolved, and a force that jumps. Each step is exact for contact forces that are linear in time. The
-/// forces at its end are solved for with the resolvents of the laws, so that any law serves, rigid ones too
-/// [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999], and of friction by its return mapping; the memory
-/// of such a law is its force. A period begins at the load's maximum. The motion of a state is the deviation
-/// of the modes from the motion without contact, in the norm of the energy. A structure that is free to move
-/// has none under static loads, which act on the deviation there. For one thread at a time.
+/// The map of a structure in contact over a period of its load, state to state with the contacts in
+/// between, by exact motions of the modes. Between contacts a step is a fraction of the period. Where
+/// contact forces act, the step is halved until its result differs little from the result of its halves,
+/// which are then extrapolated [E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential
+/// Equations I, 1993, section II.4]; and where a contact opens or closes, until it differs much less. So an
+/// impact of any length is resolved, and a force that jumps. Each step is exact for contact forces that are
+/// linear in time. The forces at its end are solved for with the resolvents of the laws, so that any law
+/// serves, rigid ones too [M. Jean, Comput. Methods Appl. Mech. Eng. 177, 1999], and friction by its return
+/// mapping, with its force as memory. A period begins at the load's maximum. The motion of a state is the
+/// deviation of the modes from the linear response, in the energy norm. A free structure has no linear
+/// response to static loads, which therefore act on the deviation. For one thread at a time.
 class ModalMap {
  public:
   /// `laws` are kept by reference. `flow` has the step of a period of the load over `steps`, which are also

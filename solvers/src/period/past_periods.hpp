@@ -10,7 +10,7 @@ namespace wavebalance::solvers {
 /// The contact displacements of the last periods, the last one first, and whether they repeat.
 class PastPeriods {
  public:
-  /// rounding, m: displacements whose norm is below move by rounding alone.
+  /// rounding, m: displacements with a smaller norm are only rounding.
   PastPeriods(int longest, double tolerance, double rounding = 0.0)
       : longest_(static_cast<std::size_t>(longest)), rule_(longest, tolerance), rounding_(rounding) {}
 

@@ -19,7 +19,7 @@ class CurveDistance {
   /// `scale`: change of the parameter that has length 1.
   CurveDistance(const FrequencySweep& curve, double scale);
 
-  /// Of a motion with a value of the parameter and a largest displacement (m).
+  /// For a motion with a value of the parameter and a largest displacement (m).
   double between(const SpecialPoint& a, double value, double max_abs_displacement) const;
 
  private:
@@ -27,10 +27,10 @@ class CurveDistance {
   double scale_, largest_;
 };
 
-/// The stretches about bifurcation and grazing points, without those of grazings if `grazings` is false, in
-/// the order of the curve: on either side at least three points of the curve and, unless it ends before, up
-/// to the first point farther away than `reach`. Those that overlap are one. Of more than `most`, those are
-/// left that have bifurcation and grazing points other than grazings, and the first ones.
+/// The segments around bifurcation and grazing points, without segments of grazings if `grazings` is false,
+/// in the order of the curve: on either side at least three points of the curve and, unless it ends before,
+/// up to the first point farther away than `reach`. Overlapping segments are merged. If there are more than
+/// `most`, segments with other points than grazings are kept, and the first ones.
 std::vector<CurveSegment> segments_about(const FrequencySweep& curve, const std::vector<SpecialPoint>& points,
                                          const CurveDistance& distance, double reach, std::size_t most,
                                          bool grazings);
@@ -41,8 +41,8 @@ struct ValueRange {
 };
 ValueRange values_on(const FrequencySweep& curve, std::size_t first, std::size_t last);
 
-/// The direction in which the parameter goes from a point on, 1 or -1, forwards or backwards along the curve:
-/// that of the first point which is farther away than `least`, or of the last one.
+/// The direction in which the parameter goes from a point on, 1 or -1, forwards or backwards along the
+/// curve: towards the first point farther away than `least`, or the last one.
 double direction_from(const FrequencySweep& curve, std::size_t point, bool forwards, double least);
 
 }  // namespace wavebalance::solvers::detail

@@ -27,18 +27,17 @@ struct StateBox {
   void include(const Motion& motion, double factor);
   /// A state uniform in the box.
   StructureState random(std::mt19937& generator) const;
-  /// The half sides as they are told.
+  /// The half sides as reported.
   std::vector<BoxSide> sides() const;
 };
 
-/// A box around what the static loads deflect, with the contacts that they close. It holds twice the
-/// vibration without contact at a frequency of the load (Hz), which is enlarged until it reaches a gap, and
-/// twice the resonant vibrations that the laws move there. Such is one of a single mode, or of the shape that
-/// the structure has with one contact as the spring that tunes it, whose frequency, with the stiffness that
-/// the contacts have in the first harmonic, is that of a harmonic of the load, and of which the damping takes
-/// no more than the work of the load: `resonances` are these, with the two phases in which the damping takes
-/// what the load gives. Nothing where the structure has no modes to compute. O((modes + contacts) contacts)
-/// evaluations of the laws.
+/// A box around the static deflection with its closed contacts. It covers twice the linear response at a
+/// forcing frequency (Hz), enlarged until it reaches a gap, and twice the resonant vibrations that the laws
+/// move there. A resonant vibration has the shape of a single mode, or of the structure with one contact as
+/// a tuned spring. Its frequency, with the stiffness of the contacts in the first harmonic, is a harmonic
+/// of the load, and the damping dissipates at most the work of the load. `resonances` are these, with the
+/// two phases in which damping and load are balanced. Nothing if the structure has no modes. O((modes +
+/// contacts) contacts) evaluations of the laws.
 std::optional<StateBox> box_of_motions(ContactProblem& problem, double frequency);
 
 }  // namespace wavebalance::solvers::detail

@@ -23,7 +23,7 @@ struct CurveEffort {
   double points, operations;
 };
 
-/// What the structure has along one stretch of a balance's curve.
+/// The exact curve along one segment of a balance's curve.
 struct OnSegment {
   std::vector<ExactEvent> events;
   bool complete = false;  ///< followed from one end of the stretch to the other, or out of the interval

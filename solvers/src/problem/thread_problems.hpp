@@ -10,8 +10,8 @@
 
 namespace wavebalance::solvers::detail {
 
-/// The same problem once for each thread that takes some of so many places, fewer than `threads` (0: one per
-/// core) where a thread would have fewer places than making a problem is worth.
+/// The same problem once per thread for so many places; fewer than `threads` (0: one per core) if a thread
+/// would have too few places to repay making a problem.
 std::vector<ContactProblem> thread_problems(const ProblemMaker& make, std::size_t places, int threads);
 
 /// Tells of work at many places, from any thread; remembers that the observer returned false.
@@ -32,13 +32,12 @@ class PlacesProgress {
   std::atomic<bool> cancelled_{false};
 };
 
-/// What is done at one of many places, with an observer for what happens there. Returns the value to tell
-/// when it is done, if any.
+/// Work at one of many places, with an observer. Returns the value to report when it is done, if any.
 using WorkAtPlace = std::function<std::optional<double>(ContactProblem& problem, std::size_t place,
                                                         const Observer& observer)>;
 
-/// Does it at each of so many places on the threads of the problems until it is stopped. What the caller's
-/// thread does is told.
+/// Does the work at each of so many places on the threads of the problems until it is stopped. The caller's
+/// thread reports its work.
 void at_places(std::vector<ContactProblem>& problems, std::size_t places, PlacesProgress& progress,
                const WorkAtPlace& work);
 

@@ -7,7 +7,7 @@ inline bool left_interval(SweepStatus status) {
   return status == SweepStatus::reached_end || status == SweepStatus::returned;
 }
 
-/// Of a curve that was followed both ways from one point: ahead to the end of the interval, and behind to its
+/// A curve that was followed both ways from one point: ahead to the end of the interval, and behind to its
 /// beginning.
 inline SweepStatus status_of_both(SweepStatus ahead, SweepStatus behind) {
   if (!left_interval(ahead)) return ahead;

@@ -13,9 +13,9 @@ struct LevelDifference {
   double whole() const { return std::hypot(resolved_part, truncated_part); }
 };
 
-/// Pairs of Fourier functions are compared harmonic by harmonic. Any others are compared at the coarser one's
-/// points, and the whole difference is the `truncated_part`. The number of points of the finer problem must
-/// be a multiple of that of the coarser one. O(M + N).
+/// Pairs of Fourier functions are compared harmonic by harmonic. Any others are compared at the coarser
+/// one's points, and the whole difference is the `truncated_part`. The number of points of the finer
+/// problem must be a multiple of the coarser one's. O(M + N).
 LevelDifference level_difference(const CondensedProblem& coarse, const PeriodicResponse& coarse_response,
                                  const CondensedProblem& fine, const PeriodicResponse& fine_response);
 

@@ -17,7 +17,7 @@ namespace wavebalance::solvers::detail {
 /// The displacement of one contact at any time, in periods.
 class ContactCurve {
  public:
-  // `samples` are those of the sum of trial functions with `coefficients`, a spectrum over translates, from
+  // `samples` belong to the sum of trial functions with `coefficients`, a spectrum over translates, from
   // the time `first` on.
   ContactCurve(const AnyTimeBasis& trial, const Eigen::VectorXcd& coefficients, Eigen::VectorXd samples,
                double first)
@@ -73,8 +73,8 @@ class ContactCurve {
   bool smooth_;
 };
 
-/// The contact law evaluated along the computed motion. The curve of the force form is that of
-/// v = u + flexibility f.
+/// The contact law evaluated along the computed motion. In the force form the curve of v = u + flexibility
+/// f.
 struct ContactAlong {
   AnyContactLaw law;
   bool unilateral;
@@ -97,7 +97,7 @@ struct ContactAlong {
     constexpr double beside = 1e-9;
     const double jump = at(time + beside).force - at(time - beside).force;
     const double speed = velocity(time), slope = at(time + beside).tangent + at(time - beside).tangent;
-    // What a smooth force changes by within these times is no jump.
+    // The change of a smooth force within these times is no jump.
     const double smooth = 4.0 * beside * std::abs(curve.rate(time) * slope);
     const double size = std::abs(law.force(curve(time), std::abs(speed)));
     return speed != 0.0 && std::abs(jump) > smooth + 1e-6 * size ? jump / speed : 0.0;

@@ -16,9 +16,9 @@ inline CurvePoint curve_point(Eigen::VectorXd displacement, double parameter) {
 /// The motions on a curve and between its points.
 class CurveMotions {
  public:
-  /// Lengths are those of `options` with the parameter_scale by which frequency_sweep() measures steps, and
-  /// where displacement_scale is 0 the largest displacement. Throws std::invalid_argument, of `who`, for a
-  /// curve without unknowns. Keeps all by reference.
+  /// Lengths as in `options` with the parameter_scale by which frequency_sweep() measures steps, and where
+  /// displacement_scale is 0 the largest displacement. Throws std::invalid_argument, of `who`, for a curve
+  /// without unknowns. Keeps all by reference.
   CurveMotions(const char* who, CondensedProblem& problem, const ContactLaws& laws,
                const FrequencySweep& curve, ArcLengthOptions options, int output_points);
 

@@ -19,11 +19,11 @@ struct Truncation {
   double omitted = 0.0;     ///< StabilityOptions::max_omitted without these
 };
 
-/// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative. Where
-/// Im sigma > 0 the harmonic n = -H - 1 is added with the weight 2 Im sigma / omega, so that Delta is real at
-/// Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Static compliances g,
-/// ContactDynamics::constant() and those of the truncation, are merged into the stiffness as D / (1 + g D).
-/// This drops a positive factor, which has no zeros.
+/// Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j)) of unstable_multipliers(), and its derivative.
+/// Where Im sigma > 0 the harmonic n = -H - 1 is added with the weight 2 Im sigma / omega, so that Delta is
+/// real at Im sigma = omega / 2 as it is at 0; where Im sigma < 0 it is the complex conjugate. Static
+/// compliances g, ContactDynamics::constant() and the truncated part, are merged into the stiffness as D /
+/// (1 + g D). This drops a positive factor, which has no zeros.
 class FloquetDeterminant {
  public:
   /// Keeps a reference to `dynamics`. frequency in Hz.
@@ -110,7 +110,7 @@ std::optional<FloquetDeterminant> resolving_determinant(const ContactDynamics& d
                                                         const PeriodicStiffness& stiffness, double frequency,
                                                         int harmonics, int most, double max_omitted);
 
-/// Whether such a determinant takes these harmonics, and compliances at once for little beside them.
+/// Whether such a determinant supports these harmonics and compliances that are small compared with them.
 bool harmonics_resolve(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
                        int harmonics, double max_omitted);
 

@@ -10,12 +10,12 @@ namespace wavebalance::solvers {
 /// The map of perturbations over a period in the real states of the exponents up to the highest harmonic,
 /// whose eigenvalues are the zeros of Delta.
 ///
-/// The kernel of Delta is that of the structure less its harmonics beyond H. The former depends on z =
-/// exp(sigma T) by the states alone, U (z - A)^-1 V with their free motion A, displacements U at the nodes
+/// The kernel of Delta is the kernel of the structure less its harmonics beyond H. The former depends on z
+/// = exp(sigma T) only by the states, U (z - A)^-1 V with their free motion A, displacements U at the nodes
 /// and states V after forces there. With the harmonics beyond H as they are at i nu, nu = 0 or omega / 2,
-/// Delta is therefore det(z - M) / det(z - A) up to a factor, with M = A - V B^-1 U and B = real_matrix(nu) -
-/// U (exp(i nu T) - A)^-1 V. At i nu itself this is exact, and how the maps at both ends differ shows what it
-/// neglects between them.
+/// Delta is therefore det(z - M) / det(z - A) up to a factor, with M = A - V B^-1 U and B = real_matrix(nu)
+/// - U (exp(i nu T) - A)^-1 V. At i nu itself this is exact, and the difference of the maps at both ends
+/// shows the error between them.
 struct HarmonicMap {
   Eigen::MatrixXd map;  ///< M
   int sign = 1;         ///< of Delta(i nu)

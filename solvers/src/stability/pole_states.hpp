@@ -11,11 +11,11 @@ namespace detail {
 Eigen::VectorXcd exponents_of(const ContactDynamics& dynamics);
 /// C x poles: the displacements of the contacts are Re(shapes a) in states a of the poles.
 Eigen::MatrixXcd shapes_of(const ContactDynamics& dynamics);
-/// Poles x C: what an impulse of 1 N s at a contact takes from the states.
+/// Poles x C: reduction of the states by an impulse of 1 N s at a contact.
 Eigen::MatrixXcd inputs_of(const ContactDynamics& dynamics);
 
-/// Complex states of poles as real numbers: the real part of each, and of one with an imaginary exponent,
-/// which stands for a pair, the imaginary part, too. Factors are one for each pole.
+/// Complex states of poles as real numbers: the real part of each, and for complex exponents, which
+/// represent a pair, also the imaginary part. Factors are one for each pole.
 class RealStates {
  public:
   explicit RealStates(const Eigen::VectorXcd& exponents);
@@ -51,7 +51,7 @@ class PoleStates : private detail::RealStates {
   PoleStates(const ContactDynamics& dynamics, double period);
 
   using RealStates::size;
-  /// Those of which a free flight of `time` leaves more than rounding.
+  /// States of which a free flight of `time` leaves more than rounding.
   std::vector<Index> left_after(double time) const;
 
   /// C x n: displacements of the contacts (m), and their velocities (m/s), a time after the states.
@@ -63,7 +63,7 @@ class PoleStates : private detail::RealStates {
   void advance(double time, Eigen::MatrixXd& states) const;
   /// n x C: the states a time after unit impulses (N s) at the contacts.
   Eigen::MatrixXd after_impulse(double time) const;
-  /// What each pole's amplitude is multiplied by in this time.
+  /// Factor of each pole's amplitude in this time.
   Eigen::VectorXcd growth(double time) const;
   /// The states after unit impulses at some contacts, of which each pole's amplitude is that at once times
   /// its factor: n x contacts.

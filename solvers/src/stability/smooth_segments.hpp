@@ -18,8 +18,9 @@ inline bool lies_in(const ContactInterval& interval, double time) {
 /// square over points between the nodes. O(nodes^2), and O(1) where it is constant.
 bool is_resolved_periodically(const PeriodicStiffness& stiffness, int contact, int nodes, double allowed);
 
-/// What a rule of a piece may leave out of the stiffness of each contact: 1e-4 of the integral of its modulus
-/// over the period, which changes multipliers by about 1e-4 of the phase through which contact turns them.
+/// Admissible error of a segment's rule in the stiffness of each contact: 1e-4 of the integral of its
+/// modulus over the period, which changes multipliers by about 1e-4 of the phase through which contact
+/// turns them.
 std::vector<double> allowed_errors(const PeriodicStiffness& stiffness);
 
 /// The intervals of contact cut at `stiffness.cuts`.

@@ -20,8 +20,8 @@ bool fast_modes_decay(const ContactDynamics& dynamics, double modulus, double fr
 /// `others`.
 bool are_decided(const Eigen::VectorXcd& multipliers, const Eigen::VectorXcd& others);
 
-/// All multipliers by the monodromy, by falling modulus, with friction and where the determinant takes much
-/// more work; nothing elsewhere, since along the same motion the determinant is the more accurate.
+/// All multipliers by the monodromy, by falling modulus, with friction and if the determinant needs much
+/// more work; otherwise nothing, because the determinant is more accurate.
 std::optional<Eigen::VectorXcd> multipliers_of_costly(const ContactDynamics& dynamics,
                                                       const PeriodicStiffness& stiffness, double frequency,
                                                       const StabilityOptions& options);

@@ -27,9 +27,9 @@ class StopMotions {
   bool are_needed(const PeriodicStiffness& stiffness, double frequency,
                   const StabilityOptions& options) const;
 
-  /// The multipliers of the exact motion beside a response, by falling modulus. Modes beyond the highest
-  /// harmonic, or 2, 4, ... times as high, are springs at the contacts, until twice as many leave no doubt on
-  /// which side of the circle the multipliers lie. Nothing where twice in turn no motion is found. O(instants
+  /// The multipliers of the exact motion near a response, by falling modulus. Modes beyond the highest
+  /// harmonic, or 2, 4, ... times as high, are springs at the contacts, until twice as many do not change
+  /// the side of the circle of any multiplier. Nothing where twice in turn no motion is found. O(instants
   /// S^3) for each of about five steps, S states.
   std::optional<Eigen::VectorXcd> multipliers_beside(const CondensedProblem& problem,
                                                      const PeriodicResponse& response,
@@ -51,7 +51,7 @@ class StopMotions {
   const ContactDynamics& dynamics_;
   detail::LinearStops stops_;
   std::map<std::size_t, Reduced> reduced_;    // by the number of slow poles
-  std::optional<detail::FreeContacts> free_;  // once a motion is sought
+  std::optional<detail::FreeContacts> free_;  // once a motion is computed
 };
 
 }  // namespace wavebalance::solvers

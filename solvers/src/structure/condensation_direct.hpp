@@ -34,7 +34,7 @@ class DirectMethod : public Condensation::Method {
                            const Eigen::VectorXcd& contact_forces) override;
 
  protected:
-  /// Below this size a factorisation takes no longer than a thread.
+  /// Below this size a factorisation is as fast as creating a thread.
   static constexpr int least_size_for_threads = 64;
   const LinearStructure& structure() const { return structure_; }
   /// s2 M + s1 C + s0 K, with the parts that turn.

@@ -37,7 +37,7 @@ class Condensation::Method {
 
  protected:
   Method() = default;
-  /// Of a twin, which has none itself.
+  /// For a twin, which has none itself.
   Method(const Method&) {}
   void record(double condition) { condition_ = std::max(condition_, condition); }
 
@@ -46,15 +46,16 @@ class Condensation::Method {
 
   double condition_ = 0.0;
   int threads_ = 1;
-  std::vector<std::unique_ptr<Method>> twins_;  // one per thread beside the caller's, made when needed
+  std::vector<std::unique_ptr<Method>> twins_;  // one per thread in addition to the caller's, made when
+                                                // needed
 };
 
-/// Bound of the relative rounding error of an entry of a factorised matrix, a few roundings of its terms. The
-/// errors of eliminations in double precision, compared with long double, are at most 2.5 times those of one
-/// rounding.
+/// Bound of the relative rounding error of an entry of a factorised matrix, a few roundings of its terms.
+/// The errors of eliminations in double precision, compared with long double, are at most 2.5 times the
+/// errors of one rounding.
 constexpr double rounding_unit = 4.0 * std::numeric_limits<double>::epsilon();
 
-/// The 2-norms of the contact directions, C: those of their unit forces.
+/// The 2-norms of the contact directions, C: of their unit forces.
 Eigen::VectorXd direction_lengths(const LinearStructure& structure);
 
 /// Upper bound of the entries of Z, of the size of its terms: at a natural frequency of an undamped structure

@@ -20,16 +20,16 @@ struct HeldStructure {
   Eigen::MatrixXd drifting;    ///< n x (r - q), M-orthonormal: the motions that no contact resists
   std::vector<Eigen::Index> drift_rows;  ///< r - q, the degrees of freedom at which these are held
 
-  /// kappa, N/m, which affects rounding alone: the largest entry of K, or of M omega^2 where that is larger,
-  /// so that a static load moves the structure no further than one of the frequency (Hz) does. The frequency
+  /// kappa, N/m, which affects only rounding: the largest entry of K, or of M omega^2 where that is larger,
+  /// so that a static load moves the structure no further than a load of the frequency (Hz). The frequency
   /// is rounded to a power of 4, so that kappa changes seldom along a curve.
   double spring_stiffness(double frequency) const;
   LinearStructure with_springs(double stiffness) const;
 };
 
-/// The structure without the motions that no contact resists, in n - (r - q) coordinates of its own, without
-/// loads: the contacts move alike. The same structure where there is no such motion, or where dampers couple
-/// it to others. O(n^3).
+/// The structure without the motions that no contact resists, in n - (r - q) new coordinates, without
+/// loads: the contacts move alike. The same structure where there is no such motion, or where dampers
+/// couple it to others. O(n^3).
 LinearStructure without_drift(const LinearStructure& structure);
 
 /// Holds a structure that has rigid_modes. O(n r^2 + C^2 q).

@@ -10,10 +10,10 @@ class RealFft;
 
 namespace wavebalance::solvers {
 
-/// The velocities f V u at the samples of motions u of a pair: V takes the samples to the coefficients of the
-/// trial functions, by least squares where there are more samples than functions, and these to the samples of
-/// the derivative in scaled time. It is exact for the motions u_0 - K f of a balance, whose samples are sums
-/// of trial functions. Owns a plan: one object per thread.
+/// The velocities f V u at the samples of motions u of a pair: V maps the samples to the coefficients of
+/// the trial functions, by least squares where there are more samples than functions, and these to the
+/// samples of the derivative in scaled time. It is exact for the motions u_0 - K f of a balance, whose
+/// samples are sums of trial functions. Owns a plan: one object per thread.
 class RateMap {
  public:
   /// Throws std::invalid_argument for trial functions without a pointwise derivative.

@@ -22,9 +22,8 @@ inline double distance(const Eigen::MatrixXd& values, const Eigen::MatrixXd& exa
   return (values - exact).norm() / exact.norm();
 }
 
-/// What must hold of any motion: forces are those of the law at the displacements, the
-/// displacements outside phases are on the other side of the gap, and the work of load, damping and contacts
-/// is zero.
+/// Checks of any motion: forces follow from the law at the displacements, the displacements outside contact
+/// intervals are on the other side of the gap, and the work of load, damping and contacts is zero.
 inline void expect_motion(const ExactSolution& motion, const ContactLaws& laws, double tolerance) {
   const Eigen::VectorXd times = uniform_times(257);
   const Eigen::MatrixXd u = motion.displacement(times), v = motion.velocity(times), f = motion.force(times);

@@ -24,9 +24,9 @@ inline double force_jump(const detail::CollocationIterate& iterate, int contact,
 
 }  // namespace testing
 
-/// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents() and
-/// monodromy(), which are then those of the structure. Its status is no_response for a motion that has not
-/// converged, and unsupported_law for one of flow_motion(), which has its multipliers alone.
+/// D(t) along a motion to rounding, with exact intervals: for unstable_multipliers(), floquet_exponents()
+/// and monodromy(), which are then exact. Its status is no_response for a motion that has not converged,
+/// and unsupported_law for one of flow_motion(), which has only its multipliers.
 inline PeriodicStiffness contact_stiffness(const ExactSolution& motion) {
   PeriodicStiffness result;
   if (!motion.converged()) {

@@ -17,7 +17,7 @@ struct FrictionScene {
   LinearStructure structure;
   std::vector<contact::CoulombLaw> laws;
   double omega = 1.0;                          // rad/s
-  std::vector<contact::LinearLaw> stops = {};  // one each in the last rows, behind those of the laws
+  std::vector<contact::LinearLaw> stops = {};  // one each in the last rows, after the rows of the laws
 
   double frequency() const { return omega / (2.0 * std::numbers::pi); }
   ContactLaws contact_laws() const {

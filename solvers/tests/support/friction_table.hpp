@@ -14,7 +14,7 @@ struct FrictionRow {
   double largest = 0.0, second = 0.0;  // moduli of the Floquet multipliers
 };
 
-// Of event-driven integrations with residuals of their period map below 1e-11.
+// From event-driven integrations with residuals of their period map below 1e-11.
 inline std::vector<FrictionRow> friction_rows() {
   return {{"Jenkins 1", slider_on_oscillator(2.0, 1.0, 1.0), 0, 15.24880669, 0.85325385, 0.65482821},
           {"Jenkins 2", slider_on_oscillator(2.0, 1.0, 1.2), 0, 5.002826509, 0.64754840, 0.64754840},

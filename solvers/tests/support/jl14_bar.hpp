@@ -37,7 +37,7 @@ inline LinearStructure jl14_bar(int elements, double beta) {
   return bar;
 }
 
-/// The same bar whose tip has no mass: its neighbour takes it.
+/// The same bar with a massless tip; its neighbour has the mass.
 inline LinearStructure massless_tip(LinearStructure bar) {
   const int tip = bar.size() - 1;
   bar.mass.coeffRef(tip - 1, tip - 1) += bar.mass.coeff(tip, tip) + 2.0 * bar.mass.coeff(tip, tip - 1);

@@ -6,7 +6,7 @@
 #include "support/small_problems.hpp"
 #include "wavebalance/solvers/balance/contact_system.hpp"
 
-/// What holds of Newton's systems of every kind of law and pair.
+/// Checks of Newton's systems for every kind of law and pair.
 namespace wavebalance::solvers::testing {
 
 /// J x at a state by central differences of the residual, at which the system is left evaluated.

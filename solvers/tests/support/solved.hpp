@@ -36,7 +36,7 @@ inline FrequencySweep complete_sweep(CondensedProblem& problem, const ContactLaw
   return sweep;
 }
 
-/// The motion in time from event to event, which no basis in time and no samples take part in.
+/// The motion in time from event to event, without a basis in time and samples.
 inline TimeSteppingResult stepped_motion(const LinearStructure& structure, const ContactLaws& laws,
                                          double frequency, int points) {
   const CondensedProblem problem = fourier_problem(structure, 7, 32, frequency);

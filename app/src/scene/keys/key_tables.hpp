@@ -3,7 +3,7 @@
 
 #include "scene/scene_key_builder.hpp"
 
-/// The tables of keys, one per section of a scene file, each in a file of its own.
+/// The tables of keys, one per section of a scene file, one file each.
 namespace wavebalance::app {
 
 inline constexpr auto structure_part = [](auto& scene) -> auto& { return scene.structure; };

@@ -10,7 +10,7 @@
 /// The keys of contact laws, made from contact::law_catalogue().
 namespace wavebalance::app {
 
-/// A parameter as the laws have it that take one of this name.
+/// A parameter with the laws that have one of this name.
 struct SharedParameter {
   contact::LawParameter first;         ///< of the first law that has it, with any range where theirs differ
   std::vector<std::string_view> laws;  ///< in the order of the catalogue
@@ -23,18 +23,18 @@ std::span<const SharedParameter> law_parameters();
 /// The key of a parameter in `section`, without its place in a scene.
 SceneKey key_of_parameter(std::string_view section, const SharedParameter& parameter);
 
-/// The value of a key: the default where there is none, which is empty if it is that of another parameter.
+/// The value of a key: the default where there is none, empty if it equals another parameter.
 SceneValue value_in(const contact::LawValues& values, const contact::LawParameter& parameter);
 /// Sets it, or leaves it out where it is the default.
 void set_value(contact::LawValues& values, const contact::LawParameter& parameter, const SceneValue& value);
 
-/// The key as one law alone has it: its help and range there.
+/// The key for a single law: its help and range there.
 SceneKey key_of_law(SceneKey key, std::string_view law);
 
 /// `"linear", "rigid"`: the names of laws for which `wanted` is true.
 std::vector<std::string_view> law_names(bool (*wanted)(const contact::LawEntry&));
 
-/// Those that a nonlinear mode takes: they act beyond their gap alone and keep the energy.
+/// Laws that a nonlinear mode supports: they act only beyond their gap and conserve energy.
 std::vector<std::string_view> laws_of_modes();
 
 /// "stiffness, gap" or "none": the parameters of a law.

@@ -30,7 +30,7 @@ class ClearanceLaw {
 
   const Side& above() const { return above_; }
   const Side& below() const { return below_; }
-  double gap() const { return above_.gap; }  ///< that of the positive side, m
+  double gap() const { return above_.gap; }  ///< gap on the positive side, m
   std::vector<double> kinks() const { return {-below_.gap, above_.gap}; }
   static constexpr bool unilateral() { return false; }
   static constexpr bool monotone() { return true; }

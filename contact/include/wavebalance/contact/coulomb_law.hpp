@@ -22,8 +22,9 @@ struct FrictionParameters {
   /// The coefficient that ends sticking, at least `friction`; 0: that.
   double static_friction = 0.0;
   double surface_speed = 0.0;       ///< m/s, of the surface along the tangent: a belt, a journal
-  double tangential_damping = 0.0;  ///< N s/m, >= 0, beside the spring k_t, which is then finite
-  double normal_damping = 0.0;      ///< N s/m, >= 0, beside the normal spring; the contact does not pull
+  double tangential_damping = 0.0;  ///< N s/m, >= 0, parallel to the spring k_t, which is then finite
+  double normal_damping = 0.0;      ///< N s/m, >= 0, parallel to the normal spring; the contact does not
+                                    ///< pull
 };
 
 /// The friction of a contact over a period, N samples.
@@ -55,12 +56,12 @@ struct FrictionPeriod {
 /// of the step; a radial return is of first order. With one tangent the force after one period is periodic
 /// exactly; with two, Newton's method closes the period.
 ///
-/// Against a surface that moves, with a larger coefficient at rest, or with dashpots beside its springs the
-/// force depends on velocities and on what the contact does: such a law of one tangent, needs_states(), has
-/// no steps over samples, and the solvers take it as a machine of states.
+/// Against a surface that moves, with a larger coefficient at rest, or with dashpots parallel to its
+/// springs the force depends on velocities and on the state of the contact. Such a law with one tangent,
+/// needs_states(), has no steps over samples; the solvers use it as a state machine.
 ///
-/// With an infinite k_t friction is rigid: what its force is at a displacement is not determined, and the law
-/// in series with springs, resolvent(), takes its place. That of a spring h is elastic friction with k_t = 1
+/// With an infinite k_t friction is rigid: a displacement does not determine its force, and the law in
+/// series with springs, resolvent(), is used instead. For a spring h this is elastic friction with k_t = 1
 /// / h.
 ///
 /// O(rows N), with two tangents and slopes O(rows N memory), memory the samples back to the last reversal of
@@ -68,8 +69,8 @@ struct FrictionPeriod {
 class CoulombLaw {
  public:
   /// Throws std::invalid_argument for parameters out of range, a slider with another number of entries than
-  /// tangents, without a normal direction for N0 = 0 and a normal damping, for a tangential damping beside no
-  /// spring, and for two tangents of a law that needs states.
+  /// tangents, without a normal direction for N0 = 0 and a normal damping, for a tangential damping without
+  /// a spring, and for two tangents of a law that needs states.
   explicit CoulombLaw(FrictionParameters parameters, std::optional<LinearLaw> normal = {});
 
   /// Its row of the catalogue, and the law of complete values: without a normal direction where
@@ -104,12 +105,11 @@ class CoulombLaw {
   /// std::invalid_argument for rigid friction and a law that needs states.
   FrictionPeriod over_period(int points, std::span<const double> displacement, bool with_slopes) const;
 
-  /// The forces at the end of a step, over which displacements go straight from `before` and which they
-  /// change: the displacements at its end are v - flexibility f, f the force along the same row (flexibility
-  /// >= 0, m/N). `force` holds those before the step and receives those after it. All spans have rows()
-  /// entries. With flexibilities of 0 it is the step of over_period(). Rigid friction takes positive ones
-  /// along tangents, and the straight step is then that of v. Throws std::invalid_argument for a law that
-  /// needs states.
+  /// The forces at the end of a step, over which displacements are linear in time from `before`. The
+  /// displacements at the end are v - flexibility f, f the force along the same row (flexibility >= 0,
+  /// m/N). `force` holds those before the step and receives those after it. All spans have rows() entries.
+  /// With flexibilities of 0 it is the step of over_period(). Rigid friction requires positive ones along
+  /// tangents, and v is then linear in time. Throws std::invalid_argument for a law that needs states.
   void advance(std::span<const double> before, std::span<const double> v, std::span<const double> flexibility,
                std::span<double> force) const;
   /// The same of displacements at rest, reached from the slider's position at rest.

@@ -6,14 +6,14 @@
 
 namespace wavebalance::contact {
 
-/// The exponential spring of [JL14, eq. (5)] that stands in for a rigid obstacle at a gap,
+/// The exponential spring of [JL14, eq. (5)] that approximates a rigid obstacle at a gap,
 ///
 ///     f_c(u) = max(a_c (exp(alpha (u - g0)) - 1), 0).
 ///
 /// Where alpha (u - g0) exceeds `linear_beyond` the force is continued by its tangent (once continuously
 /// differentiable), and no result exceeds the largest double. Force, tangent and potential are thus finite
-/// for every finite displacement; below that bound the tangent is the derivative of the force and the force
-/// that of the potential. A displacement that is not a number gives results that are not a number. O(1); the
+/// for every finite displacement; below that bound tangent and force are exact derivatives of force and
+/// potential. A displacement that is not a number gives results that are not a number. O(1); the
 /// exponential is evaluated in contact only. Immutable, may be shared between threads.
 class ExponentialLaw {
  public:

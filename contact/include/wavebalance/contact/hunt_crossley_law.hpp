@@ -11,8 +11,8 @@ namespace wavebalance::contact {
 /// towards the obstacle.
 ///
 /// The force vanishes with the penetration, whatever the velocity, and the contact does not pull. n = 3/2
-/// stands for the contact of two spheres. For small velocities the restitution is 1 - 2 c v / 3 at the
-/// velocity v of impact. O(1), one power in contact. Immutable, may be shared between threads.
+/// for the contact of two spheres. For small velocities the restitution is 1 - 2 c v / 3 at the velocity v
+/// of impact. O(1), one power in contact. Immutable, may be shared between threads.
 class HuntCrossleyLaw {
  public:
   /// stiffness: k > 0, N/m^n; power: n >= 1; dissipation: c >= 0, s/m; gap: g0, m. Throws
@@ -34,7 +34,7 @@ class HuntCrossleyLaw {
   double damping(double displacement, double velocity) const {
     return evaluate(displacement, velocity).damping;
   }
-  double potential(double displacement) const;  ///< J, that of the elastic part, k d^(n+1) / (n + 1)
+  double potential(double displacement) const;  ///< J, of the elastic part, k d^(n+1) / (n + 1)
   ForceAndSlopes evaluate(double displacement, double velocity) const;
 
  private:

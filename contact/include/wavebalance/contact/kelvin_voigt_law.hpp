@@ -6,8 +6,8 @@
 
 namespace wavebalance::contact {
 
-/// A spring and a damper beside each other that do not pull: f = max(k d + c s(d) v, 0) for a penetration
-/// d = u - g0 > 0, v the velocity towards the obstacle.
+/// A spring and a damper in parallel that do not pull: f = max(k d + c s(d) v, 0) for a penetration d = u -
+/// g0 > 0, v the velocity towards the obstacle.
 ///
 /// With a depth of 0 the damper acts fully at once, s = 1, and the force jumps by c v where contact begins. A
 /// depth p > 0 lets it rise smoothly over the penetration p, s = x^2 (3 - 2 x) with x = min(d / p, 1), as the
@@ -37,7 +37,7 @@ class KelvinVoigtLaw {
   double damping(double displacement, double velocity) const {
     return evaluate(displacement, velocity).damping;
   }
-  double potential(double displacement) const;  ///< J, that of the spring
+  double potential(double displacement) const;  ///< J, of the spring
   ForceAndSlopes evaluate(double displacement, double velocity) const;
 
  private:

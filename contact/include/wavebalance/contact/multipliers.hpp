@@ -68,12 +68,12 @@ struct MultiplierStep {
 ///     }
 ///
 /// Sums carry no weight: for the integral over a period multiply the terms, forces and tangents by 1/m (m
-/// samples), and the multipliers are then those of the integral.
+/// samples), and the multipliers then belong to the integral.
 ///
-/// Differences from the printed algorithm: G^(j) is the measure of the last outer iteration that improved; it
-/// is set before the comparison and is infinite at first. Violations are |max(g, -theta)|, where (26a) lacks
-/// the sign and the modulus. Line 18 has S_i in place of L_i. theta is divided by beta wherever kappa is
-/// multiplied, so that a larger penalty does not change the multiplier. The condition of line 25 reads
+/// Differences from the printed algorithm: G^(j) is the measure of the last outer iteration that improved;
+/// it is set before the comparison and is infinite at first. Violations are |max(g, -theta)|, where (26a)
+/// lacks the sign and the modulus. Line 18 has S_i instead of L_i. theta is divided by beta wherever kappa
+/// is multiplied, so that a larger penalty does not change the multiplier. The condition of line 25 reads
 /// |h| >= G_e/alpha.
 ///
 /// Not to be updated from several threads. All calls are O(n).
@@ -110,8 +110,8 @@ class MultiplierUpdate {
   /// std::invalid_argument if an entry is not finite or a length is wrong; nothing has changed then.
   MultiplierStep update(std::span<const double> g, std::span<const double> h = {});
 
-  /// Begins a new problem: multipliers as given (those of inequalities >= 0, std::invalid_argument
-  /// otherwise), penalties as they are, no measure to improve on. Both empty: multipliers as they are.
+  /// Starts a new problem: multipliers as given (of inequalities >= 0, std::invalid_argument otherwise),
+  /// penalties as they are, no measure to improve on. Both empty: multipliers as they are.
   void restart(std::span<const double> inequality_multipliers = {},
                std::span<const double> equality_multipliers = {});
 

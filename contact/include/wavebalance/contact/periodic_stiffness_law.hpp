@@ -5,10 +5,9 @@
 
 namespace wavebalance::contact {
 
-/// A spring whose stiffness k(t) is periodic, as that of gears in mesh: k(t) u or, with a backlash of 2 g,
-/// k(t) (u - g) above the gap g and k(t) (u + g) below -g. It has two rows, of which the second is no motion
-/// but a signal s(t), known beforehand, without a force: k(t) = k (1 + s(t) / signal_unit). So the law itself
-/// does not depend on the time.
+/// A spring whose stiffness k(t) is periodic, as of gears in mesh: k(t) u or, with a backlash of 2 g, k(t)
+/// (u - g) above the gap g and k(t) (u + g) below -g. The second of its two rows is a given signal s(t)
+/// without a force: k(t) = k (1 + s(t) / signal_unit). So the law itself does not depend on the time.
 ///
 /// O(1). Immutable, may be shared between threads.
 class PeriodicStiffnessLaw {

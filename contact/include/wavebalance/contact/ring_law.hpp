@@ -5,11 +5,11 @@
 
 namespace wavebalance::contact {
 
-/// A journal in a circular ring, of the displacements (x, y) of its center from that of the ring: beyond the
-/// clearance g the normal force N = k (r - g), r = |(x, y)|, acts along the radius. A journal that turns
-/// always slides, so that its friction mu N acts along the tangent, against the motion of its surface: with
-/// mu > 0 it turns from x to y, with mu < 0 from y to x. The forces, which oppose positive displacements, are
-/// N (x - mu y, y + mu x) / r.
+/// A journal in a circular ring, with the displacement (x, y) of its center from the center of the ring:
+/// beyond the clearance g the normal force N = k (r - g), r = |(x, y)|, acts along the radius. A journal
+/// that turns always slides, so that its friction mu N acts along the tangent, against the motion of its
+/// surface: with mu > 0 it turns from x to y, with mu < 0 from y to x. The forces, which oppose positive
+/// displacements, are N (x - mu y, y + mu x) / r.
 ///
 /// O(1). Immutable, may be shared between threads.
 class RingLaw {

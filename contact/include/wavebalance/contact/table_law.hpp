@@ -14,9 +14,9 @@ namespace wavebalance::contact {
 /// The interpolant is once continuously differentiable, so that Newton's method meets no kink, and rises or
 /// falls between two points as they do. A table that is constant over an interval is constant there: a gap
 /// stays a gap. Slopes as F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5, 1984,
-/// doi:10.1137/0905021; the condition for monotony is that of F. N. Fritsch, R. E. Carlson, SIAM J. Numer.
-/// Anal. 17, 1980, doi:10.1137/0717021. Two points are a straight line. The potential is measured from gap().
-/// O(log k) for k points in one of n equal cells. Immutable, may be shared between threads.
+/// doi:10.1137/0905021; condition for monotony: F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17,
+/// 1980, doi:10.1137/0717021. Two points are a straight line. The potential is measured from gap(). O(log
+/// k) for k points in one of n equal cells. Immutable, may be shared between threads.
 class TableLaw {
  public:
   /// Displacements in m, strictly ascending, and as many forces in N, two at least. Throws
@@ -48,8 +48,8 @@ class TableLaw {
 
  private:
   double energy_from_begin(double displacement) const;  // of the first point
-  // Of a displacement within the table: one of n - 1 equal cells, the last point alone in one more, and the
-  // interval between two points.
+  // For a displacement within the table: one of n - 1 equal cells, with one more for the last point, and
+  // the interval between two points.
   std::size_t cell_of(double displacement) const;
   std::size_t interval_of(double displacement) const;
   void set_cells();

@@ -3,15 +3,15 @@
 
 namespace wavebalance::fem {
 
-/// A cambered, tapered and twisted blade that stands on the plane z = 0. Each pair of values holds those at
-/// root and tip, with linear interpolation in s = z/length between them. With xi, eta in [-1,1] along chord
-/// and thickness (xi = -1 is the leading edge), the section is
+/// A cambered, tapered and twisted blade on the plane z = 0. Each pair of values belongs to root and tip,
+/// with linear interpolation in s = z/length between them. With xi, eta in [-1,1] along chord and thickness
+/// (xi = -1 is the leading edge), the section is
 ///
 ///     x = xi c/2,   y = k (1 - xi^2) - 2k/3 + eta/2 t (edge + (1 - edge)(1 - xi^2)),
 ///
-/// with chord c, thickness t = thickness_ratio c and camber k = camber_ratio c, turned by the angle from x to
-/// y. The defaults are a titanium compressor blade of this project, an open stand-in for the proprietary one
-/// of [LL10, section 5.2].
+/// with chord c, thickness t = thickness_ratio c and camber k = camber_ratio c, turned by the angle from x
+/// to y. The defaults are a titanium compressor blade of this project, an open substitute for the
+/// proprietary one of [LL10, section 5.2].
 struct BladeOptions {
   std::array<double, 2> chord = {0.052, 0.056};           ///< m, > 0
   std::array<double, 2> thickness_ratio = {0.09, 0.031};  ///< > 0

@@ -12,7 +12,7 @@ namespace wavebalance::fem {
 /// std::invalid_argument as SolidMesh::validate does.
 Connectivity boundary_faces(const SolidMesh& mesh);
 
-/// What of a mesh can be seen, by its corner points.
+/// The visible faces of a mesh, by corner points.
 struct MeshSurface {
   std::vector<int>
       triangles;              ///< three points each, of the faces that belong to one solid only and of shells

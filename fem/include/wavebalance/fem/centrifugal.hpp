@@ -27,9 +27,9 @@ struct CentrifugalStiffness {
 ///
 ///     f = int rho N^T P r,   K u = f,   K_g = int dN/dx_a sigma_ab(u) dN/dx_b I,   S = int rho N^T P N.
 ///
-/// Coriolis forces, 2 Omega x u', are left out: they are zero for motion along the axis. stiffness: that of
-/// solid_matrices(model). One sparse factorisation. Throws std::invalid_argument if sizes or axis do not fit,
-/// std::domain_error if the stiffness is not positive definite.
+/// Coriolis forces, 2 Omega x u', are left out: they are zero for motion along the axis. stiffness: from
+/// solid_matrices(model). One sparse factorisation. Throws std::invalid_argument if sizes or axis do not
+/// fit, std::domain_error if the stiffness is not positive definite.
 CentrifugalStiffness centrifugal_stiffness(const SolidModel& model,
                                            const Eigen::SparseMatrix<double>& stiffness,
                                            const RotationAxis& axis);

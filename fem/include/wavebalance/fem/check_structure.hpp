@@ -21,7 +21,7 @@ class StructureFault : public std::invalid_argument {
 
   /// The matrix at fault.
   StructureMatrix matrix() const { return matrix_; }
-  /// What is wrong with it, without its name: "is not symmetric: row 2, column 1 differs ..".
+  /// The error without the name of the matrix: "is not symmetric: row 2, column 1 differs ..".
   const std::string& reason() const { return reason_; }
 
  private:
@@ -29,7 +29,7 @@ class StructureFault : public std::invalid_argument {
   std::string reason_;
 };
 
-/// What check_structure() accepts.
+/// Properties that check_structure() accepts.
 struct StructureChecks {
   bool allow_free = false;            ///< accept a singular stiffness: a structure that can move freely
   bool unsymmetric = false;           ///< accept a damping and a stiffness without symmetry

@@ -25,11 +25,12 @@ struct CraigBamptonOptions {
 /// recovery.
 struct CraigBampton {
   EigenmodesStatus status = EigenmodesStatus::converged;  ///< of the fixed-interface modes
-  Eigen::VectorXi boundary;   ///< unknowns of the structure that are the first b coordinates
-  Eigen::VectorXd omega;      ///< rad/s, m: of the fixed-interface modes
-  Eigen::MatrixXd mass;       ///< (b+m) x (b+m), kg
-  Eigen::MatrixXd damping;    ///< N s/m
-  Eigen::MatrixXd stiffness;  ///< N/m; its blocks boundary-mode are zero, that of the modes diag(omega^2)
+  Eigen::VectorXi boundary;        ///< unknowns of the structure that are the first b coordinates
+  Eigen::VectorXd omega;           ///< rad/s, m: of the fixed-interface modes
+  Eigen::MatrixXd mass;            ///< (b+m) x (b+m), kg
+  Eigen::MatrixXd damping;         ///< N s/m
+  Eigen::MatrixXd stiffness;       ///< N/m; the blocks boundary-mode are zero, the block of the modes
+                                   ///< diag(omega^2)
   Eigen::MatrixXd transformation;  ///< n x (b+m)
 
   /// T^T A T for another symmetric n x n matrix of the structure. O(nnz (b+m) + n (b+m)^2).
@@ -50,8 +51,8 @@ std::vector<int> touched_unknowns(const Eigen::SparseMatrix<double, Eigen::RowMa
 
 /// Reduces a structure with symmetric stiffness, positive definite once the boundary is held, and symmetric
 /// mass; an empty damping matrix (0 x 0) counts as zero. One sparse factorisation of K_ii serves constraint
-/// modes and iteration; another, of K_ii - s M_ii, counts the modes. The interior may not be empty.
-/// Cancelled by the observer, the result has its status alone. Memory beside K and M: a copy of K_ii and
+/// modes and iteration; another, of K_ii - s M_ii, counts the modes. The interior may not be empty. If the
+/// observer cancels, the result has only its status. Memory in addition to K and M: a copy of K_ii and
 /// M_ii, another while modes are counted, the factor, and n (b + 3 modes + 40) numbers.
 ///
 /// Throws std::invalid_argument if sizes, symmetry, boundary (out of range, twice) or options do not fit,

@@ -10,10 +10,10 @@
 
 namespace wavebalance::fem {
 
-/// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6), or the
-/// one of a scalar point of Nastran (7). Internal nodes of Abaqus have negative numbers.
-/// Where several rows have the same node and direction, as those of shells and beams that a code has expanded
-/// to solids, each is a copy, counted from 1 in the order of the rows.
+/// A motion of a node of a mesh: displacement along x, y, z (1, 2, 3), or rotation about it (4, 5, 6), or
+/// the one of a scalar point of Nastran (7). Internal nodes of Abaqus have negative numbers. Where several
+/// rows have the same node and direction, as for shells and beams that a code has expanded to solids, each
+/// is a copy, counted from 1 in the order of the rows.
 struct NodeDof {
   int node = 0;
   int direction = 0;

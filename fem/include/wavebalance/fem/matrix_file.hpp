@@ -9,8 +9,7 @@
 
 namespace wavebalance::fem {
 
-/// What is wrong with a file of a matrix, a vector or a dof map: file, line, what was found and what is
-/// allowed.
+/// An error in a file of a matrix, a vector or a dof map: file, line, value and allowed values.
 class MatrixFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,13 +31,13 @@ std::string_view to_string(MatrixFormat format);
 /// DMIG, .op4 OUTPUT4. Throws MatrixFileError if neither says anything or the file cannot be read.
 MatrixFormat matrix_format(const std::filesystem::path& file);
 
-/// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles. Of several
-/// in a file "job.pch#KAAX" names one [named_matrix.hpp]. Throws MatrixFileError, which says as which format
-/// the file was read. O(nnz log nnz).
+/// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles.
+/// "job.pch#KAAX" names one of several in a file [named_matrix.hpp]. Throws MatrixFileError, which names
+/// the format. O(nnz log nnz).
 Eigen::SparseMatrix<double> read_matrix(const std::filesystem::path& file);
 
 /// Reads a vector: one column of a matrix that is not square, or the right-hand side of a Harwell-Boeing
-/// file. Of several columns "job.pch#PAX:2" names one. Throws MatrixFileError as read_matrix does.
+/// file. "job.pch#PAX:2" names one of several columns. Throws MatrixFileError as read_matrix does.
 Eigen::VectorXd read_vector(const std::filesystem::path& file);
 
 /// Reads what CalculiX writes as .sti and .mas with *FREQUENCY, SOLVER=MATRIXSTORAGE: lines of row, column
@@ -49,11 +48,11 @@ Eigen::VectorXd read_vector(const std::filesystem::path& file);
 Eigen::SparseMatrix<double> read_calculix_matrix(std::istream& input, const std::string& name);
 
 /// Reads an assembled real matrix in the format of Harwell and Boeing [DGL89], type RSA (one triangle of a
-/// symmetric matrix, or both) or RUA, as Ansys (HBMAT) and LS-DYNA write it. Numbers stand in the Fortran
-/// formats of the header: I for indices, E, D, F or G for values, with repetition and a scale factor such as
-/// 1P. Throws MatrixFileError for another type, formats other than these, a field that holds no such number,
-/// pointers that do not increase or an index out of range, an entry given twice, two triangles of an RSA file
-/// that differ, a file that ends early.
+/// symmetric matrix, or both) or RUA, as Ansys (HBMAT) and LS-DYNA write it. Numbers have the Fortran
+/// formats of the header: I for indices, E, D, F or G for values, with repetition and a scale factor such
+/// as 1P. Throws MatrixFileError for another type, formats other than these, a field that holds no such
+/// number, pointers that do not increase or an index out of range, an entry given twice, two triangles of
+/// an RSA file that differ, a file that ends early.
 Eigen::SparseMatrix<double> read_harwell_boeing(std::istream& input, const std::string& name);
 
 /// Reads the right-hand side at the end of such a file, where Ansys puts the load: one full vector (F).

@@ -60,8 +60,8 @@ std::vector<NamedMatrix> read_abaqus_matrix(std::istream& input, const std::stri
 std::vector<NamedMatrix> read_substructure(std::istream& input, const std::string& name);
 
 /// DMIG of Nastran in bulk data with small, large or free fields, real, in the forms 1 (square), 6
-/// (symmetric), 2 and 9 (rectangular: loads). Component 0 or none is that of a scalar point. Other entries
-/// are passed over. With `wanted` the others have names alone. Throws MatrixFileError.
+/// (symmetric), 2 and 9 (rectangular: loads). Component 0 or none belongs to a scalar point. Other entries
+/// are ignored. With `wanted` the others have only names. Throws MatrixFileError.
 std::vector<NamedMatrix> read_dmig(std::istream& input, const std::string& name,
                                    std::string_view wanted = {});
 
@@ -79,16 +79,16 @@ struct CollectedMatrix {
   Eigen::SparseMatrix<double> matrix;
 };
 
-/// What several files hold, in the same rows.
+/// Content of several files, in the same rows.
 struct CollectedMatrices {
   std::vector<CollectedMatrix> matrices;
   std::optional<DofMap> map;  ///< all rows, where a file names them
 };
 
-/// Reads matrices, loads and at most one dof map of the formats of other codes. What a matrix is says its
-/// name, or that of its file. Rows are those of the dof map, or else all nodes that the files name,
-/// ascending; rows that the stiffness marks as held are left out. Throws MatrixFileError, also for two of one
-/// role.
+/// Reads matrices, loads and at most one dof map of the formats of other codes. Its name or the name of its
+/// file defines the role of a matrix. Rows follow the dof map, or else all nodes that the files name,
+/// ascending; rows that the stiffness marks as held are left out. Throws MatrixFileError, also for two of
+/// one role.
 CollectedMatrices collect_matrices(std::span<const std::filesystem::path> files);
 
 }  // namespace wavebalance::fem

@@ -9,9 +9,9 @@
 
 namespace wavebalance::fem {
 
-/// Hexahedra with three displacements per node. Nodes are in the order of VTK: the corners of the face zeta =
-/// -1 anticlockwise from (-1,-1), those of zeta = 1, then the edge midpoints of either face and of the four
-/// edges along zeta.
+/// Hexahedra with three displacements per node. Nodes are in the order of VTK: the corners of the face zeta
+/// = -1 anticlockwise from (-1,-1), then of zeta = 1, then the edge midpoints of either face and of the
+/// four edges along zeta.
 enum class SolidElement {
   hexahedron8,          ///< trilinear with the incompatible modes 1 - xi^2, ... [TBW76], 2 x 2 x 2 points
   hexahedron20,         ///< serendipity, 3 x 3 x 3 points for the stiffness
@@ -64,7 +64,7 @@ struct SolidModel {
   SolidMaterial material;
   FreeDofs dofs;
 
-  /// 3 x n displacements of all nodes from those of the unknowns. Throws std::invalid_argument.
+  /// 3 x n displacements of all nodes from the unknowns. Throws std::invalid_argument.
   Eigen::Matrix3Xd displacements(const Eigen::VectorXd& unknowns) const;
   /// The plan that assembles matrices over the unknowns. Throws std::invalid_argument.
   Assembly assembly() const;

@@ -26,8 +26,8 @@ struct Tally {
 
 /// Class in the style sheet: "agrees", "differs", "partly" (a tie too), "misprint", "depends".
 std::string_view kind(Verdict verdict);
-/// What stands for a verdict where there is no room for a word. `readings`: "1/2" in place of "?" for
-/// depends, of those that the text allows.
+/// Symbol of a verdict where there is no room for a word. `readings`: "1/2" instead of "?" for depends, of
+/// those that the text allows.
 std::string sign(Verdict verdict, const std::vector<Reading>& readings = {});
 /// The id of the index-th statement of a record, from 0.
 std::string anchor(const Record& record, std::size_t index);
@@ -52,11 +52,12 @@ std::string row_of(const std::vector<std::string>& texts);
 std::string statements_html(const Record& record);
 std::string checks_html(const Record& record);
 
-/// Where a page stands: how it finds the files of a section, and what is said of their origin.
+/// Location of a page: how it finds the files of a section, and the text on their origin.
 struct Place {
   const Section& section;
   const Origin& origin;
-  std::string folder;  ///< of the section's files as seen from the page: "extremes/", or empty beside them
+  std::string folder;  ///< of the section's files as seen from the page: "extremes/", or empty in the same
+                       ///< folder
   std::string assets;  ///< the folder of styles and scripts as seen from the page
 };
 
@@ -70,7 +71,8 @@ std::string moving_html(const Record& record, const Place& place);
 /// A figure or table with its statements.
 std::string artefact_html(const Record& record, const Place& place);
 
-/// What this run found in single sentences: most_agreeing of statements that agree and most_others of others.
+/// Findings of this run in single sentences: most_agreeing of statements that agree and most_others of
+/// others.
 inline constexpr std::size_t most_agreeing = 6, most_others = 3;
 std::string brief_html(const std::vector<Section>& sections);
 /// Figure by statement, in colours and signs.
@@ -78,10 +80,10 @@ std::string matrix_html(const std::vector<Section>& sections);
 /// The rule, what is not judged, and the misprints.
 std::string rule_html(const std::vector<Section>& sections);
 
-/// verdicts.csv: a row for each statement of the sections without a page of their own.
+/// verdicts.csv: a row for each statement of the sections without a separate page.
 app::Table verdicts_table(const std::vector<Section>& sections);
 
-/// A statement and where it stands.
+/// A statement and its place.
 struct Found {
   const Section& section;
   const Record& record;
@@ -89,7 +91,7 @@ struct Found {
 
   const Statement& statement() const { return record.statements[index]; }
 };
-/// Those of the sections without a page of their own.
+/// Statements of the sections without a separate page.
 std::vector<Found> all_statements(const std::vector<Section>& sections,
                                   const std::function<bool(const Statement&)>& wanted);
 

@@ -17,7 +17,7 @@ struct AftForce {
 };
 
 /// Alternating frequency/time [Cameron & Griffin 1989]: the Fourier coefficients of a force f(u(t)) that is
-/// known pointwise in time, and their derivatives with respect to those of u,
+/// known pointwise in time, and their derivatives with respect to coefficients of u,
 ///
 ///     u(t_l) = a_0 + sum_n (a_n cos 2 pi n t_l + b_n sin 2 pi n t_l),   t_l = l/N,
 ///     F_n = (2/N) sum_l f(u(t_l)) {cos, sin} 2 pi n t_l,   mean with 1/N,   0 <= n <= H.

@@ -35,10 +35,9 @@ struct ConnectionCoefficients {
   double operator()(int l) const { return l < first || l > last() ? 0.0 : values[l - first]; }
 };
 
-/// Connection coefficients r_d[l], the integrals of phi_w(x - l) phi_t^(d)(x), of a trial function phi_t and
-/// a weight phi_w, on the real line. Derivatives on the weight count too: that of phi_w^(a)(x - l)
-/// phi_t^(b)(x) is
-/// (-1)^a r_{a+b}[l]. r_d has the parity of d in l when both functions are the same.
+/// Connection coefficients r_d[l], the integrals of phi_w(x - l) phi_t^(d)(x), of a trial function phi_t
+/// and a weight phi_w, on the real line. Derivatives on the weight count too: the integral of phi_w^(a)(x -
+/// l) phi_t^(b)(x) is (-1)^a r_{a+b}[l]. r_d has the parity of d in l when both functions are the same.
 ///
 /// Method: for the refinable parts B, the integral C(y) of B_w(x) B_t(x + y) is itself refinable, with the
 /// filter a_n = 1/2 sum_{k - j = n} p^w_j p^t_k, and r_d = C^(d) at the integers: the eigenvector of 2^d a[2l
@@ -50,10 +49,10 @@ struct ConnectionCoefficients {
 ConnectionCoefficients connection_coefficients(const ScalingFunction& trial, const ScalingFunction& weight,
                                                int derivative);
 
-/// Inner products on the circle of the periodized functions: a[m] is that of p_i(t) and q_j^(d)(t) for i - j
-/// = m modulo M, with p_i, q_j the translates of `weight` and `trial`: the first column of the circulant
-/// matrix A_d[i, j]. Exact at every level: a[m] = M^{d-1} sum_l r_d[m + l M] [JL14, section 3.4; Restrepo and
-/// Leaf 1993]. Returns M values. Cost O(L^3 + M). Throws as connection_coefficients, and
+/// Inner products on the circle of the periodized functions: a[m] is the product of p_i(t) and q_j^(d)(t)
+/// for i - j = m modulo M, with p_i, q_j the translates of `weight` and `trial`: the first column of the
+/// circulant matrix A_d[i, j]. Exact at every level: a[m] = M^{d-1} sum_l r_d[m + l M] [JL14, section 3.4;
+/// Restrepo and Leaf 1993]. Returns M values. Cost O(L^3 + M). Throws as connection_coefficients, and
 /// std::invalid_argument when the two bases have different numbers of functions.
 Eigen::VectorXd periodic_inner_products(const PeriodicBasis& trial, const PeriodicBasis& weight,
                                         int derivative);

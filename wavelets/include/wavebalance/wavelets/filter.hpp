@@ -15,9 +15,9 @@ Eigen::VectorXd daubechies_filter(int coefficients);
 /// 1, k). Throws std::invalid_argument when the degree is outside 0..19.
 Eigen::VectorXd bspline_filter(int degree);
 
-/// Order N of the zero of the symbol m0(xi) = 1/2 sum_l p_l exp(-i l xi) at xi = pi: the number of vanishing
-/// alternating moments sum_l (-1)^l l^k p_l. A moment counts as zero below 1e-11 of that of the absolute
-/// values. Throws std::invalid_argument for an empty filter or one that does not sum to 2.
+/// Order N of the zero of the symbol m0(xi) = 1/2 sum_l p_l exp(-i l xi) at xi = pi: the number of
+/// vanishing alternating moments sum_l (-1)^l l^k p_l. A moment counts as zero below 1e-11 of the moment of
+/// the absolute values. Throws std::invalid_argument for an empty filter or one that does not sum to 2.
 int zeros_at_pi(const Eigen::VectorXd& filter);
 
 /// Sobolev exponent s of the refinable function of `filter`: phi is in H^r exactly when r < s (if its integer

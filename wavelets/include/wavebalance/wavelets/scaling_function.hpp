@@ -75,10 +75,10 @@ class ScalingFunction {
 };
 
 /// Filter p of phi itself, phi(x) = sum_l p_l phi(2x - l - first), of even length and with an even `first`:
-/// the argument of FastWaveletTransform. The numbers of its coarse functions are then lower by first / 2 than
-/// those of the translates of phi. Daubechies: filter(), first 0. For the orthonormal B-spline the filter is
-/// 2^(-3) (1 + w)^4 C(w^2) / C(w) with C the symbol of c, computed by a discrete Fourier sum. It decays like
-/// 0.732^|l| and is truncated to 224 values, which are orthonormal to 1e-13. Cost O(1e5).
+/// the argument of FastWaveletTransform. Indices of its coarse functions are then lower by first / 2 than
+/// indices of the translates of phi. Daubechies: filter(), first 0. For the orthonormal B-spline the filter
+/// is 2^(-3) (1 + w)^4 C(w^2) / C(w) with C the symbol of c, computed by a discrete Fourier sum. It decays
+/// like 0.732^|l| and is truncated to 224 values, which are orthonormal to 1e-13. Cost O(1e5).
 struct TwoScaleFilter {
   int first = 0;
   Eigen::VectorXd values;

@@ -17,39 +17,34 @@ struct CostEstimate {
   bool unforeseen = false;  ///< the time is NaN since it depends on how often contacts slip, stick and open
 };
 
-/// From the sizes of a scene alone: C contacts, M functions, N quadrature points, P output points, n degrees
-/// of freedom after reduction, a = min(C N / 10, 1000) samples in contact that a dense matrix is factorized
-/// for, s = min(12 (C^2 N)^(1/3), C N) unknowns of the preconditioner of GMRES,
+/// Estimated from the sizes of a scene only: C contacts, M functions, N quadrature points, P output points,
+/// n degrees of freedom after reduction, a = min(C N / 10, 1000) samples in contact that a dense matrix is
+/// factorized for, s = min(12 (C^2 N)^(1/3), C N) unknowns of the preconditioner of GMRES,
 ///
 ///   bytes = 20e6 + 130 C N + (150 + 32 C^2) M + 8 C^2 N r + 16 a^2 + 16 s^2 + 100 C s
 ///           + (500 + 400 C [C > 1]) P + structure,
 ///   seconds = (8e-8 C N log2 N + 2e-8 C^2 M n + 5e-10 b^3) per response + 3e-6 C P + structure,
 ///
-/// b = min(a, 144), or min(a, 256) for several contacts, the samples up to which LU takes the place of GMRES,
-/// and r the period after which products with the compliance repeat (1 for an odd number of Fourier
-/// functions, otherwise N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The
-/// structure takes 1500 n bytes, and where all its modes are taken 64 n^2 bytes and 2e-8 n^3 s; a reduction
-/// 4e-4 s per degree of freedom before it. In six scenes from 1 to 24 contacts, up to 2^16 functions and 2^20
-/// points, memory was within a factor of 1.5 above 50 MB and time within a factor of 3 above 0.1 s. Stability
-/// with the structure's own curve took 0.1 to 9 times the time of the curve in ten sweeps of one contact. Of
-/// three contacts it had taken 170 times when it was stopped, as that curve may have many phases; it is
-/// bounded by the operations that it may take, here estimated at 300 s. The exact motion beside a response
-/// takes steps of n^2 (n / 1.5 + 4 poles) operations at 5e9 per second: ten with n = 14 C unknowns at least,
-/// at most sixty with 24 nodes on each panel, or all that the searches by phases and by the flow may take; it
-/// is said where it may exceed a second. Of 24 contacts it took 0.5 to 10 s where 0.04 to 24 s are said.
-/// Responses that Newton's method does not find take more time. Sizes that a tolerance chooses, periods of
-/// time stepping and points of a mode are not known, and with friction curves take more time by factors that
-/// differ widely: the time is NaN, and memory that of the structure and the output. With laws of the velocity
-/// at 10 to 200 contacts memory was within a factor of 1.5, too. O(1), but matrices that have not been read
-/// are read.
+/// b = min(a, 144), or min(a, 256) for several contacts, the samples up to which LU replaces GMRES, and r
+/// the period after which products with the compliance repeat (1 for an odd number of Fourier functions,
+/// otherwise N / gcd(N, M)), with 2 |to - from| / largest_step responses along a sweep. The structure needs
+/// 1500 n bytes, with all its modes 64 n^2 bytes and 2e-8 n^3 s. A reduction needs 4e-4 s per degree of
+/// freedom before it. Stability along the exact curve is bounded by its operations, estimated at 300 s,
+/// because that curve may have many contact intervals. The exact motion near a response takes steps of n^2
+/// (n / 1.5 + 4 poles) operations at 5e9 per second: ten with n = 14 C unknowns at least, at most sixty
+/// with 24 nodes on each panel, or all operations allowed for the searches. It is reported if it may exceed
+/// a second. Responses that Newton's method does not find need more time. Sizes that a tolerance chooses,
+/// periods of time stepping and points of a mode are not known, and curves with friction need widely
+/// different times: the time is NaN, and the memory is only for structure and output. O(1), but matrices
+/// that have not been read are read.
 CostEstimate estimate_cost(const Scene& scene);
 
-/// One sentence for a scene of time stepping that follows more modes than a user waits for, and what takes
-/// fewer; empty for others. O(1), but matrices that have not been read are read.
+/// One sentence for a scene of time stepping that follows more modes than a user waits for, and how to
+/// reduce them; empty for others. O(1), but matrices that have not been read are read.
 std::string slow_stepping_advice(const Scene& scene);
 
-/// Bytes of memory that this process may have: those of the machine, or the limit of the process (setrlimit)
-/// or of its control group where that is less.
+/// Bytes of memory available to this process: the least of the machine's memory, the process limit
+/// (setrlimit) and the limit of its control group.
 double available_memory();
 
 /// "3.2 GB", "15 MB"
@@ -59,8 +54,8 @@ std::string memory_text(double bytes);
 /// exact motion".
 std::string cost_text(const CostEstimate& cost);
 
-/// Throws std::invalid_argument if a scene is expected to take more memory than the machine has, or more than
-/// `max_gigabytes` where that is positive, before any is allocated.
+/// Throws std::invalid_argument if a scene is expected to need more memory than the machine has, or more
+/// than `max_gigabytes` where that is positive, before any is allocated.
 void check_memory(const Scene& scene, double max_gigabytes = 0.0);
 
 }  // namespace wavebalance::app

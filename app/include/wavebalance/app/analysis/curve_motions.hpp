@@ -21,19 +21,18 @@ struct CurveMotion {
   Eigen::MatrixXd structure;    ///< of the reduced structure at analysis.motion_points instants, m; or empty
   Eigen::MatrixXd plane;        ///< of StructureModel::plane, 2 x output_points, m; or empty
   ResponseStability stability;  ///< with analysis.stability; else its status is empty
-  /// With analysis.stability or analysis.phases; where it is not empty, the stability is that of the motion
-  /// found, or not known where there is none near.
+  /// With analysis.stability or analysis.phases; where it is not empty, the stability belongs to the motion
+  /// found, and is not known if none is near.
   ExactAlongSweep::Point phases;
   /// Where it is known: the motion of the structure itself near this one, with its phases of contact.
   std::optional<solvers::ExactNearResponse> near;
 };
 
-/// The motions of analysis.motion_at: that of the point with the largest displacement, those of the
-/// bifurcation and grazing points in their order along the curve, and at each frequency or amplitude those of
-/// all its points, in the same order and numbered if there are several. Those of the branches are left out. A
-/// place that the curve does not pass has none. `sweep` is one of the scene with motion_at. A response, its
-/// phases and its stability for each. Where the observer stops them, the others are left out and named in
-/// sweep.motions_left_out.
+/// The motions of analysis.motion_at: at the point with the largest displacement, at bifurcation and
+/// grazing points in their order along the curve, and at all points with a given frequency or amplitude,
+/// numbered if there are several. Branches are left out. A place that the curve does not pass has none.
+/// `sweep` is one of the scene with motion_at. A response, its phases and its stability for each. If the
+/// observer stops, the remaining ones are named in sweep.motions_left_out.
 std::vector<CurveMotion> curve_motions(const Scene& scene, const StructureModel& model, Sweep& sweep,
                                        const Observer& observer = {});
 

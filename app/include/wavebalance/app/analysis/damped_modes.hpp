@@ -40,7 +40,7 @@ class DampedStudy {
 };
 
 /// amplitude_ratio, amplitude_m, frequency_Hz, frequency_ratio, damping_ratio, friction_work_J, the means
-/// over contacts of stick_fraction, slip_fraction and open_fraction, all four with friction alone, status,
+/// over contacts of stick_fraction, slip_fraction and open_fraction, all four only with friction, status,
 /// residual; max_, min_, rms_ and max_abs_displacement_m of the contacts. O(points contacts output_points).
 Table damped_table(const DampedStudy& study, const solvers::DampedBackbone& curve);
 

@@ -9,14 +9,14 @@
 
 namespace wavebalance::app {
 
-/// Whether exact bifurcation points are sought along a curve of a scene. With many contacts they can take a
-/// hundred times as long as the curve, and are sought only with analysis.phases.
+/// Whether exact bifurcation points are computed along a curve of a scene. With many contacts they can take
+/// a hundred times as long as the curve, and require analysis.phases.
 bool seeks_exact_points(const Scene& scene);
 
 /// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
 inline constexpr std::size_t most_special_points_with_exact = 24;
 
-/// The exact periodic solutions near a curve. Empty where they were not sought.
+/// The exact periodic solutions near a curve. Empty if not requested.
 struct ExactAlongSweep {
   using Point = std::optional<solvers::ExactAtPoint>;
 
@@ -34,14 +34,13 @@ bool was_not_found(const ExactAlongSweep::Point& point);
 /// The stability along a curve that its record tells.
 struct StabilityAlong {
   std::vector<solvers::PointStability> points;
-  /// Of each point: "phases" where the count is that of the structure's motion, "balance", or "none" where
-  /// no motion of the structure was found near and no verdict is given. Empty without
-  /// ExactAlongSweep::points.
+  /// Per point: "phases" if the count belongs to the exact motion, "balance", or "none" if no exact motion
+  /// was found nearby and the stability is not known. Empty without ExactAlongSweep::points.
   std::vector<std::string> by;
   std::string status = "converged";  ///< or why the first count that is not known is not
 };
 
-/// That of a balance with the counts of the structure where its motion is known, null: without any.
+/// A harmonic balance curve with the counts of the exact motions where these are known; null: without any.
 StabilityAlong stability_along(const solvers::CurveStability& balance, const ExactAlongSweep* phases);
 
 /// The index of the point with the largest displacement, of a curve with points.

@@ -42,7 +42,7 @@ std::vector<FrictionMeasures> friction_measures(const Scene& scene, const solver
 /// The measures of a response, exact where its motion is known between events.
 std::vector<FrictionMeasures> friction_measures(const Scene& scene, const Response& response);
 
-/// What all contacts with friction do in a period: their work, and the means of their shares of it.
+/// Work of all contacts with friction in a period, and the means of their time fractions.
 struct FrictionShares {
   FrictionShares() = default;
   explicit FrictionShares(std::vector<ContactFriction> contacts);

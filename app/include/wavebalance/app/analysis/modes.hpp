@@ -64,7 +64,7 @@ class ModeStudy {
 
   const Scene& scene() const { return scene_; }
   const StructureModel& model() const { return model_; }
-  /// The mode with a rigid obstacle in place of the scene's law.
+  /// The mode with a rigid obstacle instead of the scene's law.
   const solvers::NonlinearMode& mode() const { return mode_; }
   /// The mode with the scene's law; empty where the obstacle is rigid.
   const std::optional<solvers::ElasticMode>& elastic_mode() const { return elastic_; }
@@ -88,9 +88,9 @@ class ModeStudy {
   /// The same on a given curve of a mode with a rigid obstacle.
   solvers::ModePoint at_energy(const Backbone& curve, double energy_ratio) const;
 
-  /// One period at `points` uniform times from the middle of the motion's symmetry on. The forces of a rigid
-  /// obstacle are known at analysis.samples times only and hold that of the nearest one. Empty unless the
-  /// point is a solution. O(c N points).
+  /// One period at `points` uniform times from the middle of the motion's symmetry on. The forces of a
+  /// rigid obstacle are known at analysis.samples times only; each instant has the force of the nearest
+  /// one. Empty unless the point is a solution. O(c N points).
   solvers::Motion contact_motion(const solvers::ModePoint& point, int points) const;
   /// The same of `places`, rows times the degrees of freedom of the reduced structure, without forces. O(rows
   /// (n r + N points)).
@@ -100,8 +100,7 @@ class ModeStudy {
   solvers::Motion structure_motion(const solvers::ModePoint& point, int points) const;
 
   /// max over n of |K u_n - (n omega)^2 M u_n + e force_n| over the largest |K u_n|, in the (reduced)
-  /// structure's own coordinates; NaN without motion. That of an elastic law is relative to the motion. O(n
-  /// N).
+  /// structure's coordinates; NaN without motion. With an elastic law it is relative to the motion. O(n N).
   double residual(const solvers::ModePoint& point) const;
 
  private:
@@ -122,12 +121,11 @@ solvers::Motion synthesised_motion(const Eigen::MatrixXcd& amplitudes, double om
 /// it is largest, as columns of a table; missing without a motion.
 void append_amplitudes(Summary& row, const Eigen::MatrixXd& u);
 
-/// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status, residual,
-/// virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the linear branch
-/// and the curve; with an elastic law also modal_energy_ratio; then max_, min_, rms_ and
-/// max_abs_displacement_m of the contacts at analysis.output_points times, each that of the contact where it
-/// is largest (least). Values of points that are not solutions are
-/// missing.
+/// energy_ratio, frequency_Hz, frequency_ratio, rayleigh_frequency_ratio, contact_fraction, status,
+/// residual, virial_residual, max_penetration_over_gap, min_contact_force_N, tongue, tongue_share: the
+/// linear branch and the curve; with an elastic law also modal_energy_ratio; then max_, min_, rms_ and
+/// max_abs_displacement_m of the contacts at analysis.output_points times, each of the contact where it is
+/// largest (least). Values of points that are not solutions are missing.
 Table backbone_table(const ModeStudy& study, const Backbone& curve);
 
 }  // namespace wavebalance::app

@@ -59,15 +59,16 @@ struct Response {
   int iterations = 0;  ///< Newton iterations; periods integrated (time stepping)
   int unknowns = 0;    ///< contact displacements in time; of phases the forces at nodes and the instants;
                        ///< states of the integrator (time stepping)
-  int attractor_periods = -1;  ///< solvers::AttractorMotion::attractor_periods; -1 where nothing was settled
+  int attractor_periods = -1;  ///< solvers::AttractorMotion::attractor_periods; -1 where no attractor was
+                               ///< computed
   std::optional<double> load_frequency{};  ///< Hz, of a motion of a curve; else forcing.frequency
   int periods = 1;         ///< of the load, over which the motion is written: analysis.subharmonic
   int motion_periods = 1;  ///< of the load, after which it repeats: solvers::motion_periods()
   double change_after_one = std::numeric_limits<double>::quiet_NaN();  ///< solvers::change_after() one period
   std::string strategy;  ///< solvers::Strategy that found it, or from where phases were found; empty for time
                          ///< stepping
-  /// rms of the displacements at the quadrature points less those of ResponseOptions::guess, over the rms of
-  /// the guess; NaN without one.
+  /// rms difference of the displacements at the quadrature points from ResponseOptions::guess, over the rms
+  /// of the guess; NaN without one.
   double start_distance = std::numeric_limits<double>::quiet_NaN();
   std::string form;  ///< solvers::ContactForm in which it was solved; empty for references
   /// The unknown of the force form, solvers::PeriodicResponse::unknown_coefficients, and its 1 / epsilon of
@@ -81,7 +82,7 @@ struct Response {
   /// not converged, and the status says `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
-  double phases_seconds = 0.0;           ///< beside it, of the phases of a balance's response
+  double phases_seconds = 0.0;           ///< of the exact motion near a harmonic balance response
   std::optional<RigidContact> rigid;     ///< set in scenes with rigid contact
   std::optional<Refinement> refinement;  ///< set in scenes with time.tolerance
   /// Set if converged, with ResponseOptions::stability.
@@ -105,8 +106,10 @@ struct Response {
   /// TimeMethod of a forced response: "balance", or "exact" of scenes by phases and of those whose
   /// time.tolerance phases meet more cheaply; empty for references.
   std::string solved_by;
-  int start_functions = 0;  ///< of phases: those of the balance that they started from; 0 without one
-  /// Of phases solvers::ExactStructureMotion: the harmonics of `structure`, and the error of those left out.
+  int start_functions = 0;  ///< functions of the harmonic balance from which an exact solution started; 0
+                            ///< without one
+  /// Exact solutions (solvers::ExactStructureMotion): the harmonics of `structure`, and the error of the
+  /// omitted ones.
   int structure_harmonics = 0;
   double structure_left_out = std::numeric_limits<double>::quiet_NaN();
 
@@ -118,18 +121,18 @@ struct Response {
   Eigen::VectorXd force() const { return leading().force.reshaped(); }
 };
 
-/// What a response holds besides the motion of its contacts, and where its solution starts.
+/// Optional parts of a response, and the start of its solution.
 struct ResponseOptions {
-  int structure_points = 0;       ///< uniform instants of Response::structure; 0: none. Of time stepping
-                                  ///< 0 or analysis.output_points
+  int structure_points = 0;       ///< uniform instants of Response::structure; 0: none. For time stepping 0
+                                  ///< or analysis.output_points
   Eigen::VectorXd guess{};        ///< displacement at the quadrature points, m; empty: the linear response.
                                   ///< Not used with time.tolerance
   Eigen::VectorXd guess_force{};  ///< its contact force there, N; may be empty
   bool stay_near_guess = false;   ///< solvers::ForcedResponseOptions::stay_near_guess
   bool stability = false;         ///< of weighted_residual_response() and exact_response()
   bool phases = false;            ///< of weighted_residual_response(): Response::phases
-  /// Of weighted_residual_response() without time.tolerance: whether the exact motion that time integration
-  /// converges to is the response where the functions hold none. Response::solved_by tells which it is.
+  /// For weighted_residual_response() without time.tolerance: if the functions represent no motion, the
+  /// exact motion that time integration converges to is the response. Response::solved_by names it.
   bool exact_instead = false;
   Observer observer{};
 };
@@ -143,19 +146,18 @@ struct ResponseOptions {
 ///
 /// With time.tolerance the functions and points are chosen by solvers::response_to_tolerance; it has
 /// converged when the estimated error meets the tolerance. Below largest_exact_tolerance() exact solutions
-/// are sought first, from coarse balances, unless the scene names a pair of other bases: Response::solved_by
-/// says which it was.
+/// are tried first, from coarse harmonic balances, unless the scene names a pair of other bases.
+/// Response::solved_by names the method.
 Response weighted_residual_response(const Scene& scene, const ResponseOptions& options = {});
 /// The same for the scene's structure composed before.
 Response weighted_residual_response(const Scene& scene, const StructureModel& model,
                                     const ResponseOptions& options = {});
 
-/// Tolerances below this one phases of contact meet sooner than a refined balance does. With one or two
-/// contacts they are as fast at 1e-5 and two to five times as fast at 1e-6; with 30 contacts they take ten
-/// times as long as the balance at 1e-7, whose sizes end near 1e-9.
+/// Below this tolerance exact solutions are faster than refined harmonic balance. With one or two contacts
+/// both are equally fast at 1e-5.
 double largest_exact_tolerance(int contacts);
 
-/// Whether the response is the motion of the structure itself, and not a balance beside it.
+/// Whether the response is the exact periodic solution.
 bool is_exact(const Response& response);
 
 /// time.tolerance, or the default one of exact motions.
@@ -169,11 +171,11 @@ double phases_tolerance(const Scene& scene);
 Response exact_response(const Scene& scene, const ResponseOptions& options = {});
 Response exact_response(const Scene& scene, const StructureModel& model, const ResponseOptions& options = {});
 
-/// The attractor with impacts, of scenes with contact.restitution: exact flights
-/// from impact to impact until it nearly repeats, and of forced responses Newton's method on instants and
-/// impulses from there on [solvers::impact_response()]. Time stepping takes the integrated motion once it
-/// repeats to analysis.tolerance. The whole structure's motion is summed up from harmonics to 1e-4, since
-/// those of impulses do not decay. The status is a solvers::ImpactStatus, or "no_modes".
+/// The attractor with impacts, of scenes with contact.restitution: exact flights from impact to impact
+/// until it nearly repeats, and of forced responses Newton's method on instants and impulses from there on
+/// [solvers::impact_response()]. Time stepping accepts the integrated motion once it repeats to
+/// analysis.tolerance. The whole structure's motion is summed from harmonics to 1e-4, because harmonics of
+/// impulses do not decay. The status is a solvers::ImpactStatus, or "no_modes".
 Response impacts_response(const Scene& scene, const StructureModel& model,
                           const ResponseOptions& options = {});
 

@@ -17,13 +17,13 @@ struct StartMotion {
 };
 
 /// Reads a motion from the results of a run: a folder with contacts.csv or response.csv, or one motion such
-/// as DIR/motion_peak.csv, beside which DIR/motion_peak_contacts.csv holds all contacts where there are
-/// several. summary.json in the same folder says over how many periods of the load. Throws IoError, which
-/// names the motions of a folder that has several, for missing and malformed files.
+/// as DIR/motion_peak.csv, with DIR/motion_peak_contacts.csv for several contacts. summary.json in the same
+/// folder has the number of forcing periods. Throws IoError, which names the motions of a folder that has
+/// several, for missing and malformed files.
 StartMotion read_start_motion(const std::filesystem::path& place);
 
 /// Throws std::invalid_argument where a scene cannot start from this motion: an analysis without a start, a
-/// tolerance in place of sizes, another number of contacts, or periods that do not fit into those of
+/// tolerance instead of sizes, another number of contacts, or periods that do not divide
 /// analysis.subharmonic. Empty motions fit everywhere.
 void require_start_fits(const StartMotion& start, const Scene& scene);
 

@@ -41,7 +41,7 @@ struct SweepAxis {
 
 /// How isolated branches were searched for.
 struct IsolaSearch {
-  std::vector<double> frequencies = {};  ///< Hz; empty where they were not sought
+  std::vector<double> frequencies = {};  ///< Hz; empty if not requested
   std::vector<double> unmatched = {};    ///< Hz, solvers::IsolatedCurves::unmatched
   int starts = 0;                        ///< at each: rest and random states
   bool cancelled = false;                ///< the observer stopped it
@@ -55,18 +55,18 @@ struct IsolaOrigin {
   bool meets_known = false;
 };
 
-/// A curve of responses over the frequency or the amplitude. Frequencies are those of the load, also of the
-/// branches; of an amplitude sweep load scales are amplitudes.
+/// A curve of responses over the frequency or the amplitude. Frequencies are forcing frequencies, also on
+/// branches. Load scales of an amplitude sweep are amplitudes.
 struct Sweep {
   solvers::FrequencySweep curve;
   solvers::CurveStability stability;         ///< set by add_stability(); without points otherwise
   std::vector<solvers::Branch> branches;     ///< set by add_stability() with analysis.branches
   std::vector<ExactAlongSweep> phases = {};  ///< set by add_exact(): of the curve, then of each branch
-  /// Of scenes with impacts: of each point of the curve, then of each branch.
+  /// With impacts: per point of the curve, then of each branch.
   std::vector<std::vector<PointImpacts>> impacts = {};
-  /// Whether they alone make the motions, which then have no forces and no errors of phases.
+  /// Whether all contacts are impacts; motions then have no forces and no errors.
   bool by_impacts() const { return !impacts.empty() && phases.empty(); }
-  /// Of scenes with friction: of each point of the curve, then of each branch.
+  /// With friction: per point of the curve, then of each branch.
   std::vector<std::vector<FrictionShares>> friction = {};
   /// The motions of the points of an exact curve, then of each branch.
   std::vector<std::vector<solvers::ExactSolution>> exact_motions = {};
@@ -78,7 +78,7 @@ struct Sweep {
   int periods = 1;                ///< of the load, over which its motions are solved for
   double start_distance = std::numeric_limits<double>::quiet_NaN();  ///< Response::start_distance
   int motion_periods =
-      1;  ///< of the load, after which that of the first point repeats, solvers::motion_periods()
+      1;  ///< forcing periods after which the motion of the first point repeats, solvers::motion_periods()
   double wall_seconds = 0.0;
   std::string amplitude_unit = "N";                ///< of an amplitude sweep
   std::vector<std::string> motions_left_out = {};  ///< those that curve_motions() was stopped before
@@ -133,8 +133,8 @@ SweepAxis sweep_axis(const Scene& scene);
 /// length as a change by all that vibrates, at most the gap. analysis.first_step and analysis.largest_step
 /// are in Hz.
 Sweep frequency_sweep(const Scene& scene, const Observer& observer = {});
-/// The same for the scene's structure composed before. Its first point is sought near `start` unless that is
-/// empty, as weighted_residual_response() does.
+/// The same for the scene's structure composed before. Its first point is searched for near `start` unless
+/// that is empty, as weighted_residual_response() does.
 Sweep frequency_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                       const StartMotion& start = {});
 
@@ -144,29 +144,28 @@ Sweep amplitude_sweep(const Scene& scene, const Observer& observer = {});
 Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                       const StartMotion& start = {});
 
-/// The scene's curve over frequency or amplitude with analysis.exact or of impacts alone: motions of the
-/// structure themselves, with their stability and bifurcation and grazing points. Turning points are its
-/// folds, and the errors of its phases are those that are estimated. Starts as frequency_sweep() does;
-/// impacts begin with the attractor, and with analysis.branches have the motions of twice as many periods
-/// that begin at period doublings. What an impact passes on is an impulse and not a force, so that points of
-/// impacts alone have no contact force.
+/// The scene's curve over frequency or amplitude with analysis.exact or with impacts only: exact periodic
+/// solutions with their stability and bifurcation and grazing points. Turning points are its folds, and the
+/// errors are estimates. Starts as frequency_sweep() does; impacts begin with the attractor, and with
+/// analysis.branches have the motions of twice as many periods that begin at period doublings. An impact is
+/// an impulse without a finite force, so points with impacts only have no contact force.
 Sweep exact_sweep(const Scene& scene, const StructureModel& model, const Observer& observer = {},
                   const StartMotion& start = {});
 
 /// Sets the exact solutions at the peak and the bifurcation points of a sweep of the scene and at the
-/// bifurcation and grazing points of its branches, of which `model` is the structure; with analysis.phases at
-/// all their points. Of bifurcation and grazing points at most most_special_points_with_exact of each curve
-/// are then taken, those where multipliers pass the unit circle before grazings. With analysis.stability the
-/// bifurcation and grazing points of the structure along the main curve are solved for, as structure_points()
-/// does. Without seeks_exact_points() only the peak has an exact solution. Nothing where neither
-/// analysis.stability nor analysis.phases is true or the structure's modes cannot be computed. An observer
-/// that stops it leaves those found so far.
+/// bifurcation and grazing points of its branches, of which `model` is the structure; with analysis.phases
+/// at all their points. Then at most most_special_points_with_exact bifurcation and grazing points per
+/// curve are used, crossings of the unit circle before grazings. With analysis.stability the bifurcation
+/// and grazing points of the structure along the main curve are solved for, as structure_points() does.
+/// Without seeks_exact_points() only the peak is solved for. Nothing where neither analysis.stability nor
+/// analysis.phases is true or the structure's modes cannot be computed. An observer that stops it leaves
+/// those found so far.
 void add_exact(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
-/// Seeks curves beside those of a sweep of the scene with analysis.isolas, of which `model` is the structure,
-/// its branches of one period among them: solvers::isolated_curves(), with the stability and phases of each.
-/// Beside an exact curve they are sought beside the sweep of the scene's balance, and followed exactly from
-/// there. An observer that stops it leaves the curves so far.
+/// Searches for curves that a sweep of the scene with analysis.isolas did not follow, of which `model` is
+/// the structure, its branches of one period among them: solvers::isolated_curves(), with the stability and
+/// phases of each. For an exact curve they are searched for by harmonic balance and then followed exactly.
+/// An observer that stops it leaves the curves so far.
 void add_isolas(const Scene& scene, const StructureModel& model, Sweep& sweep, const Observer& observer = {});
 
 /// Sets the stability of a sweep of the scene, of which `model` is the structure, unless analysis.stability

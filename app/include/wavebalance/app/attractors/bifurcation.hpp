@@ -26,7 +26,7 @@ struct DiagramValue {
   }
 };
 
-/// The points of a section that differ: of a motion that repeats those of one period.
+/// The points of a section that differ: one period if the motion repeats.
 int points_shown(const DiagramValue& value);
 
 /// A line of the exact curve, in the section: a motion of p periods has p of them.
@@ -44,7 +44,7 @@ struct Diagram {
   int place = 0;  ///< the one that is drawn: the first output, or the contact that moves most
   std::vector<DiagramValue> values = {};
   std::vector<ExactLine> exact = {};
-  /// Of the curve from the other end, which is followed where the first did not come to it; else empty.
+  /// The curve from the other end, followed if the first did not reach it; else empty.
   std::string exact_status_back = {};
   std::string exact_status;  ///< of the exact curve; "not_sought", or "refused" where the scene has none
   std::string status;  ///< "converged", "interrupted", "no_modes", "incomplete" with a failure or "grows"

@@ -34,7 +34,8 @@ enum class MotionKind {
   chaotic,         ///< perturbations grow: the largest Lyapunov exponent is positive beyond its error
   quasi_periodic,  ///< they neither grow nor decay, and the section is a closed curve
   periodic,        ///< the section repeats after `repeats` periods
-  settling,        ///< they decay: it has not settled yet, or repeats after more periods than are recorded
+  settling,        ///< they decay: it has not converged yet, or repeats after more periods than are
+                   ///< recorded
   not_known
 };
 std::string name_of(MotionKind kind);

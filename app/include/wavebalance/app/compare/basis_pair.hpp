@@ -42,7 +42,7 @@ struct PairStyle {
   Dash dash = Dash::solid;
 };
 
-/// The six pairs of JL14's Table 2 have a colour each and are solid; others have that of their trial
+/// The six pairs of JL14's Table 2 have a colour each and are solid; others have the colour of their trial
 /// functions and dashes by their weights.
 PairStyle style_of(const BasisPair& pair);
 

@@ -34,8 +34,8 @@ struct PairResult {
   int converged = 0;                         ///< of these
   int largest_functions = 0;                 ///< solved
   double smallest_error = solvers::missing;  ///< SolvePoint::error
-  /// Observed orders over the functions, of displacements and forces, with the most points per function that
-  /// have three errors above that of the reference: over the last four of them. NaN without three.
+  /// Observed orders over the functions, of displacements and forces, with the most points per function
+  /// that have three errors above the reference's error: over the last four of them. NaN without three.
   double order = solvers::missing, force_order = solvers::missing;
   int order_points_per_function = 0;  ///< of these orders
   std::string failures = {};  ///< "2 stalled (4 to 8 functions), 1 cancelled (1024 functions)", or empty
@@ -74,9 +74,9 @@ struct Comparison {
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and
-/// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. A tenth of the
-/// budget is the reference's, or three tenths where it is a refined balance. Where it is one by collocation
-/// these are solved to several tolerances beside the pairs, for at most a tenth of the budget. Times are
+/// tolerance have no effect; formulation, inner products and Nyquist coefficient hold for all. The
+/// reference gets a tenth of the budget, or three tenths if it is a refined balance. An exact reference is
+/// also solved to several tolerances in addition to the pairs, for at most a tenth of the budget. Times are
 /// processor seconds of the thread that solves; digits do not depend on the threads. The observer is called
 /// by one thread at a time, not always this one; when it returns false the comparison ends with what was
 /// measured so far. Throws as check_comparison().

@@ -38,8 +38,8 @@ Table points_table(const Comparison& comparison);
 Table pairs_table(const Comparison& comparison);
 /// error, error_of, trial, weight, functions, quadrature_points, seconds, displacement_error, force_error,
 /// fourier_functions, fourier_seconds, fourier_time_ratio, basis_matters, phases_functions, phases_points,
-/// phases_seconds, phases_error, stability, sentences, time_table. Those of phases are there where these are
-/// faster than the choice.
+/// phases_seconds, phases_error, stability, sentences, time_table. Entries of phases exist if the exact
+/// solution is faster than the choice.
 Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// trial, weight, functions, points, seconds, curve_points, max_displacement_m,
 /// comparison.peak_column, turning_points, distance_from_finest, distance_from_exact, status.

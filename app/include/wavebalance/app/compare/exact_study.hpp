@@ -9,9 +9,9 @@ namespace wavebalance::app {
 /// To what tolerances exact solutions are computed and how that is timed.
 struct ExactStudyOptions {
   std::vector<double> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
-  int first_functions = 31;  ///< of the coarsest balance from which the phases are sought
+  int first_functions = 31;  ///< of the coarsest harmonic balance used as a start
   int largest_functions = 1023;
-  double max_seconds = 1.0;  ///< s: phases that took longer are not sought from a finer balance
+  double max_seconds = 1.0;  ///< s: after a longer solve no finer start is tried
   Repetition solve = {};
   Repetition construction = {.budget = 0.0, .least = 1, .max_seconds = 0.0};
   /// Called before each solve with what is solved as the phase, and within it. The solve ends `cancelled`

@@ -36,14 +36,14 @@ struct Recommendation {
   /// The cheapest solve, or Fourier:Fourier if at most a tenth slower; empty if no pair reaches the error.
   std::optional<SolvePoint> choice;
   std::optional<SolvePoint> fourier;  ///< the cheapest of Fourier:Fourier
-  /// The cheapest of all other pairs, where the choice is that of Fourier:Fourier; or one of them that takes
-  /// at most twice the time of the choice with at most 1.5 times the error, where that is sooner.
+  /// The cheapest of all other pairs, if the choice is Fourier:Fourier; or one with at most twice the time
+  /// and 1.5 times the error of the choice, if that is faster.
   std::optional<SolvePoint> runner_up;
-  /// One that takes at most half the time of the choice with at most 1.5 times the error.
+  /// One with at most half the time and 1.5 times the error of the choice.
   std::optional<SolvePoint> near_miss;
-  /// One of Fourier:Fourier that takes at most twice the time of the choice with at most 1.5 times the error.
+  /// Fourier:Fourier with at most twice the time and 1.5 times the error of the choice.
   std::optional<SolvePoint> fourier_near_miss;
-  /// The fastest exact solution, where it takes less time than the choice, or no pair reaches the error.
+  /// The fastest exact solution, if it is faster than the choice, or no pair reaches the error.
   std::optional<SolvePoint> phases;
   BasisMatters matters = BasisMatters::no_choice;
   std::string sentences;   ///< two, and one on the exact solution where it is faster
@@ -57,9 +57,9 @@ struct Recommendation {
 /// Largest fraction of a requested error that the reference may have.
 inline constexpr double known_share = 0.25;
 
-/// The recommendation from points whose errors are relative to a reference that has an error of its own.
-/// Where that is above a quarter of `error`, no pair is known to reach it. `time` holds what was the same for
-/// all points, `measure` says of what SolvePoint::error is.
+/// The recommendation from points whose errors are relative to a reference with a known error. If that is
+/// above a quarter of `error`, no pair is known to reach it. `time` holds the common settings of all
+/// points, `measure` the meaning of SolvePoint::error.
 Recommendation recommend(const std::vector<SolvePoint>& points, double error, double reference_error,
                          const Time& time, ErrorMeasure measure = ErrorMeasure::displacement);
 

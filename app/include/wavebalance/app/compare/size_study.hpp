@@ -15,7 +15,7 @@
 
 namespace wavebalance::app {
 
-/// What is compared: a scene, its structure composed before, and its response as it should be.
+/// Subject of a comparison: a scene, its structure composed before, and its reference response.
 struct MeasuredScene {
   Scene scene;
   StructureModel model;
@@ -29,19 +29,19 @@ struct MeasuredScene {
 struct SizeStudyOptions {
   std::vector<int> functions;            ///< rising powers of two
   std::vector<int> points_per_function;  ///< rising
-  double max_seconds = 1.0;     ///< s: what is expected to take longer is not run, and a homotopy ends there
-  double smallest_error = 0.0;  ///< a series of sizes ends at the first one with no larger error
+  double max_seconds = 1.0;              ///< s: longer solves are not started, and a homotopy ends there
+  double smallest_error = 0.0;           ///< a series of sizes ends at the first one with no larger error
   Repetition solve = {};
   Repetition construction = {.budget = 0.0, .least = 2, .max_seconds = 0.1};
-  /// Whether an even number of Fourier functions, whose Nyquist coefficient the scene drops, is left out
-  /// beside the odd one of the same functions.
+  /// Whether an even number of Fourier functions, whose Nyquist coefficient the scene drops, is left out if
+  /// the odd number with the same functions is used.
   bool without_equals = true;
-  /// > 0: a solve ends when it takes longer than so many times the fastest that has converged with as many
-  /// functions and points, ten times as many for Fourier:Fourier, but not before 5 ms. It has not converged
-  /// then.
+  /// > 0: a solve ends after so many times the fastest converged time with as many functions and points,
+  /// ten times as many for Fourier:Fourier, but not before 5 ms. It has not converged then.
   double longest_ratio = 0.0;
-  /// > 0: a series of sizes ends, Fourier:Fourier apart, with the second size in a row, of 64 functions or 10
-  /// ms or more, that fails or takes so many times as long as another solve with no larger error.
+  /// > 0: a series of sizes ends, except for Fourier:Fourier, with the second size in a row, of 64
+  /// functions or 10 ms or more, that fails or takes so many times as long as another solve with no larger
+  /// error.
   double dominated_ratio = 0.0;
   int threads = 1;  ///< that solve the pairs of a size together; 0: one per core
   /// Called before each size with its pair as the phase, by one thread at a time. No size is begun after it
@@ -51,12 +51,11 @@ struct SizeStudyOptions {
 
 /// The scene in every pair over functions and points, a pair of Fourier functions also with one function
 /// less: an odd number has no Nyquist coefficient. Sizes rise for all pairs together, so that an early end
-/// leaves all of them equally far, with a dominated_ratio those first that lead; the rows are those of one
-/// series after the other.
+/// leaves all of them equally far, with a dominated_ratio leading pairs first. Rows are ordered by series.
 std::vector<SolvePoint> size_study(const MeasuredScene& measured, const std::vector<BasisPair>& pairs,
                                    const SizeStudyOptions& options);
 
-/// The scene with a pair and its sizes in place of its own, or of its tolerance.
+/// The scene with another pair and sizes, or with them instead of its tolerance.
 Scene discretised(Scene scene, const BasisPair& pair, int functions, int points);
 
 /// The problem before its condensation, which is part of a solve.

@@ -5,13 +5,13 @@
 
 namespace wavebalance::app {
 
-/// Processor seconds that this thread has used. What is measured runs in one thread, and load of other
-/// programs and threads then hardly shows.
+/// Processor seconds that this thread has used. Measured work runs in one thread, so other programs and
+/// threads hardly affect it.
 double processor_seconds();
 
 struct Repetition {
   double budget = 0.02;      ///< s, no further call is started after it
-  int least = 2;             ///< calls at least, unless the first alone takes more than `max_seconds`
+  int least = 2;             ///< calls at least, unless the first takes more than `max_seconds`
   double max_seconds = 0.5;  ///< s
 };
 

@@ -30,7 +30,7 @@ struct SweepComparison {
   bool interrupted = false;
   std::vector<ComparedCurve> curves;     ///< by rising functions, all pairs of each
   std::optional<std::size_t> finest;     ///< the first of most functions that reached the end
-  std::optional<ComparedCurve> exact;    ///< that of the structure itself, exact_sweep(), without a pair
+  std::optional<ComparedCurve> exact;    ///< the exact curve, exact_sweep(), without a pair
   std::vector<PairResult> inadmissible;  ///< of common_pairs()
   std::string quantity = "frequency";    ///< that varies, or "amplitude"
   std::string unit = "Hz";               ///< of it; of an amplitude "N", "m" or "m/s^2"

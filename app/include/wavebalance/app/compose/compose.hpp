@@ -24,10 +24,10 @@ solvers::ContactLaws make_laws(const Scene& scene);
 solvers::AnyTimeBasis make_basis(const std::string& name, int functions);
 
 /// How the inner products of trial and weight are computed: by the scene's key, except that Daubechies
-/// Galerkin pairs always take connection coefficients, which are exact [JL14, section 4.1].
+/// Galerkin pairs always use connection coefficients, which are exact [JL14, section 4.1].
 InnerProducts effective_inner_products(const Time& time);
 
-/// What becomes of the Nyquist coefficient: by the scene's key, except that pairs without a force on it drop
+/// Treatment of the Nyquist coefficient: by the scene's key, except that pairs without a force on it drop
 /// it.
 NyquistCoefficient effective_nyquist(const Time& time);
 
@@ -35,8 +35,8 @@ NyquistCoefficient effective_nyquist(const Time& time);
 solvers::Admissibility pair_admissibility(const Time& time);
 
 /// Throws solvers::InadmissiblePair. With exact inner products against Haar functions, an even number of
-/// Fourier functions ends with sin(M pi t) in place of cos(M pi t), whose inner product with Haar
-/// functions is zero.
+/// Fourier functions ends with sin(M pi t) instead of cos(M pi t), whose inner product with Haar functions
+/// is zero.
 solvers::TimePair make_pair(const Time& time);
 
 /// The structure without damping in its own linear modes, all of them.
@@ -45,8 +45,7 @@ struct StructureModes {
   Eigen::MatrixXd shapes;  ///< n x r, mass-normalised
 };
 
-/// Frequencies that differ by less of themselves are equal but for the errors of a mesh: those of a round
-/// pipe.
+/// Frequencies with a smaller relative difference are equal up to mesh errors, as for a round pipe.
 inline constexpr double equal_frequencies = 1e-5;
 
 /// Modes of equal frequency are those combinations of them of which the first moves the contacts most, and
@@ -57,12 +56,11 @@ StructureModes make_modes(const StructureModel& model);
 /// The scene's nonlinear mode on these modes.
 solvers::NonlinearMode make_nonlinear_mode(const Scene& scene, const solvers::ModalModel& model);
 
-/// What there is to ask of a scene: make_problem() with the scene's contact laws, and the dynamics of its
-/// structure composed before.
+/// make_problem() with the scene's contact laws, and the dynamics of its structure composed before.
 solvers::ContactProblem compose_problem(const Scene& scene, const StructureModel& model);
 
-/// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set. The period
-/// of the problem is that of analysis.subharmonic periods of the load, and its frequency accordingly.
+/// The scene's pair and structure, condensed on the contacts; at forcing.frequency if that is set. The
+/// period of the problem is analysis.subharmonic forcing periods.
 solvers::CondensedProblem make_problem(const Scene& scene);
 /// The same for the scene's structure composed before.
 solvers::CondensedProblem make_problem(const Scene& scene, const StructureModel& model);

@@ -9,7 +9,7 @@ namespace wavebalance::app {
 /// Whether the scene is a nonlinear mode with friction, which dissipates energy.
 bool is_damped_mode(const Scene& scene);
 
-/// Whether the scene is a nonlinear mode with a law of contact in place of a rigid obstacle.
+/// Whether the scene is a nonlinear mode with a contact law instead of a rigid obstacle.
 bool is_elastic_mode(const Scene& scene);
 
 /// The discretisation of an elastic mode: the scene's own if it names a trial basis, else 2 harmonics + 1

@@ -3,8 +3,8 @@
 
 namespace wavebalance::app {
 
-/// Replaces the structure by that of solvers::with_massless_contacts(), with its `modes` lowest modes. Throws
-/// as that does. O(n^3).
+/// Replaces the structure by solvers::with_massless_contacts() with its `modes` lowest modes. Throws the
+/// same errors. O(n^3).
 void make_contacts_massless(StructureModel& model, int modes);
 
 /// Largest relative difference of the first ten natural frequencies of two structures without contact, of as

@@ -9,10 +9,10 @@
 namespace wavebalance::app {
 
 /// The keys of a scene's file that do not belong to an analysis of the type `type`, each "section.key", or
-/// "forcing.terms" for all of its terms: those that have no meaning in it, of a nonlinear mode without
-/// friction dampings and loads too. Other keys of the structure are not among them, since without them it is
-/// another structure: the analysis refuses them. Of overrides those of type, law and method count. Throws
-/// SceneError for a file that cannot be read or is not TOML.
+/// "forcing.terms" for all of its terms: without meaning in it, for a nonlinear mode without friction also
+/// dampings and loads. Other keys of the structure are kept, because they define it: the analysis refuses
+/// them. Only overrides of type, law and method count. Throws SceneError for a file that cannot be read or
+/// is not TOML.
 std::vector<std::string> keys_beside_analysis(const std::filesystem::path& file, const std::string& type,
                                               const std::vector<std::string>& overrides = {});
 
@@ -24,7 +24,7 @@ struct SceneChange {
   std::string added = {};               ///< TOML, as "[[forcing.terms]]\nharmonic = 0"
 };
 
-/// The scene as a forced response, with usual bases and sizes where it has none; impacts take none.
+/// The scene as a forced response, with usual bases and sizes where it has none; impacts have none.
 SceneChange as_response(const Scene& scene);
 
 /// The scene with this change, if it passes the rules of a file. Keys that the change does not name and that

@@ -21,7 +21,7 @@ struct SupportMotion {
 struct Output {
   std::string name;            ///< "node 1052 z", "-row 17", "velocity of row 3", "contact 2"
   std::string title;           ///< the name, of contacts with the place: "contact 2, -node 18 z"
-  std::string column;          ///< the name as that of a column begins, "minus_row_17"
+  std::string column;          ///< the beginning of the names of its columns, "minus_row_17"
   std::string unit = "m";      ///< of its values: "rad" of a rotation, "g"; empty of a ratio
   std::string suffix = "m";    ///< the unit at the end of a column's name
   std::vector<int> rows = {};  ///< of matrices or nodes of a bar, from 0; none of a contact
@@ -33,7 +33,7 @@ struct Output {
   /// The direction whose force tells whether that contact is closed, the normal one where it has tangents; -1
   /// where it never opens.
   int closed_by = -1;
-  std::vector<SupportMotion> added = {};  ///< motions that take it to its frame
+  std::vector<SupportMotion> added = {};  ///< motions added to obtain its frame of reference
   std::vector<SupportMotion> over = {};   ///< over whose half peak-to-peak value it is a ratio; or none
 
   bool is_contact() const { return contact >= 0; }
@@ -48,7 +48,7 @@ struct Output {
 /// Name of a place as the beginning of a column: "minus_node_18_x", "contact_2".
 std::string column_of(const std::string& name);
 
-/// The unit of the displacement of a contact: "rad" between rotations alone, otherwise "m".
+/// The unit of the displacement of a contact: "rad" if all its rows are rotations, otherwise "m".
 std::string displacement_unit(const Scene& scene, const SceneContact& contact);
 /// "rad" where all contacts are between rotations, otherwise "m".
 std::string displacement_unit(const Scene& scene);

@@ -50,8 +50,8 @@ struct StructureModel {
   bool reduced() const { return recovery.size() > 0; }
   /// Null where the structure has no modes to compute.
   const solvers::ContactDynamics* contact_dynamics() const { return dynamics->of(structure).get(); }
-  /// unknowns x points: displacements (or velocities) of the whole structure from those of the reduced one, r
-  /// x points. Throws std::invalid_argument if the rows do not fit. O(unknowns r points).
+  /// unknowns x points: displacements (or velocities) of the whole structure from reduced ones, r x points.
+  /// Throws std::invalid_argument if the rows do not fit. O(unknowns r points).
   Eigen::MatrixXd recover(const Eigen::MatrixXd& coordinates) const;
 };
 

@@ -21,9 +21,9 @@ class IoError : public std::runtime_error {
   std::string reason_;
 };
 
-/// A set of files in one folder that appears as a whole or not at all. Each is written to a hidden temporary
-/// beside its final place, flushed to the disk and checked; commit() then renames them all. Whatever was not
-/// committed is removed with the object, and so is the folder if this object made it.
+/// A set of files in one folder that appears as a whole or not at all. Each is written to a hidden
+/// temporary file in the same folder, flushed to the disk and checked; commit() then renames them all.
+/// Files that were not committed are removed with the object, and so is the folder if this object made it.
 ///
 ///     OutputFiles files("results/mine");          // throws IoError now if the folder cannot be written to
 ///     files.add("response.csv", text);

@@ -52,7 +52,7 @@ struct Entry {
   std::string name;
   SummaryValue value;
   EntryKind kind = EntryKind::diagnostic;
-  std::string_view unit, words;  ///< those of its Quantity
+  std::string_view unit, words;  ///< of its Quantity
 };
 
 using Summary = std::vector<Entry>;
@@ -77,7 +77,7 @@ std::vector<std::string> columns_of(const Summary& row);
 std::vector<Cell> cells_of(const Summary& row);
 /// Rows with the same names; without columns if there are none.
 Table table_of(const std::vector<Summary>& rows);
-/// The rows of items, one for each; without items the columns are those of one without values.
+/// The rows of items, one for each; without items the columns of an item without values.
 template <class Items, class RowOf>
 Table tabulated(const Items& items, RowOf row_of) {
   std::vector<Summary> rows;

@@ -60,13 +60,13 @@ class Table {
   /// An empty table with these columns.
   explicit Table(std::vector<std::string> columns);
 
-  /// Throws std::invalid_argument if the length is not that of the other columns or the name is taken.
+  /// Throws std::invalid_argument if the length differs from other columns or the name exists.
   Table& add_column(std::string name, std::span<const double> values);
   template <DoubleArray Range>
   Table& add_column(std::string name, const Range& values) {
     return add_column(std::move(name), as_span(values));
   }
-  /// Throws std::invalid_argument if the number of cells is not that of the columns.
+  /// Throws std::invalid_argument if the number of cells differs from the number of columns.
   void append_row(std::vector<Cell> row);
 
   const std::vector<std::string>& columns() const { return names_; }

@@ -11,7 +11,7 @@
 
 namespace wavebalance::app {
 
-/// What is measured of an output over a period, in its unit; not numbers where it is not known.
+/// Measures of an output over a period, in its unit; NaN if not known.
 struct OutputMeasures {
   double max = std::numeric_limits<double>::quiet_NaN();
   double min = std::numeric_limits<double>::quiet_NaN();
@@ -47,8 +47,8 @@ Eigen::MatrixXd values_of_outputs(const std::vector<Output>& outputs, const Scen
                                   const StructureModel& model, const solvers::Motion& contacts,
                                   const solvers::Motion& structure, const LoadAt& load);
 
-/// What is measured of `values`, outputs x points at uniform times of `periods` periods of the load, with
-/// `harmonics` harmonics of the load. Forces are those of the contacts. O(outputs harmonics points).
+/// Measures of `values`, outputs x points at uniform times of `periods` forcing periods, with `harmonics`
+/// harmonics of the load. Forces are contact forces. O(outputs harmonics points).
 MeasuredPoint measure(const std::vector<Output>& outputs, const Eigen::MatrixXd& values,
                       const Eigen::MatrixXd& forces, int harmonics, int periods);
 
@@ -64,8 +64,8 @@ struct SweepOutputs {
   std::vector<Output> outputs;
   std::vector<std::vector<MeasuredPoint>> curves;  ///< of the curve, then of each branch
   std::vector<std::vector<MeasuredPoint>> isolas;  ///< of each isola
-  /// Of each of analysis.outputs: where half its peak-to-peak value is largest on the curve, and where its
-  /// modulus is.
+  /// For each of analysis.outputs: the points of the curve with the largest half peak-to-peak value and the
+  /// largest modulus.
   std::vector<OutputPeak> peaks = {}, largest = {};
   MeasuredPoint exact_at_peak = {};  ///< of the exact motion at the peak of the curve; empty where not known
 

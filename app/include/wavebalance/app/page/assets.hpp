@@ -20,9 +20,9 @@ bool available(Library library);
 /// Throws std::out_of_range for any other name.
 std::string_view asset(std::string_view name);
 
-/// Writes all styles and scripts of this project's own into `folder`, and beside them the files of those
-/// `libraries` that are available: d3.min.js (0.2 MB), three.min.js (0.6 MB), katex.min.js, katex.min.css and
-/// its fonts (1.4 MB). Throws IoError.
+/// Writes all styles and scripts of this project into `folder`, and the files of available `libraries`:
+/// d3.min.js (0.2 MB), three.min.js (0.6 MB), katex.min.js, katex.min.css and its fonts (1.4 MB). Throws
+/// IoError.
 void write_assets(const std::filesystem::path& folder, const std::vector<Library>& libraries);
 
 }  // namespace wavebalance::app

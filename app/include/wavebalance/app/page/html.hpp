@@ -45,9 +45,9 @@ std::string picture_size(std::string_view bytes);
 /// curves in its place. Throws std::invalid_argument without an alternative text.
 std::string figure_html(const FigureBlock& block);
 
-/// A table in a box of its own that scrolls sideways where it is too wide. The first row is the head; every
-/// cell may have formulas between dollar signs. The first column stays where it `names` the rows. Empty for a
-/// table without rows.
+/// A table in a box that scrolls sideways if it is too wide. The first row is the head; every cell may have
+/// formulas between dollar signs. The first column stays where it `names` the rows. Empty for a table
+/// without rows.
 std::string table_html(const std::vector<std::vector<std::string>>& rows, bool names = false);
 
 /// The parts of a page, for page_html().

@@ -17,7 +17,7 @@ class PlotError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` takes the next one of the panel.
+/// Colours for the colour-blind (Okabe & Ito, 2008). `automatic` is the next one of the panel.
 enum class Colour { automatic, black, orange, sky_blue, green, blue, vermillion, purple, grey };
 
 /// How the points of a series are drawn.
@@ -68,7 +68,7 @@ struct Series {
   Colour colour = Colour::automatic;
   Dash dash = Dash::solid;
   double width = 1.6;               ///< points
-  int marker = 0;                   ///< 0 takes the next symbol of the panel, n > 0 the n-th
+  int marker = 0;                   ///< 0 is the next symbol of the panel, n > 0 the n-th
   std::optional<int> marker_every;  ///< a symbol on every n-th point only
   double marker_size = 1.0;         ///< of its symbols, below 0.5 for dots
   bool area = false;                ///< without points: names the rectangles of its colour in the legend
@@ -86,8 +86,8 @@ struct Axis {
   std::string tick_format;              ///< a format of gnuplot, "%.1f"; empty for its default
 };
 
-/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest. Values
-/// beyond the ends of the colours take the last one, and the bar says so.
+/// Values over a uniform grid as colours, blue for the least, white for zero, orange for the largest.
+/// Values beyond the ends have the last colour, which the bar marks.
 struct HeatMap {
   std::vector<double> x;       ///< columns, uniform
   std::vector<double> y;       ///< rows, uniform
@@ -97,7 +97,7 @@ struct HeatMap {
   bool from_zero = false;      ///< for values >= 0: white for `least`, dark blue for the largest
   double least = 0.0;
   std::vector<std::string> told_heads = {};         ///< empty, or names of what a page tells of a value
-  std::vector<std::vector<double>> told_rows = {};  ///< as many as values; empty where nothing is told
+  std::vector<std::vector<double>> told_rows = {};  ///< as many as values; empty: no text under the pointer
 };
 
 /// A straight line from (x1, y1) to (x2, y2); unset ends run to the panel's edge.
@@ -126,7 +126,7 @@ struct TextMark {
 
 /// Commands of gnuplot for what panels have no series for.
 struct Drawing {
-  std::string data;                ///< data blocks, each with a name of its own in the figure
+  std::string data;                ///< data blocks, each with a unique name in the figure
   std::string setup;               ///< commands before the plot, which set the ranges of x and y
   std::vector<std::string> items;  ///< of the plot command
   std::vector<Series> legend;      ///< named in the legend and not drawn
@@ -159,9 +159,9 @@ struct Panel {
   Panel& mark_level(double y_value, const std::string& label, const std::string& value);
 };
 
-/// Panels in rows, filled from the left; several are lettered (a), (b), ... One legend stands below them all:
-/// it names each label and look once, of series that have a point. The picture is higher than its panels by
-/// the title and the legend.
+/// Panels in rows, filled from the left; several are lettered (a), (b), ... One legend below them all names
+/// each label and look once, of series that have a point. The picture is higher than its panels by the
+/// title and the legend.
 struct Figure {
   std::string title;
   std::vector<Panel> panels;

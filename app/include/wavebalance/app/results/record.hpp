@@ -52,7 +52,7 @@ struct Record {
   std::vector<RecordPicture> motion_pictures;  ///< of the motions of points of a curve
   std::vector<RecordPicture> output_pictures;  ///< of analysis.outputs and of contacts, each for itself
 
-  /// At the end of the summary, by a Quantity or by its name alone.
+  /// At the end of the summary, by a Quantity or by its name.
   template <class Name, class Value>
   void add(const Name& name, Value&& value) {
     summary.emplace_back(name, std::forward<Value>(value));
@@ -82,7 +82,7 @@ struct AnalysisOptions {
   StartMotion start{};
   Observer observer{};
   int threads = 0;  ///< that condense several harmonics together; 0: one per core. Digits do not change
-  /// That of the scene, made before, whose threads then hold; null: it is made.
+  /// Composed before, and its number of threads applies; null: it is composed.
   const StructureModel* model = nullptr;
 };
 
@@ -91,7 +91,7 @@ struct AnalysisOptions {
 Record analyse(const Scene& scene, const Observer& observer = {});
 Record analyse(const Scene& scene, const AnalysisOptions& options);
 
-/// What would be solved, how large it is and whether the pair is admissible, in a few lines of text.
+/// A few lines of text: the problem, its size and whether the pair is admissible.
 std::string describe_scene(const Scene& scene);
 
 }  // namespace wavebalance::app

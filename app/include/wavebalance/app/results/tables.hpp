@@ -15,8 +15,8 @@ Table contacts_table(const Scene& scene, const solvers::Motion& contacts);
 /// The table of a frequency sweep's record.
 Table sweep_table(const solvers::FrequencySweep& curve);
 /// The same with the columns `unstable`, missing where it is not known, and `contacts`; with branches also
-/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other. Of an
-/// amplitude sweep the first column is the amplitude in its unit.
+/// `branch`, 0 on the main curve, and `period` in periods of the load, all curves one below the other. The
+/// first column of an amplitude sweep is the amplitude in its unit.
 Table sweep_table(const Sweep& sweep, bool with_branches = false,
                   const std::vector<SceneContact>& contacts = {});
 

@@ -20,8 +20,8 @@ enum class AnalysisType {
   bifurcation_diagram
 };
 
-/// By what an analysis finds motions: equations of functions or modes, integration in time alone, or exactly,
-/// by event-driven collocation, or from event to event whatever the contacts are.
+/// Method of an analysis: equations of functions or modes, time integration, event-driven collocation, or
+/// integration from event to event.
 enum class MotionsBy { equations, time, phases, events };
 
 /// The words and flags in which analyses differ.
@@ -92,11 +92,11 @@ struct Analysis {
   /// sweeps, with stability: whether the points of the curve between which counts or contacts change are
   /// located
   bool special_points = true;
-  /// forced_response, frequency_sweep: periods of the load after which motions repeat. Time's functions and
-  /// points and output_points are then those of all of them.
+  /// forced_response, frequency_sweep: periods of the load after which motions repeat. Functions and points
+  /// of [time] and output_points then refer to all of them.
   int subharmonic = 1;
   bool branches = false;  ///< frequency_sweep: whether curves that begin at bifurcation points are followed
-  /// frequency_sweep: whether motions on no known curve are sought, at frequencies that are at most
+  /// frequency_sweep: whether to search for motions on no known curve, at frequencies that are at most
   /// isola_spacing (Hz) apart, from rest and isola_starts random states, and their curves followed
   bool isolas = false;
   double isola_spacing = 0.0;
@@ -126,7 +126,7 @@ struct Analysis {
 
   int recorded_periods = 512;   ///< time_stepping: periods recorded where the motion does not repeat; 0: none
   int values = 101;             ///< bifurcation_diagram: of the frequency or the amplitude
-  int transient_periods = 200;  ///< bifurcation_diagram: periods of each value before those of the section
+  int transient_periods = 200;  ///< bifurcation_diagram: periods of each value before the section
   int section_points = 64;      ///< bifurcation_diagram: of each value, one a period
   double section_tolerance = 1e-4;  ///< bifurcation_diagram: relative distance of points that count as one
   bool both_ways = true;            ///< bifurcation_diagram: whether the values are also passed the other way
@@ -136,7 +136,7 @@ struct Analysis {
   int harmonics = 10;             ///< nonlinear_mode: N of the Fourier series
   int samples = 0;                ///< nonlinear_mode: m >= 2N uniform times at which contact is enforced
   bool cosine_only = false;       ///< nonlinear_mode: motions that are even in time only
-  double reference_length = 0.0;  ///< nonlinear_mode: m, in place of the gap of a law that has none; 0: none
+  double reference_length = 0.0;  ///< nonlinear_mode: m, instead of the gap of a law that has none; 0: none
   double energy_ratio = 0.0;      ///< nonlinear_mode: the one motion of this energy; 0: the whole curve
   double largest_energy = 10.0;   ///< nonlinear_mode: energy ratio at which the curve ends
   double last_frequency_ratio = 0.0;  ///< nonlinear_mode: or frequency over the linear one; 0: any

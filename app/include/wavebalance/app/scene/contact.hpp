@@ -20,8 +20,9 @@ enum class ObstacleSide { positive, negative, both };
 /// The contact.law of a scene without contact.
 inline constexpr std::string_view no_law = "none";
 
-/// One entry of [[contact.pairs]]: a direction of contact of matrices, which moves by the sum of coefficients
-/// times degrees of freedom, and its law. Complete once loaded: what a file leaves out is that of [contact].
+/// One entry of [[contact.pairs]]: a direction of contact of matrices, which moves by the sum of
+/// coefficients times degrees of freedom, and its law. Complete once loaded: missing keys are taken from
+/// [contact].
 struct ContactPair {
   std::vector<int> dofs = {};             ///< from 1, none twice
   std::vector<double> coefficients = {};  ///< one each, not all zero; empty before loading: 1, or 1 and -1
@@ -32,7 +33,7 @@ struct ContactPair {
   std::string law{no_law};         ///< as in Contact
   contact::LawValues values = {};  ///< as in Contact
   double gap = 0.0;                ///< m, on every side that has an obstacle
-  std::string name = {};           ///< by which texts and pictures show it, too; empty: by its number alone
+  std::string name = {};           ///< shown in texts and pictures; empty: its number is shown
 
   /// A value by its name. Throws std::out_of_range where none is set.
   double number(std::string_view parameter) const { return contact::number_of(values, parameter); }
@@ -49,8 +50,8 @@ struct Contact {
   ContactMass mass = ContactMass::automatic;  ///< of the contact degrees of freedom
   Direction tangent = Direction::y;           ///< blade with friction: along which its tip rubs, x or y
   double gap = 0.0;                           ///< m, displacement at which contact starts
-  std::vector<double> gaps = {};  ///< m, one per contact in place of gap; empty: gap holds for all
-  /// Directions of contact in place of MatricesStructure::contact_dofs, each with its own law and gap.
+  std::vector<double> gaps = {};              ///< m, one per contact instead of gap; empty: gap holds for all
+  /// Contact degrees of freedom instead of MatricesStructure::contact_dofs, each with its law and gap.
   std::vector<ContactPair> pairs = {};
 
   /// A value by its name. Throws std::out_of_range where none is set.
@@ -80,12 +81,12 @@ bool names_signal(const Contact& contact);
 bool names_coupled_rows(const Contact& contact);
 /// Whether a law of [contact] or of a pair has friction that sticks or slips.
 bool names_friction(const Contact& contact);
-/// Whether a law of [contact] or of a pair takes energy from a motion: friction, or a force of the velocity.
+/// Whether a law of [contact] or of a pair dissipates energy: friction, or a force of the velocity.
 bool takes_energy(const Contact& contact);
 /// Whether one of these has friction without tangential_stiffness, which is rigid.
 bool names_rigid_friction(const Contact& contact);
 /// Whether one of these has friction against a surface that moves, with static_friction above friction, or
-/// with dashpots beside its springs, so that its force follows from its states alone.
+/// with dashpots parallel to its springs, so that its force follows from its states only.
 bool names_friction_of_states(const Contact& contact);
 /// Whether it is a rigid law with contact.restitution, whose motions are found by their impacts.
 bool has_impacts(const Contact& contact);

@@ -18,10 +18,10 @@ struct SceneContact {
   int place = 0;                          ///< among the directions of its contact, from 0
   int number = 1;      ///< of its contact, from 1: the one number that files, pages and messages have
   int directions = 1;  ///< of its contact
-  /// That of its pair, with a minus sign for the negative one of two obstacles; empty where it has none.
+  /// The name of its pair, with a minus sign for the negative one of two obstacles; may be empty.
   std::string name = {};
   std::string law{no_law};
-  contact::LawValues values = {};  ///< of this law alone, its gap included
+  contact::LawValues values = {};  ///< of this law only, its gap included
   double gap = 0.0;                ///< m; without meaning where the law has no gap
 
   /// Whether both have one law with the same values.
@@ -31,8 +31,8 @@ struct SceneContact {
 /// Whether a direction is no motion but the signal of its law.
 bool is_signal(const SceneContact& contact);
 
-/// All directions of contact of a scene in the order of the solvers: those of structure.contact_dofs or of a
-/// bar or blade, then those of [[contact.pairs]], of which one with obstacles on both sides has two, the
+/// All contact degrees of freedom of a scene in the order of the solvers: structure.contact_dofs or the
+/// contacts of a bar or blade, then [[contact.pairs]]. A pair with obstacles on both sides has two, the
 /// positive one first. Normal loads that grow with the square of the frequency have their size at
 /// `frequency`, Hz of the load, which is load_frequency() unless it is given. Throws std::invalid_argument
 /// for another number of gaps than one, or one each.
@@ -44,7 +44,7 @@ std::pair<double, double> load_frequencies(const Scene& scene);
 /// A file normal_load_table: its frequencies, Hz and ascending, and then its normal loads, N. Throws
 /// std::runtime_error, naming the file, where it is wrong.
 std::vector<double> read_normal_loads(const std::string& file);
-/// With them in place of the names of the files, for laws at many frequencies.
+/// With them instead of the names of the files, for laws at many frequencies.
 Contact with_tables_read(Contact contact);
 /// Whether the normal load of a contact grows with the square of the frequency, or follows a table.
 bool has_growing_normal_load(const Contact& contact);
@@ -77,7 +77,7 @@ bool has_damped_contact(const Scene& scene);
 /// Whether a contact has friction.
 bool has_friction(const Scene& scene);
 
-/// The values of [contact] or of a pair that the law takes, its gap included.
+/// The values of [contact] or of a pair that the law uses, its gap included.
 contact::LawValues law_values(const std::string& law, const contact::LawValues& values, double gap);
 
 /// Number of corner nodes along a blade's tip.

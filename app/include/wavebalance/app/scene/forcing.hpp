@@ -19,7 +19,7 @@ struct ForcingTerm {
   LoadKind kind = LoadKind::force;
   int harmonic = 1;        ///< of Forcing::frequency; 0: static, without phase
   double amplitude = 1.0;  ///< in unit_of() the term
-  std::string unit = {};   ///< of a base_acceleration "g"; empty: that of SI
+  std::string unit = {};   ///< for a base_acceleration "g"; empty: SI
   /// CSV file with the columns frequency_Hz, amplitude and phase_degrees, which may be left out: factors on
   /// amplitude and phases added to phase, over Forcing::frequency or along a sweep; or empty.
   std::string amplitude_table = {};
@@ -47,12 +47,12 @@ struct Forcing {
   Direction direction = Direction::y;          ///< blade
   /// Matrices with a dof map: m/s^2 along x, y and z, the static acceleration that all masses feel; or empty.
   std::vector<double> weight = {};
-  std::vector<ForcingTerm> terms = {};  ///< beside it
+  std::vector<ForcingTerm> terms = {};  ///< in addition to it
 
   bool operator==(const Forcing&) const = default;
 };
 
-/// Of the amplitude of a term: "N", "m", "m/s^2" or "kg m", mass times eccentricity of an unbalance.
+/// Unit of the amplitude of a term: "N", "m", "m/s^2" or "kg m", mass times eccentricity of an unbalance.
 std::string_view unit_of(LoadKind kind);
 /// Unit of the amplitude of a term; may be "g".
 std::string_view unit_of(const ForcingTerm& term);

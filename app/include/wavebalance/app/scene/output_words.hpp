@@ -10,7 +10,7 @@ enum class OutputQuantity { displacement, velocity, acceleration, transmissibili
 /// In which frame where supports move; `given`: in that in which it is solved for.
 enum class OutputFrame { given, absolute, relative };
 
-/// What an entry of analysis.outputs asks for: "absolute acceleration of node 5 y in g".
+/// Parsed entry of analysis.outputs: "absolute acceleration of node 5 y in g".
 struct OutputWords {
   OutputQuantity quantity = OutputQuantity::displacement;
   OutputFrame frame = OutputFrame::given;
@@ -36,8 +36,8 @@ const OutputUnit* unit_at_end(std::string_view column);
 /// Throws std::invalid_argument with the expected form.
 OutputWords output_words(std::string_view text);
 
-/// The words without their unit as they name an output: a displacement by its place alone, "node 5 y", others
-/// as "absolute acceleration of node 5 y".
+/// The words without their unit as they name an output: a displacement by its place only, "node 5 y",
+/// others as "absolute acceleration of node 5 y".
 std::string output_name(const OutputWords& words);
 
 /// How often the displacement is differentiated.

@@ -16,22 +16,22 @@ using solvers::Formulation;
 using solvers::InnerProducts;
 using solvers::NyquistCoefficient;
 
-/// What a response solves for, time.method: the balance in a pair of bases, or the motion of the structure
-/// itself, exactly.
+/// Method of a response, time.method: harmonic or wavelet balance in a pair of bases, or the exact periodic
+/// solution.
 enum class TimeMethod { balance, exact };
-/// Fourier functions of the balances from which phases are sought, in turn until there is a motion.
+/// Fourier functions of the harmonic balances used as starts of exact solutions, in turn until one
+/// succeeds.
 inline constexpr std::array exact_starts{63, 127, 255, 511};
 /// Default of time.tolerance for exact solutions.
 inline constexpr double default_exact_tolerance = 1e-9;
 
 /// The discretisation of one period. Basis names: "fourier", "haar", "bspline", "daubechies<even number >=
-/// 2>". Time stepping and nonlinear modes with rigid contact do not use it. A tolerance stands in place of
-/// functions and quadrature_points, which are then chosen, and where it stands without trial and weight these
-/// are too.
+/// 2>". Time stepping and nonlinear modes with rigid contact do not use it. A tolerance replaces functions
+/// and quadrature_points, which are then chosen, and so are trial and weight if they are missing.
 struct Time {
   std::string trial;
   std::string weight;
-  int functions = 0;  ///< trial functions, >= 1; a power of two when a wavelet basis takes part
+  int functions = 0;  ///< trial functions, >= 1; a power of two with a wavelet basis
   Formulation formulation = Formulation::distributional;
   int quadrature_points = 0;  ///< uniform points of one period, >= functions
   InnerProducts inner_products = InnerProducts::quadrature;
@@ -63,7 +63,7 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// The name of an enumerator as it stands in a scene file.
+/// The name of an enumerator in a scene file.
 std::string name_of(StructureType value);
 std::string name_of(SolidElement value);
 std::string name_of(TipPlace value);
@@ -82,10 +82,9 @@ std::vector<std::string> input_files(const Scene& scene);
 /// The file of a path that may name a matrix in it, "job.pch" of "job.pch#KAAX".
 std::string file_of_input(const std::string& path);
 
-/// Whether no balance has its motions, which are solved for from event to event: limit cycles, those of
-/// impacts beside other laws or of a structure that is free to move, of friction of such a structure or of
-/// states alone, and of rigid friction at a contact that keeps its mass, as it does where the scene names no
-/// bases.
+/// Whether its motions are solved for from event to event, because harmonic balance does not support them:
+/// limit cycles; impacts in addition to other laws; impacts or friction of a free structure; friction laws
+/// of states only; rigid friction at a contact that keeps its mass, as it does if the scene names no bases.
 bool moves_by_events(const Scene& scene);
 /// Whether its motions are solved for by instants and impulses of impacts, which need no functions.
 bool solves_by_impacts(const Scene& scene);
@@ -95,9 +94,8 @@ bool seeks_by_events(const Scene& scene);
 /// Whether analysis and method, which are read before contacts, ask for exact motions of other laws than
 /// impacts.
 bool names_exact_method(const Scene& scene);
-/// Whether its motion is solved for exactly, without functions and points of its own: time.method,
-/// analysis.type = "shooting", which is another name for the same, "motions", and responses that
-/// moves_by_events().
+/// Whether its motion is solved for exactly, without basis functions: time.method, its alias analysis.type
+/// = "shooting", "motions", and responses that moves_by_events().
 bool solves_exactly(const Scene& scene);
 
 /// At which matrices with gyroscopic or spin_stiffness turn, rad/s; 0 for other structures.

@@ -4,13 +4,13 @@
 
 namespace wavebalance::app {
 
-/// What is wrong with a scene, and where: `case.toml:12: contact.gap = "big": expected a number in m`.
+/// An error of a scene with its place: `case.toml:12: contact.gap = "big": expected a number in m`.
 class SceneError : public std::runtime_error {
  public:
   struct Details {
     std::string file;  ///< as given to the loader
     int line = 0;      ///< 1 is the first; 0 when no line is at fault
-    /// "--set contact.gap=big" when an override is at fault; it is then shown in place of file and line.
+    /// "--set contact.gap=big" when an override is at fault; it is then shown instead of file and line.
     std::string override;
     std::string key;      ///< "contact.gap"; empty when no key is at fault
     std::string found;    ///< the value as written; empty when none was found

@@ -68,7 +68,7 @@ struct SceneKey {
   enum class Type { integer, number, text, boolean, path };
   /// Lists are of integers or numbers; `mixed` is a number, one of the choices, or a list of both.
   enum class Form { single, list, single_or_list, mixed };
-  /// What a missing key means: an error, the value that its member is initialised with, or one derived from
+  /// Meaning of a missing key: an error, the value that its member is initialised with, or one derived from
   /// other keys. Where `needed` holds, the key is required even if it has a derived default.
   enum class Default { required, value, derived };
 
@@ -82,7 +82,7 @@ struct SceneKey {
   std::vector<std::string_view> choices;  ///< the texts that are allowed
   Condition belongs;                      ///< scenes that may hold the key; in others it is an error
   Condition needed;                       ///< scenes in which the key is required if it has no default
-  std::vector<std::string_view> laws;     ///< the contact laws that take it; empty: all do
+  std::vector<std::string_view> laws;     ///< the contact laws that use it; empty: all
   bool dofs = false;                      ///< a list whose entries may be names such as "node 7 z"
   bool in_pairs = false;                  ///< not required where [[contact.pairs]] may each have their own
   bool in_terms = false;                  ///< nor where there are [[forcing.terms]]
@@ -106,8 +106,8 @@ struct SceneKey {
 /// allowed.
 std::span<const SceneKey> scene_keys();
 
-/// The keys of an entry of [[contact.pairs]], the one at `index` from 0: `get` and `set` act on that pair of
-/// a scene. Each is read after those of scene_keys(), from which its default follows.
+/// The keys of an entry of [[contact.pairs]], the one at `index` from 0: `get` and `set` act on that pair
+/// of a scene. Each is read after scene_keys(), from which its default follows.
 std::vector<SceneKey> pair_keys(std::size_t index);
 
 /// The same of an entry of [[forcing.terms]].
@@ -123,8 +123,7 @@ const SceneKey* find_scene_key(std::string_view full_name);
 /// Every key with its meaning, unit, range and default as lines of text of at most `width` columns.
 std::string describe_scene_keys(int width = 100);
 
-/// `value` as it would stand in a scene file: 0.001, 64, "haar". Numbers are the shortest text that reads
-/// back equal.
+/// `value` as text of a scene file: 0.001, 64, "haar". Numbers are the shortest text that reads back equal.
 std::string toml_text(const SceneValue& value);
 
 }  // namespace wavebalance::app

@@ -18,8 +18,8 @@ enum class Direction { x, y, z };
 /// Contents of the files that a scene names; see structure_files.hpp.
 struct StructureFiles;
 
-/// What load_scene() has read and checked of the files that a scene names, so that nothing is read twice.
-/// It does not count when scenes are compared, because the paths of the files identify them.
+/// Files named by a scene as load_scene() has read and checked them, so that nothing is read twice. It does
+/// not count when scenes are compared, because the paths of the files identify them.
 struct ReadFiles {
   std::shared_ptr<const StructureFiles> contents = {};
 

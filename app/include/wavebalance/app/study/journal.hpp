@@ -9,10 +9,10 @@
 
 namespace wavebalance::app {
 
-/// The rows of a study in DIR/study.journal, a line of JSON each after a first line that says which study it
-/// is. A row is there once append() has returned, also if the process is killed after it; where the machine
-/// loses power, those of the last second may be lost. A line that was cut off is dropped as the file is
-/// opened again; another one that cannot be read stays and is counted, and its run has no row.
+/// The rows of a study in DIR/study.journal, a line of JSON each, after a first line that identifies the
+/// study. A row is there once append() has returned, also if the process is killed after it; where the
+/// machine loses power, rows of the last second may be lost. A line that was cut off is dropped as the file
+/// is opened again; another one that cannot be read stays and is counted, and its run has no row.
 class StudyJournal {
  public:
   static constexpr const char* file_name = "study.journal";

@@ -7,9 +7,8 @@
 
 namespace wavebalance::app {
 
-/// The structure of the last scene, which following ones take if theirs is the same: runs of a study often
-/// differ in frequency, gap, law or basis alone, and a reduction takes longer than a response. Each thread
-/// has one of its own.
+/// The structure of the last scene, reused by the next ones if it is the same. Runs of a study often differ
+/// only in frequency, gap, law or basis, and a reduction takes longer than a response. One per thread.
 class LastStructure {
  public:
   /// The model of a scene, as make_model() makes it. The result lives until the next call.

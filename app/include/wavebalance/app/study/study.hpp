@@ -24,7 +24,7 @@ struct StudyParameter {
   std::string key;                  ///< "contact.gap"
   std::vector<std::string> values;  ///< as TOML; empty for an interval
   double from = 0.0, to = 0.0;
-  bool logarithmic = false;  ///< equal ratios in place of equal differences
+  bool logarithmic = false;  ///< equal ratios instead of equal differences
   int count = 0;             ///< values of an interval in a grid
   bool integer = false;      ///< numbers of the interval are rounded
 
@@ -53,8 +53,8 @@ inline constexpr std::int64_t max_study_runs = 1'000'000;
 /// Reads a study file and the scene that it names, relative to itself. Throws SceneError with file, line and
 /// key if it is no study, names no key of a scene or has more than max_study_runs runs.
 Study load_study(const std::filesystem::path& file);
-/// The same for `text`, which messages call `name`, with paths relative to its folder. A study without a key
-/// `scene` takes `scene_text`, whose paths are relative to `name`, too.
+/// The same for `text`, which messages call `name`, with paths relative to its folder. A study without a
+/// key `scene` uses `scene_text`, whose paths are relative to `name`, too.
 Study parse_study(std::string_view text, const std::string& name, const std::string& scene_text = "");
 
 /// The study as one text, equal for studies of the same runs. O(scene + values).

@@ -22,7 +22,7 @@ struct StudyRecord {
 };
 
 /// run from 1, the parameters by their keys, status, converged, seconds, the values of the summaries, and
-/// message; a row per run, in their order. What a run does not have is NaN, or "" in a column of texts.
+/// message; a row per run, in their order. Missing values are NaN, or "" in a column of texts.
 Table study_table(const Study& study, const StudyRuns& runs, const std::vector<StudyRow>& rows);
 
 /// quantity, runs, mean, min, q05, q25, median, q75, q95, max of the converged rows of all columns of numbers
@@ -42,7 +42,8 @@ std::string drawn_quantity(const Study& study, const Table& table);
 Figure study_figure(const Study& study, const StudyRuns& runs, const Table& table,
                     const std::string& quantity);
 
-/// Everything of a study of which `rows` have ended, in any order; `unreadable_lines` is that of its journal.
+/// All results of a study whose `rows` have ended, in any order; `unreadable_lines` counts lines of its
+/// journal.
 StudyRecord study_record(const Study& study, const StudyRuns& runs, std::vector<StudyRow> rows,
                          const StudyOutcome& outcome, std::int64_t unreadable_lines = 0);
 

@@ -39,7 +39,7 @@ class Artefact {
   void data(const app::Table& table, std::string units, std::vector<std::string> notes = {});
   /// A further CSV file, stem_suffix.csv.
   void more_data(const std::string& suffix, const app::Table& table, std::string units);
-  /// Any other file beside stem.csv; the page links it if `listed`.
+  /// Any file in addition to stem.csv; the page links it if `listed`.
   void attach(const std::string& name, std::string contents, bool listed = true);
   /// The script stem.suffix.js, which sets wavebalance.<name>[stem] to `data`, JSON, where a page loads it.
   void script(const std::string& name, const std::string& suffix, const std::string& data);
@@ -78,7 +78,7 @@ class Artefact {
 /// An axis with its limits.
 app::Axis axis(const std::string& label, double lower, double upper);
 
-/// How a series is drawn, beside its colour.
+/// Style of a series, in addition to its colour.
 struct Look {
   app::Dash dash = app::Dash::solid;
   double width = 1.6;  ///< points

@@ -43,17 +43,16 @@ struct Origin {
 std::string this_machine();
 
 /// results/index.html: what holds in brief, a matrix of verdicts, the rule, and the sections with figures
-/// beside their statements; links to the sections that have their own page. It shows all of that without
-/// scripts too.
-/// `measured`: whether results/bench/index.html is there to be linked.
+/// next to their statements; links to the sections that have their own page. It shows all of that without
+/// scripts too. `measured`: whether results/bench/index.html is there to be linked.
 std::string page_html(const std::vector<Section>& sections, const Origin& origin, bool measured = false);
 
 /// results/<folder>/index.html of a section that has its own page.
 std::string own_page_html(const Section& section, const Origin& origin);
 
-/// Writes index.html of all papers that have records below `results`, the pages of those that have their own,
-/// and what the pages load: results/assets/, and scripts with motions beside the results from which they are
-/// made. Throws app::IoError, also if no paper has results.
+/// Writes index.html of all papers that have records below `results`, the pages of those that have their
+/// own, and what the pages load: results/assets/, and scripts with motions in the folders of their results.
+/// Throws app::IoError, also if no paper has results.
 void write_pages(const std::filesystem::path& results, const Origin& origin);
 
 }  // namespace wavebalance::report

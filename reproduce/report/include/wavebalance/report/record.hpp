@@ -6,7 +6,7 @@
 
 namespace wavebalance::report {
 
-/// What a run finds of a statement of a paper.
+/// Finding of a run about a statement of a paper.
 enum class Verdict {
   agrees,
   differs,
@@ -54,14 +54,14 @@ struct Unjudged {
 /// A misprint of a paper that no figure depends on.
 struct Slip {
   std::string place;    ///< "eq. (20)"
-  std::string printed;  ///< what stands there
+  std::string printed;  ///< the text there
   std::string meant;    ///< what it should be
   std::string shown;    ///< what in the paper shows it
 };
 
 /// A check of the code, or a sentence of this project's own. Not counted among the statements.
 struct Check {
-  std::string place;      ///< where the sentence stands; "" for this project's own
+  std::string place;      ///< where the sentence is; "" for this project's statements
   std::string sentence;   ///< what is checked
   std::string criterion;  ///< what was measured, and the threshold that decides
   std::string measured;   ///< what was found

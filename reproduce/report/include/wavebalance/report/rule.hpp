@@ -4,17 +4,17 @@
 
 #include "wavebalance/report/record.hpp"
 
-/// The one rule by which the statements of the papers are judged. All its figures stand here, and the page
-/// shows it as rule_text().
+/// The rule by which the statements of the papers are judged, with all its numbers. The page shows it as
+/// rule_text().
 namespace wavebalance::report {
 
 /// Two values tie when the larger exceeds the smaller by at most this share of the smaller.
 inline constexpr double tie_share = 0.10;
-/// What cannot be seen: this share of the range that a quantity takes.
+/// Invisible differences: below this fraction of the range of a quantity.
 inline constexpr double visible_share = 0.02;
 /// "Similar" values differ by at most this factor.
 inline constexpr double similar_factor = 2.0;
-/// What is the same, or zero, is so to this share.
+/// Equality or zero holds to this fraction.
 inline constexpr double rounding = 1e-9;
 /// "Sharp" and "quick" is what happens within one of so many parts of the period.
 inline constexpr int parts_of_period = 64;
@@ -22,7 +22,7 @@ inline constexpr int parts_of_period = 64;
 inline constexpr int parts_at_an_end = 2;
 /// The beginning and the end of an interval are the first and the last of so many parts.
 inline constexpr int parts_of_interval = 4;
-/// What converges changes by less than half as much after so many doublings.
+/// Converging: changes fall below half after so many doublings.
 inline constexpr int doublings = 4;
 /// An effect of a parameter shrinks when the parameter is this many times larger or smaller, and again.
 inline constexpr double parameter_factor = 10.0;
@@ -38,8 +38,8 @@ Verdict lower(const std::vector<double>& first, const std::vector<double>& secon
 /// be combined; throws std::invalid_argument for them and for no parts.
 Verdict together(const std::vector<Verdict>& parts);
 
-/// "Well", "close", "approximately": agrees if `largest_difference` is at most visible_share of `range`, the
-/// range that the quantity takes, else differs. Throws std::invalid_argument unless both are finite, the
+/// "Well", "close", "approximately": agrees if `largest_difference` is at most visible_share of `range`,
+/// the range of the quantity, else differs. Throws std::invalid_argument unless both are finite, the
 /// difference is not negative and the range is positive.
 Verdict invisible(double largest_difference, double range);
 
@@ -47,7 +47,7 @@ Verdict invisible(double largest_difference, double range);
 /// more than half of the entries, ties if in exactly half, else differs. Throws as lower().
 Verdict similar(const std::vector<double>& first, const std::vector<double>& second);
 
-/// Of something that holds in `count` of `all` cases: agrees if in more than half, ties if in exactly half.
+/// A property of `count` of `all` cases: agrees if more than half, ties if exactly half.
 Verdict mostly(std::size_t count, std::size_t all);
 
 /// A statement that is true or false without a threshold.

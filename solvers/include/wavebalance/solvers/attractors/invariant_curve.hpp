@@ -17,13 +17,13 @@ struct InvariantCurve {
   Eigen::VectorXd at(double turns) const;
 };
 
-/// The Fourier series whose values at equal turns are nearest to the points, columns in their order, of which
-/// the last 4096 count. The strongest line of the spectrum under the window exp(-1 / (t (1 - t))) of weighted
-/// Birkhoff averages [S. Das et al., Nonlinearity 30, 2017, doi:10.1088/1361-6544/aa84c2] is the first to
-/// fourth harmonic of the rotation; from there rotation and coefficients are those of least squares, with as
-/// many harmonics as make the residual less. The first of these rotations with a residual of at most
-/// `tolerance`, else the one with the least. A chaotic section has no small residual, whatever the harmonics.
-/// O(points^2 + points harmonics^2).
+/// The Fourier series whose values at equal turns are nearest to the points, columns in their order, of
+/// which the last 4096 count. The strongest line of the spectrum under the window exp(-1 / (t (1 - t))) of
+/// weighted Birkhoff averages [S. Das et al., Nonlinearity 30, 2017, doi:10.1088/1361-6544/aa84c2] is the
+/// first to fourth harmonic of the rotation; from there rotation and coefficients follow by least squares,
+/// with as many harmonics as make the residual less. The first of these rotations with a residual of at
+/// most `tolerance`, else the one with the least. A chaotic section has no small residual, whatever the
+/// harmonics. O(points^2 + points harmonics^2).
 InvariantCurve invariant_curve(const Eigen::MatrixXd& points, double tolerance);
 
 }  // namespace wavebalance::solvers

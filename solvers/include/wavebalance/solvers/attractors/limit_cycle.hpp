@@ -24,8 +24,8 @@ struct CycleNearby {
 
 struct LimitCycleOptions {
   CycleNearby near = {};  ///< the first start, before contacts at rest
-  /// Random states, beside contacts at rest and contacts that their surfaces carry, from which the structure
-  /// is let go one after the other until one leads to a limit cycle.
+  /// Random states that are integrated one after the other until one leads to a limit cycle, in addition to
+  /// contacts at rest and contacts that move with their surfaces.
   int random_starts = 8;
   unsigned seed = 1;
   int max_periods = 5000;  ///< of the slowest mode, from each start
@@ -38,8 +38,9 @@ struct LimitCycleOptions {
 /// A periodic motion that a structure without periodic load keeps up by itself.
 struct LimitCycle {
   LimitCycleStatus status = LimitCycleStatus::at_rest;
-  /// Its frequency() is that of the cycle. Time 0 is the first instant at which a contact begins to stick, or
-  /// else its first event. Multipliers are without that of a perturbation along the motion, 1.
+  /// Its frequency() is the frequency of the cycle. Time 0 is the first instant at which a contact begins
+  /// to stick, or else its first event. Multipliers exclude the trivial one of a perturbation along the
+  /// motion.
   ExactSolution motion;
   int starts = 0;          ///< that were tried
   int came_to_rest = 0;    ///< of these

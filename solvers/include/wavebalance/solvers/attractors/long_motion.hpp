@@ -27,20 +27,20 @@ struct LongMotion {
   bool cancelled = false;
   /// Poincare section: the contacts at the beginning of each recorded period, R x periods, m and m/s.
   Eigen::MatrixXd displacement, velocity;
-  /// Of each recorded period the logarithm of the factor by which a small perturbation grew; their mean tends
-  /// to the largest Lyapunov exponent, per period. Empty where it was not asked for, and where the
-  /// perturbation vanished, as where a contact comes to rest.
+  /// For each recorded period the logarithm of the factor by which a small perturbation grew; their mean
+  /// tends to the largest Lyapunov exponent, per period. Empty if not requested, and if the perturbation
+  /// vanished, as when a contact comes to rest.
   std::vector<double> growth;
 
   int recorded() const { return static_cast<int>(displacement.cols()); }
 };
 
-/// Takes a flow on from where it is, and calls `visit` behind each recorded period with its samples; the flow
-/// then holds the events and cycles of that period. A perturbation is carried along and scaled after each
-/// period [G. Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15, 1980,
-/// doi:10.1007/BF02128236], through events by saltation, and begins some periods before the record, so that
-/// it has turned into the direction that grows most. Throws std::invalid_argument for options out of range.
-/// The cost is that of the flow's periods; the perturbation adds less than half of that.
+/// Continues a flow, and calls `visit` after each recorded period with its samples; the flow then holds the
+/// events and cycles of that period. A perturbation is carried along and scaled after each period [G.
+/// Benettin, L. Galgani, A. Giorgilli, J.-M. Strelcyn, Meccanica 15, 1980, doi:10.1007/BF02128236], through
+/// events by saltation, and begins some periods before the record, so that it has turned into the direction
+/// that grows most. Throws std::invalid_argument for options out of range. The perturbation adds less than
+/// half of the cost of the flow's periods.
 LongMotion long_motion(ContactFlow& flow, const LongMotionOptions& options,
                        const std::function<void(const ContactFlow&, const Motion&)>& visit = {});
 

@@ -15,10 +15,10 @@ namespace wavebalance::solvers {
 ///
 ///   u = u0 - K f_c(u),
 ///
-/// u0 the linear response and K (C N x C N, rank C M) the dynamic compliance between force and
-/// displacement samples: DFT, weighting, compliance S Z(k)^-1 S^T, trial functions, inverse DFT. K is never
-/// formed; a product takes O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its
-/// columns onto each other.
+/// u0 the linear response and K (C N x C N, rank C M) the dynamic compliance between force and displacement
+/// samples: DFT, weighting, compliance S Z(k)^-1 S^T, trial functions, inverse DFT. K is never formed; a
+/// product costs O(C N log N + C^2 M), and a shift by shift_period() samples in time maps its columns onto
+/// each other.
 ///
 /// Structural damping (LinearStructure::loss_factor) makes the stiffness in Z(k) complex, K (1 + i eta
 /// sign(k)). Here k = -M/2..M/2 is the lowest harmonic that the coefficient k over translates contains. The
@@ -46,9 +46,9 @@ namespace wavebalance::solvers {
 /// Owns plans and buffers: one object per thread.
 class CondensedProblem {
  public:
-  /// `load_harmonics[n]`: complex amplitude h_n of the load's time function Re sum h_n exp(2 pi i n t), which
-  /// scales structure.load; {0, 1} is the cosine of JL14. The period of structure.forces is that of the load:
-  /// with p = gcd of the load's harmonics above 0, their harmonic m is harmonic p m of the problem.
+  /// `load_harmonics[n]`: complex amplitude h_n of the load's time function Re sum h_n exp(2 pi i n t),
+  /// which scales structure.load; {0, 1} is the cosine of JL14. structure.forces have the period of the
+  /// load: with p = gcd of the load's harmonics above 0, their harmonic m is harmonic p m of the problem.
   /// Throws as Condensation does.
   CondensedProblem(TimePair pair, const LinearStructure& structure, Eigen::VectorXcd load_harmonics,
                    CondensationMethod method = CondensationMethod::automatic);
@@ -90,7 +90,7 @@ class CondensedProblem {
   double load_frequency() const { return periods_ * frequency_; }
   void set_load_frequency(double frequency_hz) { set_frequency(frequency_hz / periods_); }
 
-  /// The size of the load without its static part, 1 at first, where it is that of structure and harmonics.
+  /// The size of the load without its static part, 1 at first, where it belongs to structure and harmonics.
   /// Finite, or std::invalid_argument. No condensation: O(C (L M + N log N)).
   void set_load_scale(double scale);
   double load_scale() const { return load_scale_; }
@@ -162,7 +162,7 @@ class CondensedProblem {
   Eigen::MatrixXcd coefficients(const Eigen::MatrixXcd& compliance, const Eigen::VectorXd& force);
 
   /// Estimated rounding error of the condensation in the motion of those coefficients, at fixed forces: the
-  /// 2-norm of the errors of the coefficients, over that of the coefficients or of those without contact,
+  /// 2-norm of the errors of the coefficients, over the norm of the coefficients with or without contact,
   /// whichever is larger. O(C N log N + C^2 M).
   double rounding_error(const Eigen::VectorXd& force);
   /// A motion of the size of these errors, m, samples() values. Each error has the phase of the compliance or
@@ -214,8 +214,8 @@ class CondensedProblem {
 };
 
 /// How often the load of a problem repeats within its period: the greatest common divisor of the load's
-/// harmonics above 0, 1 without any. A problem at the frequency f / n with its load in harmonic n has n: its
-/// responses are the motions of n periods of a load of frequency f, and those of fewer.
+/// harmonics above 0, 1 without any. A problem at the frequency f / n with its load in harmonic n has n:
+/// its responses are the motions of n periods of a load of frequency f, and of fewer.
 int load_periods(const CondensedProblem& problem);
 
 }  // namespace wavebalance::solvers

@@ -9,7 +9,8 @@ namespace wavebalance::solvers {
 
 /// The unknown in which contact is solved for; see CondensedProblem.
 enum class ContactForm {
-  automatic,     ///< force for a rigid law and one that is stiff beside the structure, else displacement
+  automatic,     ///< force for a rigid law and one that is stiff compared with the structure, else
+                 ///< displacement
   displacement,  ///< u at the points, with the law's force at u
   force          ///< u + E lambda / epsilon, with the law's resolvent
 };
@@ -17,12 +18,12 @@ enum class ContactForm {
 std::string_view to_string(ContactForm form);
 
 /// 1 / epsilon of each contact (m/N) for the force form, empty for the displacement form: the argument of
-/// ContactOperator. Needs the problem's frequency. `automatic` takes the force form
-/// where all laws are unilateral and the slope of one, at the penetration that the linear response
-/// would cause, exceeds 1e4 / contact_compliance(). epsilon is 30 / contact_compliance(), or 1 /
-/// (2 high_frequency_compliance()) where this is more. Throws std::invalid_argument for a
-/// rigid law in the displacement form or at contacts with mass [contacts_are_massless], and for a law in the
-/// force form that depends on the velocity, or acts below its gap and does not say that it is monotone.
+/// ContactOperator. Needs the problem's frequency. `automatic` uses the force form if all laws are
+/// unilateral and the slope of one, at the penetration of the linear response, exceeds 1e4 /
+/// contact_compliance(). epsilon is 30 / contact_compliance(), or 1 / (2 high_frequency_compliance()) where
+/// this is more. Throws std::invalid_argument for a rigid law in the displacement form or at contacts with
+/// mass [contacts_are_massless], and for a law in the force form that depends on the velocity, or acts
+/// below its gap and is not declared monotone.
 Eigen::VectorXd contact_series_flexibility(const CondensedProblem& problem, const ContactLaws& laws,
                                            ContactForm form);
 

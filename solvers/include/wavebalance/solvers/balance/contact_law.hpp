@@ -107,8 +107,8 @@ class AnyContactLaw {
   std::optional<double> restitution() const { return model_->restitution(); }
   /// Whether the force vanishes below the gap and is never negative.
   bool unilateral() const { return model_->unilateral(); }
-  /// Whether the force form may solve for it: a unilateral law, or one that says that it is monotone, of the
-  /// displacement alone; one that OffersPeriodResolvent.
+  /// Whether the force form may solve for it: a unilateral or declared monotone law of the displacement
+  /// only; one that OffersPeriodResolvent.
   bool has_force_form() const {
     return acts_over_period() ? model_->offers_period_resolvent()
                               : !depends_on_velocity() && (unilateral() || model_->monotone());

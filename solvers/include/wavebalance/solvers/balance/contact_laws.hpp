@@ -17,8 +17,9 @@ struct ContactForces {
 };
 
 /// The laws of all contacts of a structure: one law for all of them, or one each, in the order of
-/// LinearStructure::contact_directions. Samples are contact-major: contact c has entries [c N, (c + 1) N). A
-/// PeriodLaw takes as many consecutive directions as it has rows; it is never one law for several contacts.
+/// LinearStructure::contact_directions. Samples are contact-major: contact c has entries [c N, (c + 1) N).
+/// A PeriodLaw acts on as many consecutive directions as it has rows; it is never one law for several
+/// contacts.
 class ContactLaws {
  public:
   /// No contact.
@@ -60,7 +61,7 @@ class ContactLaws {
 
   /// Whether no law is rigid: one whose force beyond the gap is infinite.
   bool have_finite_force() const;
-  /// Those of `contacts` contacts whose law is rigid; of friction the tangents.
+  /// Which of `contacts` contacts have a rigid law; with friction the tangents.
   std::vector<int> rigid(int contacts) const;
   /// Whether one has a restitution, so that motions have impacts.
   bool have_impacts() const;
@@ -70,8 +71,8 @@ class ContactLaws {
   Eigen::VectorXd restitution(int contacts) const;
   /// Whether all laws are unilateral.
   bool unilateral() const;
-  /// The largest of contact forces (N, contacts x points): of unilateral laws their largest, of others the
-  /// largest of their moduli, and of a CoupledLaw that of its rows together.
+  /// The largest of contact forces (N, contacts x points): the maximum for unilateral laws, the largest
+  /// modulus for others, and the norm over its rows for a CoupledLaw.
   double largest_force(const Eigen::MatrixXd& force) const;
   /// Whether the force form may solve for all of them.
   bool have_force_form() const;
@@ -96,8 +97,8 @@ class ContactLaws {
   /// slope, at rest, is not a number at one of the displacements (m), which are contact-major. Displacements
   /// that are not finite or beyond 1e9 m, where powers overflow, are left out. O(samples).
   void require_numbers(int contacts, const Eigen::VectorXd& displacement) const;
-  /// The forces (N) at displacements (m), contacts x points each; of laws over a period the points are those
-  /// of one period. O(contacts points).
+  /// The forces (N) at displacements (m), contacts x points each; for laws over a period the points span
+  /// one period. O(contacts points).
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement) const;
   /// The same at velocities (m/s) that belong to them.
   Eigen::MatrixXd force(const Eigen::MatrixXd& displacement, const Eigen::MatrixXd& velocity) const;

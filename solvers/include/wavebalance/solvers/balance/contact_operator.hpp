@@ -43,10 +43,10 @@ class ContactOperator {
   Eigen::MatrixXcd harmonic_response(int n);
 
   /// The first p = shift_period() columns of each contact, samples() x C p: column d p + m belongs to a
-  /// unit force at point m of contact d. The column of point m + j p is that of m with the samples of every
-  /// contact shifted cyclically by j p. Made on first use at a frequency. O(C p (C N log N + C M)).
+  /// unit force at point m of contact d. The column of point m + j p is the column of m with the samples of
+  /// every contact shifted cyclically by j p. Made on first use at a frequency. O(C p (C N log N + C M)).
   const Eigen::MatrixXd& columns();
-  /// columns() of which only those of the contacts in `wanted` need be valid.
+  /// columns(), of which only the contacts in `wanted` need be valid.
   const Eigen::MatrixXd& columns(std::span<const int> wanted);
 
   /// CondensedProblem::rigid_position() and force_on_held_structure() of an unknown of the form and its

@@ -39,9 +39,9 @@ enum class LinearSolver {
 /// D has one block per sample for laws of one instant, and few entries per row for laws over a period. A
 /// velocity f V u of the motion u is read by D_u + D_v f V. A linear solve with J reduces exactly to the
 /// active samples, those whose force changes with u: x = r - K D x, an LU of their number and one product
-/// with K. Many of them are solved for by GMRES, which forms no matrix over them. In the force form
-/// (ContactOperator) u stands for its unknown v, and the laws are their resolvents. Laws that follow the
-/// frequency are those at the frequency of the problem, at each evaluation.
+/// with K. Many active samples are solved for by GMRES, which forms no matrix over them. In the force form
+/// (ContactOperator) u denotes its unknown v, and the laws are their resolvents. Laws that depend on the
+/// frequency are evaluated at the frequency of the problem.
 class ContactSystem {
  public:
   /// Throws std::invalid_argument when there are neither one law nor one for each contact, for a law that
@@ -72,8 +72,8 @@ class ContactSystem {
   /// Computes force, its slopes and residual at `displacement`. Returns relative_residual(). One product with
   /// K.
   double evaluate(const Eigen::VectorXd& displacement);
-  /// The same with every sample kept on one piece of its law, samples() values, which is continued beyond its
-  /// kinks by the tangents there. Equal to evaluate() where the pieces are those of `displacement`, and
+  /// The same with every sample kept on one segment of its law, samples() values, which is continued beyond
+  /// its kinks by the tangents there. Equal to evaluate() if the segments belong to `displacement`, and
   /// smooth across the kinks.
   double evaluate(const Eigen::VectorXd& displacement, const LawSegments& pieces);
 
@@ -84,7 +84,8 @@ class ContactSystem {
   Eigen::MatrixXcd unknown_coefficients() {
     return operator_.unknown_coefficients(force(), force_on_held_structure());
   }
-  /// The slopes of each force by the displacement of the same sample, N/m: D of laws that read it alone.
+  /// The slopes of each force by the displacement of the same sample, N/m: D of laws of the displacement
+  /// only.
   const Eigen::VectorXd& tangent() const { return forces_.slopes.displacement; }
   /// D.
   const PeriodSlopes& slopes() const { return forces_.slopes; }
@@ -131,7 +132,7 @@ class ContactSystem {
   /// Solves J x + b y = r, c.x + d y = s.
   bool solve_bordered(const Eigen::VectorXd& r, double s, Eigen::VectorXd& x, double& y,
                       double reduction = 1e-10);
-  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES was used in place of
+  /// 1 or -1: the sign of the determinant of the matrix last factorized; 0 when GMRES was used instead of
   /// LU.
   int determinant_sign() const;
 

@@ -5,10 +5,10 @@
 
 namespace wavebalance::solvers {
 
-/// A structure as a balance sees it: at each coefficient k over translates the compliance of its contacts,
-/// which stands for the harmonic of that coefficient, and their response to its loads. Structures of matrices
-/// have one (StructureCompliance); another, of a cyclic sector or of measured frequency responses, is a class
-/// with these members. Owned by a CondensedProblem; one object per thread.
+/// A structure in a harmonic or wavelet balance: at each coefficient k over translates the compliance of
+/// its contacts and their response to its loads. Structures of matrices have one (StructureCompliance);
+/// another, of a cyclic sector or of measured frequency responses, is a class with these members. Owned by
+/// a CondensedProblem; one object per thread.
 class HarmonicCompliance {
  public:
   virtual ~HarmonicCompliance() = default;

@@ -25,7 +25,7 @@ std::string_view to_string(SolveStatus status);
 /// When a Newton iteration ends.
 struct NewtonOptions {
   double tolerance = 1e-11;      ///< on ||R|| / (||u0|| + ||K f||)
-  int max_iterations = 60;       ///< 0 evaluates the start alone
+  int max_iterations = 60;       ///< 0 only evaluates the start
   double min_step = 1.0 / 4096;  ///< least step of the line search, relative to the Newton step
   /// Past residuals of which a step has to undercut the largest; with 1 each residual is below the last.
   int memory = 1;

@@ -6,8 +6,8 @@
 
 namespace wavebalance::solvers {
 
-/// What a law reads over a period: the displacements of its rows at N samples, row after row, and where it
-/// reads velocities those. A row is a contact direction of the structure. The samples are periodic: the one
+/// Input of a law over a period: the displacements of its rows at N samples, row after row, and velocities
+/// if it reads them. A row is a contact direction of the structure. The samples are periodic: the one
 /// before the first is the last.
 struct PeriodKinematics {
   int points = 0;                        ///< N
@@ -33,9 +33,9 @@ struct PeriodForces {
   std::span<int> piece;                  ///< the analytic piece of the law on which each force lies
 };
 
-/// A law whose force follows from the motion over a whole period: of several rows, or with memory. Its forces
-/// along the rows oppose positive displacements. A law of one instant, ContactLaw, is the case of one row
-/// whose force depends on the motion of the same sample alone.
+/// A law whose force follows from the motion over a whole period: of several rows, or with memory. Its
+/// forces along the rows oppose positive displacements. A law of one instant, ContactLaw, is the case of
+/// one row whose force depends only on the motion of the same sample.
 template <class Law>
 concept PeriodLaw = std::copy_constructible<Law> &&
     requires(const Law& law, const PeriodKinematics& motion, PeriodForces& forces) {
@@ -43,10 +43,10 @@ concept PeriodLaw = std::copy_constructible<Law> &&
   law.evaluate(motion, forces);                // any displacements that are finite
 };
 
-/// A law over a period that also goes on step by step, from the forces that it has: integration in time needs
-/// that. The displacements go straight from `before` to v - flexibility f, f the force along the same row at
-/// the end of the step, flexibilities at least 0, m/N. `force` has the forces before the step and receives
-/// those after it; start() gives those of displacements at rest since ever.
+/// A law over a period that also goes on step by step, from the forces that it has: integration in time
+/// needs that. The displacements are linear in time from `before` to v - flexibility f, f the force along
+/// the same row at the end of the step, flexibilities at least 0, m/N. `force` has the forces before the
+/// step and receives those after it; start() gives the forces after rest at the displacements.
 template <class Law>
 concept AdvancesInSteps = PeriodLaw<Law> &&
     requires(const Law& law, std::span<const double> rows, std::span<double> force) {
@@ -81,7 +81,7 @@ struct FrictionConstants {
   int tangents = 1;
   double static_friction = 0.0;                           ///< >= mu, that ends sticking
   double surface_speed = 0.0;                             ///< m/s, of the surface along the tangent
-  double tangential_damping = 0.0, normal_damping = 0.0;  ///< N s/m, beside the springs
+  double tangential_damping = 0.0, normal_damping = 0.0;  ///< N s/m, parallel to the springs
   bool needs_states = false;  ///< whether its force follows from a machine of states, and not from steps
 };
 

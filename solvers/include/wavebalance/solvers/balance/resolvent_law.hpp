@@ -5,8 +5,8 @@
 
 namespace wavebalance::solvers {
 
-/// The resolvent of a law as a law of its own, of v = u + flexibility f: the law of the force form. Its
-/// potential is that of the law and of the spring.
+/// The resolvent of a law as a law of v = u + flexibility f: the law of the force form. Its potential is
+/// the sum over law and spring.
 class ResolventLaw {
  public:
   /// Throws std::invalid_argument for a flexibility that is not positive and finite (m/N).

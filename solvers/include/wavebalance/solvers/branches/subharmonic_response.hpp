@@ -21,7 +21,7 @@ struct SubharmonicOptions {
 /// of the result says which it is. In this order Newton's method starts from
 ///
 /// - what forced_response() starts from;
-/// - the motion to which the structure settles, by settle(), if that has no fewer periods;
+/// - the attractor found by settle(), if that has no fewer periods;
 /// - the motion found, with perturbations of it that grow or decay over n periods without a change of phase,
 ///   by floquet_exponents(): at a period doubling the null vector. `dynamics` has the structure; none leaves
 ///   this out. Where Newton's method finds no other motion so, the curve of motions with that perturbation is

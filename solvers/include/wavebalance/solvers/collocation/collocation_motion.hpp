@@ -45,11 +45,11 @@ enum class ExactStatus {
   converged,
   not_found,  ///< the search ended without a motion near the start, which is no proof that there is none
   tolerance_missed,  ///< the error is estimated above the tolerance at the largest number of unknowns
-  too_many_phases,   ///< the first steps of Newton's method would take more than max_operations
+  too_many_phases,   ///< the first steps of Newton's method would need more than max_operations
   /// a law has no finite stiffness at a contact with mass, or at a structure that is free to move
   rigid_contact,
   velocity_and_no_mass,  ///< a force of the velocity at a contact without mass
-  resonant,              ///< the structure without contact has a motion of this period of its own
+  resonant,              ///< the linear structure has a free motion of this period
   structural_damping,    ///< it has no equation in time
   slip_in_a_plane,       ///< rigid friction along two tangents
   law_over_period,       ///< a law that acts over a period and has no states
@@ -68,15 +68,15 @@ enum class ExactStatus {
 
 std::string_view to_string(ExactStatus status);
 
-/// What vibrates: the compliance of C contacts, their laws, and the motion without contact force.
+/// The vibrating system: the compliance of C contacts, their laws, and the motion without contact force.
 struct ExactProblem {
   const ContactDynamics& dynamics;  ///< must outlive what refers to it
   ContactLaws laws;
-  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. Of a structure that is free to
-  /// move it is the motion with the springs ContactDynamics::holding().
+  /// C x (H + 1), m: column n belongs to Re(a exp(2 pi i n t)), t in periods. For a free structure it is
+  /// the motion with the springs ContactDynamics::holding().
   Eigen::MatrixXcd linear_motion;
   double frequency = 0.0;  ///< 1 / period, Hz
-  /// What keeps `dynamics` of a structure that turns, which are others at each frequency; null for others.
+  /// Keeps `dynamics` of a rotor, which depend on the frequency; null for others.
   std::shared_ptr<const ContactDynamics> kept = {};
 };
 
@@ -87,12 +87,12 @@ struct CollocationOptions {
   int max_nodes = 32;
   int max_panels = 400;
   /// Up to so many panels, phases are cut where other contacts change theirs, since their forces have kinks
-  /// in high derivatives there. Of many contacts that act together these cuts make most of the unknowns.
+  /// in high derivatives there. With many active contacts these cuts cause most of the unknowns.
   int max_cut_panels = 100;
   int max_iterations = 20;  ///< of Newton's method, each time
   int max_changes = 12;     ///< of the phases
-  /// Floating-point operations of all Newton steps. N unknowns take about 2/3 N^3 in one step and 64 N^2
-  /// bytes of memory; phases whose first three steps would take more are not sought.
+  /// Floating-point operations of all Newton steps. N unknowns need about 2/3 N^3 in one step and 64 N^2
+  /// bytes of memory. Nothing is computed if the first three steps would need more.
   double max_operations = 5e11;
   Observer observer = {};  ///< called before each step of Newton's method
 
@@ -129,10 +129,10 @@ class ExactSolution {
   /// C x K contact forces, N. O(K C log panels).
   Eigen::MatrixXd force(const Eigen::VectorXd& times) const;
 
-  /// The exact Fourier coefficients of the contact forces, N, C x count: column n belongs to
-  /// Re(a exp(2 pi i n t)), t in periods. Of a structure that is free to move they are less the forces of the
-  /// springs ContactDynamics::holding() at all contacts, with which it is held. Throws std::invalid_argument
-  /// without a motion and for a count below 1. O(panels nodes count).
+  /// The exact Fourier coefficients of the contact forces, N, C x count: column n belongs to Re(a exp(2 pi
+  /// i n t)), t in periods. For a free structure they exclude the forces of the holding springs
+  /// ContactDynamics::holding() at all contacts. Throws std::invalid_argument without a motion and for a
+  /// count below 1. O(panels nodes count).
   Eigen::MatrixXcd force_harmonics(int count) const;
 
   /// The Floquet multipliers of the motion, by falling modulus; those below rounding are left out.
@@ -144,7 +144,7 @@ class ExactSolution {
 
   /// How many of them lie outside the unit circle, for any number of states: by the argument of det(I + V (mu
   /// - D)^-1 U) along the circle, of the map D - U V of the s states over a period, whose n unknowns U and V
-  /// have few columns and rows. -1 where that takes more than `max_evaluations`, as with multipliers on the
+  /// have few columns and rows. -1 if that needs more than `max_evaluations`, as with multipliers on the
   /// circle. O(s n^2 + n^3) each.
   int count_unstable(int max_evaluations = 2000) const;
 
@@ -158,12 +158,11 @@ class ExactSolution {
 ///   u(t) = u_0(t) - integral of G(t - s) f(s) ds - R_0 f(t),   f(t) = f_c(u(t), v(t)) within phases, 0
 ///   elsewhere,
 ///
-/// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and
-/// u = kink at the ends of the phases, whose instants are unknowns. In rigid contact u = gap takes the place
-/// of the law, which R_0 > 0 of a contact without mass makes an equation for f. Panels are cut where another
-/// contact changes its phase, and divided where they have more than their part in an error above the
-/// tolerance. Phases that the motion found does not have are removed, and those that it has are inserted,
-/// until both agree.
+/// G the periodic Green function of the contacts, by collocation of f at Gauss nodes of the panels and u =
+/// kink at the ends of the phases, whose instants are unknowns. In rigid contact u = gap replaces the law;
+/// with R_0 > 0 of a massless contact it is an equation for f. Panels are cut where another contact changes
+/// its state, and divided where their error is above the tolerance. Contact intervals are removed or
+/// inserted until they agree with the motion.
 ///
 /// Throws std::invalid_argument for sizes that do not fit and for laws over a period, whose phases
 /// flow_motion() seeks. A Newton step costs O(n^3 + n^2 poles) for n unknowns.

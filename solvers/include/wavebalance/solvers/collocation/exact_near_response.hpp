@@ -13,7 +13,7 @@ struct ExactNearResponse {
   double displacement_error, force_error;
 };
 
-/// What collocation_motion() takes of a problem at its frequency and load. `dynamics` are those of its
+/// Input of collocation_motion() for a problem at its frequency and load. `dynamics` belong to its
 /// structure. O(n^3) for each harmonic of the load.
 ExactProblem exact_problem(const CondensedProblem& problem, const ContactLaws& laws,
                            const ContactDynamics& dynamics);
@@ -23,9 +23,9 @@ using IntervalFinder = ExactSolution (*)(const ExactProblem& problem, const Eige
                                          const CollocationOptions& options,
                                          const Eigen::MatrixXd& start_force);
 
-/// collocation_motion() from a response of `problem` to `laws`, at the frequency and load of the problem, or
-/// what `find` does in its place. `dynamics` are those of its structure. O(n^3) for each harmonic of the
-/// load, beside what collocation_motion() takes.
+/// collocation_motion() from a response of `problem` to `laws`, at the frequency and load of the problem,
+/// or `find` instead. `dynamics` belong to its structure. O(n^3) for each harmonic of the load, in addition
+/// to collocation_motion().
 ExactNearResponse exact_near_response(const CondensedProblem& problem, const ContactLaws& laws,
                                       const PeriodicResponse& response, const ContactDynamics& dynamics,
                                       const CollocationOptions& options = {},

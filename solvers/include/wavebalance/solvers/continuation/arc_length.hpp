@@ -16,7 +16,7 @@ class CurveParameter {
   virtual ~CurveParameter() = default;
   /// Whether there is a system of parameter p; a step that leads to another is too long.
   virtual bool contains(double p) const = 0;
-  /// Makes the system that of parameter p; evaluate() must follow.
+  /// Sets the parameter of the system to p; evaluate() must follow.
   virtual void set(ContactSystem& system, double p) const = 0;
   /// dR/dp at the state last evaluated.
   virtual void slope(ContactSystem& system, Eigen::VectorXd& slope) const = 0;
@@ -45,11 +45,11 @@ enum class GrazingEvents {
   at_turning_points,  ///< also those at turning points, and the first and the last contact
   all,                ///< no turning point can be missed; a few solves per event
   /// All where they are few, up to 512 samples, with a long step where the next event is not found. A pair
-  /// that keeps an undamped Nyquist coefficient takes at_turning_points, because its resonances are passed by
-  /// long steps only. The cost of all grows like the square of the samples, while each kink and the turning
-  /// points that long steps miss become smaller. Beyond 512 samples it is where_needed, and a long step that
-  /// contains a turning point is at most 0.02, so that the parameter varies by less than a thousandth of its
-  /// scale within it.
+  /// that keeps an undamped Nyquist coefficient uses at_turning_points, because only long steps pass its
+  /// resonances. The cost of all grows like the square of the samples, while each kink and the turning
+  /// points that long steps miss become smaller. Beyond 512 samples it is where_needed, and a long step
+  /// that contains a turning point is at most 0.02, so that the parameter varies by less than a thousandth
+  /// of its scale within it.
   automatic
 };
 
@@ -76,8 +76,7 @@ struct ArcLengthOptions {
   /// Operations of the linear systems of all points. The curve ends with no_point when they are used up.
   double max_operations = std::numeric_limits<double>::infinity();
 
-  /// Throws std::invalid_argument for a number out of its range; scales of 0 stand for a default of the
-  /// caller.
+  /// Throws std::invalid_argument for a number out of its range; scales of 0 mean a default of the caller.
   void validate() const;
 };
 
@@ -96,7 +95,7 @@ struct ResponseEquations {
   /// Value of the operation counter at which the curve must stop.
   double operation_limit = std::numeric_limits<double>::infinity();
   Eigen::VectorXd slope;
-  Eigen::VectorXd scales;  ///< C, m: in place of displacement_scale for each contact, at the present point
+  Eigen::VectorXd scales;  ///< C, m: instead of displacement_scale for each contact, at the present point
 
   /// Sets `scales` for a solution.
   void set_scales(const Eigen::VectorXd& displacement);
@@ -123,15 +122,14 @@ struct ResponseEquations {
 /// sample keeps its side of the gap the curve is smooth; the first sample that would change sides is placed
 /// at its gap, and the next piece starts with that sample on the other side.
 ///
-/// Of laws over a period, such as friction, no kinks are known beforehand. Where they begin to act otherwise
-/// the curve has a corner. Short steps lead up to it, and the next piece is the one whose tangent leads into
-/// it.
+/// Kinks of laws over a period, such as friction, are not known beforehand. Where their state changes the
+/// curve has a corner. Short steps approach it, and continue along the segment whose tangent leads into it.
 ///
 /// The sign of det [R_u R_p; tangent^T] is the same on both sides of a fold and of a grazing event of one
 /// sample. A long step to a point with the other sign is refused. The sign changes only where two curves
-/// cross. That happens in symmetric structures, where several samples reach their gaps together: all of them
-/// change sides. From there on the curve is followed piece by piece; with more than 512 samples, which would
-/// take too many pieces, by long steps that do not compare the sign.
+/// cross. That happens in symmetric structures, where several samples reach their gaps together: all of
+/// them change sides. From there on the curve is followed segment by segment; with more than 512 samples,
+/// which would need too many segments, by long steps that do not compare the sign.
 class ArcLength : private CurveCorrector<detail::ResponseEquations> {
  public:
   /// no_point: no further point was found, or the operations are used up.

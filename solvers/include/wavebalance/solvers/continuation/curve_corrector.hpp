@@ -18,7 +18,7 @@ struct CurvePoint {
   double parameter_tangent = 0.0;
   double residual = 0.0;
   int orientation = 0;  ///< sign of det [R_u R_p; tangent^T]; 0 when unknown
-  /// A grazing event: the law's slope jumps here, and the tangent is that of the next piece.
+  /// A grazing event: the law's slope jumps here, and the tangent belongs to the next segment.
   bool grazing = false;
 };
 

@@ -63,8 +63,7 @@ struct ExactCurve {
   std::vector<std::size_t> unexplained;
 };
 
-/// About so many floating-point operations a point of a curve takes that is like this motion, with its
-/// multipliers.
+/// Estimated floating-point operations for a point of a curve like this motion, with its multipliers.
 double exact_point_operations(const ExactSolution& motion, const ContactDynamics& dynamics);
 
 /// The curve of motions of the structure over the parameter of `family`, by phases of contact, from a motion
@@ -92,8 +91,8 @@ double exact_point_operations(const ExactSolution& motion, const ContactDynamics
 ExactCurve exact_curve(const ProblemFamily& family, const ExactSolution& first,
                        const ExactCurveOptions& options);
 
-/// The curve of motions of twice as many periods that begins at a period doubling of a curve of impacts with
-/// `options`. `no_start` where none is found beside it. Throws as exact_curve(), and for another event.
+/// The curve of motions of twice as many periods that begins at a period doubling of a curve of impacts
+/// with `options`. `no_start` if none is found near it. Throws as exact_curve(), and for another event.
 ExactCurve doubled_curve(const ProblemFamily& family, const ExactEvent& event,
                          const ExactCurveOptions& options);
 

@@ -12,9 +12,8 @@ namespace wavebalance::solvers {
 class ProblemFamily {
  public:
   /// Takes the structure, the load and the other parameter from `problem`, which may change afterwards.
-  /// `dynamics` are those of its structure and must outlive the object; a structure that turns has others at
-  /// each frequency. Throws std::invalid_argument for laws
-  /// that are neither one nor one for each contact.
+  /// `dynamics` belong to its structure and must outlive the object; for a rotor they depend on the
+  /// frequency. Throws std::invalid_argument for laws that are neither one nor one for each contact.
   ProblemFamily(const CondensedProblem& problem, ContactLaws laws, const ContactDynamics& dynamics,
                 SweepParameter parameter);
   ProblemFamily(ProblemFamily&&) noexcept;

@@ -23,12 +23,12 @@ struct PoleStart {
 ExactProblem over_periods(const ExactProblem& problem, int times);
 
 /// The motion that the structure converges to from contacts at rest or a start, integrate_by_events(), and
-/// from there to the tolerance of the exact motion, flow_motion_from(). It is tried once two periods agree to
-/// a thousandth; where what is found is unstable the structure settles further. An unstable motion is given
-/// where it converges to none, and the one near the closest return of a period where none is solved for to
-/// the tolerance, or one of more than eight periods: `settled` says what the structure does. Any laws that
-/// are machines of states: impacts, friction and others together, of structures that may be free to move.
-/// Throws as integrate_by_events(), and for options out of range.
+/// from there to the tolerance of the exact motion, flow_motion_from(). It is tried once two periods agree
+/// to a thousandth; if the motion found is unstable, integration continues. An unstable motion is returned
+/// if it converges to none, and the one near the closest return of a period if none is solved to the
+/// tolerance or if it has more than eight periods: `settled` describes the attractor. Laws must be state
+/// machines: impacts, friction and others together, of structures that may be free to move. Throws as
+/// integrate_by_events(), and for options out of range.
 ExactAttractor attractor_motion(const ExactProblem& problem, TimeSteppingOptions stepping,
                                 const CollocationOptions& options,
                                 const std::optional<PoleStart>& start = {});

@@ -13,8 +13,8 @@ namespace wavebalance::solvers {
 /// How a motion in time ended.
 enum class FlowStatus {
   converged,  ///< it reached its end
-  /// no forces of the laws were found on a panel, the shortest does not resolve them, rounding leaves them no
-  /// digits, or a period takes more than max_panels
+  /// no forces of the laws were found on a panel, the shortest does not resolve them, rounding leaves them
+  /// no digits, or a period needs more than max_panels
   step_failure,
   endless_events,  ///< more and more events in a vanishing time
   grows            ///< displacements of a period end beyond 1e9 times length(), or step by step beyond 1e6
@@ -90,15 +90,15 @@ class ContactFlow {
   /// load or frequency: its contacts keep displacement, velocity, state and memory, and the structure
   /// elsewhere changes least.
   void start(const ContactFlow& before);
-  /// Begins at time 0 as a periodic motion near this one: under forces of the contacts with harmonics, R x (H
-  /// + 1), N, column n of which belongs to Re(a exp(2 pi i n t)), t in periods, and with displacements and
-  /// forces of the laws at time 0. Of a structure that is free to move the harmonics are less the forces of
-  /// the springs ContactDynamics::holding().
+  /// Begins at time 0 as a periodic motion near this one: under forces of the contacts with harmonics, R x
+  /// (H + 1), N, column n of which belongs to Re(a exp(2 pi i n t)), t in periods, and with displacements
+  /// and forces of the laws at time 0. For a free structure the harmonics exclude the forces of the springs
+  /// ContactDynamics::holding().
   void start_near(const Eigen::MatrixXcd& harmonics, const Eigen::VectorXd& displacement,
                   const Eigen::VectorXd& force);
 
-  /// Of a problem without periodic load: the period lasts so many s from here on; panels and thresholds
-  /// remain those of the problem's. Throws std::invalid_argument for one that is not positive.
+  /// For a problem without periodic load: the period lasts so many s from here on; panels and thresholds do
+  /// not change. Throws std::invalid_argument for one that is not positive.
   void set_period(double seconds);
 
   /// Goes on by one period; then time is 0 again. Calls `sample` at `points` uniform times of the period, the

@@ -4,15 +4,15 @@
 namespace wavebalance::solvers {
 
 /// The motion near a start that comes back after a period of the flow from event to event, ContactFlow: any
-/// laws that are machines of states, together, of structures that may be free to move. The start has
-/// displacements, R x N, m, and forces, N, of the contacts at the times l / N; without forces they are those
-/// of the laws over the period.
+/// laws that are state machines, also together; structures may be free. The start has displacements, R x N,
+/// m, and forces, N, of the contacts at the times l / N; without forces they follow from the laws over the
+/// period.
 ///
 /// The states of the poles and the positions of stuck sliders between two events of the start are the
 /// unknowns of Newton's method on the map of the period; the states of the contacts follow from the laws
-/// alone, so that they need not be right in the start. A slider that does not move stays where the start has
-/// it. The tolerance of the flow is refined until two solutions differ by less than a third of that of the
-/// options, of which max_iterations and observer are used, too.
+/// and need not be right in the start. A slider that does not move stays where the start has it. The
+/// tolerance of the flow is refined until two solutions differ by less than a third of the tolerance of the
+/// options, whose max_iterations and observer also apply.
 ///
 /// The result has `friction` where a contact has it. Its phases are those in which a row has a force: of a
 /// normal direction with friction with piece 1, of a tangent with piece 1 in stick, 2 and 3 in slip with a
@@ -35,7 +35,7 @@ ExactSolution flow_motion_from(const ExactProblem& problem, const PeriodStart& s
 ExactSolution autonomous_motion_from(const ExactProblem& problem, const PeriodStart& start,
                                      const CollocationOptions& options = {});
 
-/// collocation_motion(), which is faster, where all laws are those of one instant, and flow_motion() with
+/// collocation_motion(), which is faster, if all laws are laws of one instant, and flow_motion() with
 /// friction, and where that finds no motion or has too many phases.
 ExactSolution exact_motion(const ExactProblem& problem, const Eigen::MatrixXd& start,
                            const CollocationOptions& options = {}, const Eigen::MatrixXd& start_force = {});

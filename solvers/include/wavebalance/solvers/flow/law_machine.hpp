@@ -12,7 +12,7 @@
 
 namespace wavebalance::solvers {
 
-/// What a law reads of its contact at an instant, of each of its rows, and its memories.
+/// Input of a law at an instant: each of its rows, and its memories.
 struct LocalSignals {
   std::span<const Dual> displacement;  ///< m
   std::span<const Dual> velocity;      ///< m/s
@@ -45,7 +45,7 @@ struct StateExit {
 struct Sliding {
   double speed = 0.0;  ///< m/s, of the slider over its surface
   double wear = 0.0;   ///< W, the normal force times that speed [Archard]
-  double power = 0.0;  ///< W, that the tangential force takes over the surface
+  double power = 0.0;  ///< W, power of the tangential force on the surface
 };
 
 /// A contact law as a machine of states. A state says which forces are free and the equations that determine
@@ -103,9 +103,9 @@ struct ContactMachine {
   int row = 0;
 };
 
-/// The machines of the laws of a structure, in the order of its directions. `length` (m) is one that the
-/// motion has, `frequency` (Hz) that of its period. Throws std::invalid_argument for rigid friction along two
-/// tangents, and for laws without states.
+/// The machines of the laws of a structure, in the order of its directions. `length` (m) is typical of the
+/// motion, `frequency` (Hz) belongs to its period. Throws std::invalid_argument for rigid friction along
+/// two tangents, and for laws without states.
 std::vector<ContactMachine> machines_of(const ContactLaws& laws, const ContactDynamics& dynamics,
                                         double length, double frequency);
 

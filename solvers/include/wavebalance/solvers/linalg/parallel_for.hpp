@@ -24,7 +24,7 @@ inline int thread_count(int threads) {
 
 namespace detail {
 
-/// Indices 0..count-1 that threads take in ascending order until the work of one throws.
+/// Indices 0..count-1 for threads, in ascending order until the work of one throws.
 class SharedIndices {
  public:
   explicit SharedIndices(Eigen::Index count) : count_(count) {}
@@ -87,12 +87,12 @@ class WatchedThreads {
 
 }  // namespace detail
 
-/// Calls work(worker, index) for all indices 0..count-1 on `workers` threads, the caller's among them, which
-/// take the indices in ascending order; a worker has one index at a time. Results are the same for any number
-/// of workers if those of an index depend on it alone. While the caller's thread has no index left and others
-/// still work, it calls watch() about twenty times per second. If calls throw, the exception of the least
-/// index is thrown again once all threads have ended, that of watch() before it; later indices may then be
-/// left out. Creating a thread takes some ten microseconds.
+/// Calls work(worker, index) for all indices 0..count-1 on `workers` threads, the caller's among them, in
+/// ascending order of the indices; a worker has one index at a time. Results are the same for any number of
+/// workers if the result of an index depends only on it. While the caller's thread has no index left and
+/// others still work, it calls watch() about twenty times per second. If calls throw, the exception of the
+/// least index is thrown again once all threads have ended, an exception of watch() before it; later
+/// indices may then be left out. Creating a thread takes some ten microseconds.
 template <class Work, class Watch>
 void parallel_for(int workers, Eigen::Index count, const Work& work, const Watch& watch) {
   detail::SharedIndices indices(count);

@@ -15,7 +15,7 @@ namespace wavebalance::solvers {
 struct DampedBackboneOptions {
   double first_amplitude = 0.0;  ///< m, > 0: where the curve starts
   double last_amplitude = 0.0;   ///< m, above it: where it ends
-  double initial_step = 0.05;    ///< arc length, that of ln(amplitude) while shape and frequency stay
+  double initial_step = 0.05;    ///< arc length, equal to ln(amplitude) while shape and frequency stay
   double min_step = 1e-6;        ///< below it the curve is lost
   double max_step = 0.1;         ///< of the same
   static constexpr double frequency_scale =
@@ -62,7 +62,7 @@ struct DampedProblem;
 
 /// Nonlinear modes of structures that lose energy: frequency and damping over amplitude by the extended
 /// periodic motion concept [M. Krack, Comput. Struct. 154, 2015, doi:10.1016/j.compstruc.2015.03.008]. The
-/// free motion is made periodic by a damping -xi M that gives what structure and contacts take:
+/// free motion is made periodic by a damping -xi M that supplies the dissipated energy:
 ///
 ///   M q'' + (C - xi M) q' + K q + S^T f(S q) = static loads,   damping ratio xi / (2 omega).
 ///
@@ -71,9 +71,9 @@ struct DampedProblem;
 /// with the slopes that they have there: a contact with friction sticks. Any laws with a finite force,
 /// friction and laws of the velocity, too, and any pair of bases with at least 3 functions.
 ///
-/// The amplitude A is that of the first harmonic of the modal coordinate of mode m, times the largest
-/// displacement among the contacts that its shape has: A is the amplitude of that contact as long as the
-/// shape is that of the linear mode. The phase is such that this harmonic is a cosine.
+/// The amplitude A is the first harmonic of the modal coordinate of mode m, times the largest displacement
+/// among the contacts that its shape has: A is the amplitude of that contact as long as the shape equals
+/// the linear mode. The phase is such that this harmonic is a cosine.
 ///
 /// Immutable, may be shared between threads. A Newton step costs O((C M)^3 + M n^3).
 class DampedMode {
@@ -96,7 +96,7 @@ class DampedMode {
 
   /// Amplitudes q_n, n = 0..N, of `places` (rows times the structure's degrees of freedom) in a motion of
   /// this mode, places x (N + 1), as ModePoint has them, with the state of rest: the structure follows the
-  /// forces of its contacts by dynamic condensation at each harmonic, in which that of mode m at the first is
+  /// forces of its contacts by dynamic condensation at each harmonic, in which mode m at the first is
   /// given. N is half the number of samples unless the trial basis is Fourier. O(M n^3).
   Eigen::MatrixXcd amplitudes(const DampedPoint& point, const Eigen::MatrixXd& places) const;
 

@@ -47,7 +47,7 @@ enum class BackboneStatus {
   reached_frequency,   ///< at max_frequency_ratio, below max_energy
   internal_resonance,  ///< on an internal resonance that no step passed, and along which it was lost
   lost,                ///< no further point was found
-  no_start,            ///< no point was found beside the linear mode
+  no_start,            ///< no point was found near the linear mode
   point_limit,         ///< after max_points
   cancelled            ///< the observer returned false
 };
@@ -76,11 +76,11 @@ struct ModeProblem;
 /// the linear mode at an energy ratio of 1e-4. ModalModel::gaps are the lengths that energies refer to; a
 /// unilateral law must have them as its gaps, unless its own is 0.
 ///
-/// In points of this class energy_ratio is the constant energy of the motion, with the law's potential, over
-/// that of linear grazing; gamma_ratio is LL10's. max_penetration includes the deformation of the law.
-/// virial_residual is |omega^2 m - k - mean(u f)| / (omega^2 m), with m and k the quadratic forms of mass and
-/// stiffness. Amplitudes are the harmonics of the samples, up to half of their number unless the trial basis
-/// is Fourier.
+/// In points of this class energy_ratio is the constant energy of the motion, with the law's potential,
+/// over the energy of linear grazing; gamma_ratio is LL10's. max_penetration includes the deformation of
+/// the law. virial_residual is |omega^2 m - k - mean(u f)| / (omega^2 m), with m and k the quadratic forms
+/// of mass and stiffness. Amplitudes are the harmonics of the samples, up to half of their number unless
+/// the trial basis is Fourier.
 ///
 /// Immutable, may be shared between threads. A Newton step costs O((C M)^3 + C N M^2).
 class ElasticMode {

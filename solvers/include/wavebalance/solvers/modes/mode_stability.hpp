@@ -29,8 +29,7 @@ struct ModeStability {
   StabilityStatus status = StabilityStatus::no_response;
   int unstable = -1;  ///< multipliers with |mu| > 1 + growth; -1 unless converged
   int contacts = 0;   ///< intervals of contact within the period, of all contacts
-  /// Those beside the two that are 1, by falling modulus: two for each other mode taken. Empty unless
-  /// converged.
+  /// All but the two that are 1, by falling modulus: two for each other mode. Empty unless converged.
   Eigen::VectorXcd multipliers;
   /// The relative distance between the motion's own velocity and its image under the map over a period: the
   /// error of the discretisation.
@@ -41,19 +40,18 @@ struct ModeStability {
 };
 
 /// The Floquet multipliers of the free motions of an elastic mode. The variational equations M v'' + K v +
-/// S^T D(t) S v = 0 are Hamiltonian: with mu its reciprocal and its conjugate are multipliers, and two are 1,
-/// that of the velocity (the phase) and that of the change along the family (the energy). A motion is
-/// linearly stable where all lie on the unit circle; none lies within it alone.
+/// S^T D(t) S v = 0 are Hamiltonian: with mu its reciprocal and its conjugate are multipliers, and two are
+/// 1, for the velocity (the phase) and for the change along the family (the energy). A motion is linearly
+/// stable if all are on the unit circle; multipliers inside it have reciprocals outside.
 ///
-/// The map over one period is that of monodromy(), symplectic for any D(t). It maps the velocity of an
-/// approximate motion not quite onto itself, so that the pair at 1 would lie at 1 +- sqrt(error). The least
-/// Hamiltonian rotation (a Cayley transform) that brings the velocity's image back is therefore applied after
-/// it, and the phase and the energy are removed: the rest is the map on the complement of the velocity in the
+/// The map over one period is monodromy(), symplectic for any D(t). It maps the velocity of an approximate
+/// motion not quite onto itself, so that the pair at 1 would lie at 1 +- sqrt(error). The least Hamiltonian
+/// rotation (a Cayley transform) that brings the velocity's image back is therefore applied after it, and
+/// the phase and the energy are removed: the rest is the map on the complement of the velocity in the
 /// symplectic form, by the velocity. It is symplectic again, so that simple multipliers stay on the circle.
 ///
-/// Modes above the highest harmonic of the trial functions are taken as springs at the contacts: in the
-/// motion, too, they hardly do more than follow the force, and their parametric resonances are those of
-/// harmonics that the motion does not have.
+/// Modes above the highest harmonic of the trial functions act as springs at the contacts. They follow the
+/// force quasi-statically, and the motion has no harmonics for their parametric resonances.
 ///
 /// Immutable; may be shared between threads.
 class ModeMultipliers {
@@ -61,10 +59,10 @@ class ModeMultipliers {
   /// Throws std::invalid_argument as options.validate() does.
   explicit ModeMultipliers(const ElasticMode& mode, ModeStabilityOptions options = {});
 
-  /// The stability of one motion; the linear mode below contact has all multipliers on the circle. The cost
-  /// is that of monodromy(). too_few_harmonics where the closure is above its limit, effort_limit where there
-  /// are more than max_states states or contact is too stiff for the monodromy, no_finite_stiffness for a
-  /// rigid law at contacts that have mass, none of ModalModel::springs.
+  /// The stability of one motion; the linear mode below contact has all multipliers on the circle. Cost of
+  /// monodromy(). too_few_harmonics where the closure is above its limit, effort_limit where there are more
+  /// than max_states states or contact is too stiff for the monodromy, no_finite_stiffness for a rigid law
+  /// at contacts that have mass, none of ModalModel::springs.
   ModeStability operator()(const ModePoint& point) const;
 
   const ModeStabilityOptions& options() const { return options_; }

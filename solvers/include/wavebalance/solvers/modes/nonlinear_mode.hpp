@@ -88,8 +88,8 @@ struct ModePoint {
 /// Nonlinear modes with rigid (Signorini) contact, condensed on the contact force samples. At a fixed omega
 /// the motion is u = -G(omega) force, G the undamped dynamic compliance between samples (N harmonics), and
 ///   gap - u >= 0,   force >= 0,   product 0   at each of the m samples
-/// is a linear complementarity problem, solved by an active set that starts from that of the previous point.
-/// The harmonic balance K u_n - n^2 omega^2 M u_n = -force_n [LL10, eq. (17a) with its errors removed] then
+/// is a linear complementarity problem, solved by an active set that starts from the previous point. The
+/// harmonic balance K u_n - n^2 omega^2 M u_n = -force_n [LL10, eq. (17a) with its errors removed] then
 /// holds exactly for n = 0..N, and the energy is a result. Owns no plans; immutable, may be shared between
 /// threads.
 class NonlinearMode {
@@ -102,8 +102,7 @@ class NonlinearMode {
   double linear_omega() const;    ///< rad/s, of the linear mode continued
   double grazing_energy() const;  ///< gamma = m/2 [LL10, eq. (12)] of the linear mode that just reaches a gap
 
-  /// The motion at omega from an active set; empty: that of the grazing linear mode. O(active^3 + c^2 (r N +
-  /// m)).
+  /// The motion at omega from an active set; empty: the grazing linear mode. O(active^3 + c^2 (r N + m)).
   ModePoint at_frequency(double omega, const std::vector<int>& active = {}) const;
   /// The same, solved with 2, 3, .., N harmonics in turn, each from the previous active set. This reaches the
   /// mode beyond an internal resonance, where continuation in omega leads onto the resonance.
@@ -133,8 +132,8 @@ struct BackboneOptions {
 };
 
 /// The points of a mode over omega. Points that failed or lie on an internal resonance are kept with their
-/// status. If the energy of a point differs by more than max_jump from that of its accepted neighbour, it is
-/// solved anew by harmonic continuation; if it still does, the point is on another branch and has the status
+/// status. If the energy of a point differs by more than max_jump from its accepted neighbour, it is solved
+/// anew by harmonic continuation; if it still does, the point is on another branch and has the status
 /// internal_resonance.
 std::vector<ModePoint> backbone(const NonlinearMode& mode, const BackboneOptions& options);
 

@@ -11,9 +11,8 @@ namespace wavebalance::solvers {
 
 /// How a motion is integrated until it repeats.
 struct AttractorOptions {
-  /// Of the n degrees of freedom where the integration begins, at a maximum of the load's first harmonic (m
-  /// and m/s); empty: none. Modes that deflect statically and degrees of freedom without mass do not keep
-  /// them.
+  /// Initial state of the n degrees of freedom, at a maximum of the load's first harmonic (m and m/s);
+  /// empty: none. Modes that deflect statically and degrees of freedom without mass do not keep them.
   Eigen::VectorXd displacement{}, velocity{};
   int steps = 1024;         ///< per period of the load between contacts; in contact, as many as are needed
   int max_periods = 600;    ///< of the load
@@ -22,7 +21,7 @@ struct AttractorOptions {
   static constexpr int max_modes = 120;  ///< of the structure; the others deflect statically
   int max_size = 400;                    ///< degrees of freedom up to which the modes are computed
   double max_operations = 2.6e10;  ///< three to four seconds; 0.4 times as much for motions near returns
-  int max_returns = 12;            ///< pieces of the motion that are kept where it does not settle
+  int max_returns = 12;            ///< segments of the motion that are kept if it does not converge
   Observer observer;               ///< called once per period
 
   /// Throws std::invalid_argument for a number out of its range.

@@ -38,8 +38,8 @@ struct TimeSteppingOptions {
 struct TimeSteppingResult {
   TimeSteppingStatus status = TimeSteppingStatus::iteration_limit;
   int periods = 0;  ///< complete periods integrated
-  /// Periods after which the motion repeats: 1 if converged; 0 where max_periods ended without any, as an
-  /// aperiodic motion does and one that still settles; -1 where fewer periods were integrated.
+  /// Periods after which the motion repeats: 1 if converged; 0 where max_periods ended without any, as for
+  /// aperiodic motions and for transients; -1 where fewer periods were integrated.
   int attractor_periods = -1;
   /// Relative rms difference of the contact displacements of periods i+2 and i+1; periods - 1 entries.
   std::vector<double> period_error;

@@ -9,7 +9,7 @@ namespace wavebalance::solvers {
 
 /// Options of the search for coexisting motions.
 struct MotionsOptions {
-  int random_starts = 24;    ///< states from which the structure settles, beside that of rest
+  int random_starts = 24;    ///< random states to integrate from, in addition to rest
   unsigned seed = 20140817;  ///< of these states: the same ones for the same seed
   int longest = 4;           ///< periods of the load after which a motion may repeat
   double tolerance = 1e-9;   ///< of each motion, CollocationOptions::tolerance
@@ -79,36 +79,34 @@ struct CoexistingMotions {
   std::vector<BoxSide> box;  ///< of the random states, by mode
 };
 
-/// The periodic motions at a frequency of the load: those that the structure converges to from rest and from
-/// random states, and unstable ones between them. The states are uniform in a box of the modes around the
-/// static deflection, of half sides twice the largest displacements and velocities of the settled motion,
-/// of that without contact, enlarged until it reaches a gap, and of the resonant vibrations that the laws
-/// move to this frequency. Motions are solved for by collocation, so that two are the same where their
-/// displacements agree to 1e-6, also by whole periods of the load later. A start whose integration comes to a
-/// stable one of them within 1e-4 of what vibrates counts there. One that collocation do not solve for is
-/// told by its integration.
+/// The periodic motions at a forcing frequency: attractors reached from rest and from random states, and
+/// unstable motions between them. The states are uniform in a box of the modes around the static
+/// deflection. Its half sides are twice the largest displacements and velocities of three motions: the
+/// attractor, the linear response enlarged until it reaches a gap, and the resonant vibrations that the
+/// laws move to this frequency. Motions are solved for by collocation, so that two are the same where their
+/// displacements agree to 1e-6, also after a shift by whole forcing periods. A start whose integration
+/// comes within 1e-4 of the vibration of a stable one counts there. Without a collocation solution the
+/// integrated motion is returned.
 ///
-/// Unstable motions are sought at the boundaries between basins [J. D. Skufca, J. A. Yorke, B. Eckhardt,
-/// Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that converge to different
-/// motions are bisected until the motion from between them stays beside an unstable one for long, near which
-/// Newton's method starts. It has the load's period or that of the two. Others lie midway between a motion of
-/// several periods and itself later, or near states that nearly return where the structure converges to none
-/// from rest. Neither they nor motions of small basins are certain to be found.
+/// Unstable motions are searched for at the boundaries between basins [J. D. Skufca, J. A. Yorke, B.
+/// Eckhardt, Phys. Rev. Lett. 96, 2006, doi:10.1103/PhysRevLett.96.174101]: two states that converge to
+/// different motions are bisected until the motion between them stays near an unstable one for long, from
+/// which Newton's method starts. It has the forcing period or the period of the two. Others are midway
+/// between a motion of several periods and its shifted copy, or near states that nearly return if rest
+/// leads to no periodic motion. Neither they nor motions with small basins are certain to be found.
 ///
-/// Throws std::invalid_argument for options out of range and a problem of several periods of its load. A
-/// settle() for each start, and up to 26 for each pair of motions that starts arrive at, as well as shorter
-/// ones.
+/// Throws std::invalid_argument for options out of range and a problem of several forcing periods. Cost: a
+/// settle() for each start, and up to 26 for each pair of attractors, as well as shorter ones.
 CoexistingMotions coexisting_motions(ContactProblem& problem, double frequency,
                                      const MotionsOptions& options = {});
 
-/// The same of motions that are solved for from event to event: of impacts, alone or beside other laws, of
-/// friction of a structure that is free to move and of rigid friction at a contact with mass. Impacts alone
-/// begin where the motion without contact is farthest from all obstacles, others at rest. The states are
-/// uniform in discs of the poles whose radii hold twice the first motion found, or the free
-/// vibration after an impact with the speed of the motion without contact where these are larger; states
-/// beyond an obstacle are drawn again. Motions near the closest returns of impacts alone are solved for, too,
-/// stable or not. Displacements that agree to 1e-6, of structures that are free to move about their means,
-/// are one motion.
+/// The same for motions solved from event to event: impacts, also with other laws, friction of a free
+/// structure, and rigid friction at a contact with mass. With impacts only, integration begins where the
+/// linear response is farthest from all obstacles, otherwise at rest. The states are uniform in discs of
+/// the poles. Their radii cover twice the first motion found, or the free vibration after an impact with
+/// the speed of the linear response if that is larger; states beyond an obstacle are drawn again. With
+/// impacts only, motions near the closest returns are also solved for, stable or not. Motions are identical
+/// if displacements agree to 1e-6, for free structures relative to their means.
 ///
 /// Throws std::invalid_argument as impact_response() or attractor_motion(). One of these for each start.
 CoexistingMotions event_motions(const ExactProblem& problem, const MotionsOptions& options = {});

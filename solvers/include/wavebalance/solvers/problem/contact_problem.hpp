@@ -38,16 +38,15 @@ struct ResponseStart {
 /// at a contact with mass, or friction that needs states.
 bool need_events(const ContactLaws& laws, const LinearStructure& structure);
 
-/// A structure with its contacts and their laws in one pair of time bases, under a cosine load and its other
-/// forces: what there is to ask of it. Frequencies are those of the load (Hz), of which a motion spans one
-/// period or, as it is said, several. What a question takes is put right before it, so that questions may
-/// come in any order. Owns plans and buffers: one object per thread.
+/// A structure with its contacts and their laws in one pair of time bases, under a cosine load and its
+/// other forces, with all analyses. Frequencies are forcing frequencies (Hz). A motion spans one forcing
+/// period unless several are specified. Analyses may be called in any order. Owns plans and buffers: one
+/// object per thread.
 class ContactProblem {
  public:
-  /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law at
-  /// a contact with mass unless it has a restitution, and as CondensedProblem does. With restitution there
-  /// are impacts, motions of which have questions of their own, below; the others throw
-  /// std::invalid_argument.
+  /// Throws std::invalid_argument for laws that are neither one nor one for each contact, for a rigid law
+  /// at a contact with mass unless it has a restitution, and as CondensedProblem does. With restitution
+  /// there are impacts, which have separate analyses below; the others throw std::invalid_argument.
   ContactProblem(TimePair pair, const LinearStructure& structure, ContactLaws laws, int periods = 1);
   /// Takes a problem with another load, or a structure whose dynamics are shared with others.
   ContactProblem(CondensedProblem problem, ContactLaws laws,
@@ -55,8 +54,8 @@ class ContactProblem {
 
   const TimePair& pair() const { return condensed_.pair(); }
   const LinearStructure& structure() const { return condensed_.structure(); }
-  /// The same over so many times the periods of the load, in the same pair, whose functions then hold as many
-  /// times fewer harmonics of it: for what takes no functions, as settling and phases. A condensation for
+  /// The same over so many forcing periods, in the same pair, whose functions then represent as many times
+  /// fewer harmonics: for analyses without functions, as settle() and exact solutions. A condensation for
   /// each frequency.
   ContactProblem over_periods(int times) const;
   int contacts() const { return condensed_.contacts(); }
@@ -64,8 +63,8 @@ class ContactProblem {
   const ContactLaws& laws() const { return laws_; }
   /// Takes other laws, which are refused as in the constructor.
   void set_laws(ContactLaws laws);
-  /// Null where the structure has no modes to compute. Those of a structure that turns are those at the
-  /// frequency of the last question, until another one. O(n^3) the first time.
+  /// Null where the structure has no modes to compute. For a rotor they belong to the frequency of the last
+  /// call. O(n^3) the first time.
   const ContactDynamics* dynamics() const { return dynamics_->of(structure()).get(); }
   /// The equations, at the frequency and load of the last question.
   CondensedProblem& condensed() { return condensed_; }
@@ -82,12 +81,12 @@ class ContactProblem {
   /// The phases of contact near a response; nothing where the structure has no modes to compute.
   std::optional<ExactNearResponse> phases(const PeriodicResponse& response,
                                           const CollocationOptions& options = {});
-  /// The phases of contact near the motion that settle() found at a frequency; nothing where there is none,
-  /// or no modes.
+  /// The exact solution near the motion that settle() found at a frequency; nothing if there is none, or no
+  /// modes.
   std::optional<ExactSolution> phases(double frequency, const AttractorMotion& settled,
                                       const CollocationOptions& options = {});
-  /// Whether no balance has its motions, which are solved for from event to event: of impacts beside other
-  /// laws, of friction of a structure that is free to move and of rigid friction at a contact with mass.
+  /// Whether its motions are solved for from event to event, because balance does not support them: impacts
+  /// in addition to other laws, friction of a free structure, rigid friction at a contact with mass.
   bool moves_by_events() const;
   /// attractor_motion() at a frequency. Throws std::invalid_argument without modes.
   ExactAttractor exact_attractor(double frequency, const TimeSteppingOptions& stepping,
@@ -100,7 +99,7 @@ class ContactProblem {
   ExactStructureMotion structure_motion(double frequency, const ExactSolution& motion, int points,
                                         const ExactStructureOptions& options = {});
   MotionStability stability(double frequency, const ExactSolution& motion);
-  /// The stability of a response, that of the phases `motion` where it is not null.
+  /// The stability of a response, or of the exact solution `motion` if it is not null.
   MotionStability stability(const PeriodicResponse& response, const ExactSolution* motion = nullptr);
   /// Its exponents of the largest multipliers, `most` at most; without values where the structure has no
   /// modes.
@@ -117,8 +116,9 @@ class ContactProblem {
                                                               const FrequencySweepOptions& options,
                                                               const ResponseStart& start);
   /// exact_curve() over the frequency, or at a frequency over the load scale, from the motion near the
-  /// response at options.from: `how` and `start` as of respond(). Where the response has no motion near, from
-  /// the one that settle() finds. Status `no_start` where neither leads to a motion, or without modes.
+  /// response at options.from: `how` and `start` as of respond(). If no exact motion is near the response,
+  /// the curve starts from the motion that settle() finds. Status `no_start` where neither leads to a
+  /// motion, or without modes.
   ExactCurve exact_sweep(const ExactCurveOptions& options, const ForcedResponseOptions& how = {},
                          const ResponseStart& start = {});
   ExactCurve exact_amplitude_sweep(double frequency, const ExactCurveOptions& options,
@@ -172,7 +172,7 @@ class ContactProblem {
   CondensedProblem condensed_;
   ContactLaws laws_;
   std::shared_ptr<StructureDynamics> dynamics_;
-  std::shared_ptr<detail::FreeContacts> free_contacts_;  // once phases are sought
+  std::shared_ptr<detail::FreeContacts> free_contacts_;  // once exact solutions are computed
 };
 
 }  // namespace wavebalance::solvers

@@ -18,22 +18,22 @@ struct CurvePlace {
 struct ExactAtPoint {
   ExactStatus status = ExactStatus::not_found;
   double displacement_error = missing, force_error = missing;  ///< as of ExactNearResponse
-  /// That of the motion of the structure, with ExactAlongOptions::stability and where it has converged.
+  /// Stability of the exact motion, with ExactAlongOptions::stability and if it has converged.
   std::optional<MotionStability> stability{};
   std::size_t place = 0;  ///< which of the solutions that were tried it is near to
   /// The motion itself at ExactAlongOptions::kept, where it was found.
   std::optional<ExactSolution> motion{};
 };
 
-/// What is found along a curve, and on how many threads.
+/// Results along a curve, and number of threads.
 struct ExactAlongOptions {
   CollocationOptions phases{};
   /// Largest ExactNearResponse::displacement_error. A motion farther away is another one, and none is near.
   double max_distance = 0.1;
   bool stability = true;              ///< of the motions found
   std::optional<std::size_t> kept{};  ///< the entry of which the motion is kept, too
-  int threads = 1;                    ///< that take the solutions one by one; 0: one per core
-  Observer observer{};                ///< called by the caller's thread alone
+  int threads = 1;                    ///< that process the solutions one by one; 0: one per core
+  Observer observer{};                ///< called only by the caller's thread
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -53,13 +53,13 @@ struct ExactAlongCurve {
 /// Makes the problem on which a curve was traced, once for each thread.
 using ProblemMaker = std::function<ContactProblem()>;
 
-/// exact_near() along a curve: for each entry of `places`, none of them empty, near the first of
-/// its solutions that has a motion of the structure near, or else the first. A fold of the structure lies
-/// beside that of a balance, so that one of both has no motion at its frequency that the other has: solutions
-/// beside it tell whether there is one at all. Each entry is taken by itself: neither their order nor the
-/// threads change a digit. Without points where the structure has no modes to compute. Throws
-/// std::invalid_argument for options out of range, and as ContactProblem::response() does. A condensation and
-/// a exact_near_response() for each solution tried, and with stability a motion_stability().
+/// exact_near() along a curve: for each entry of `places`, none of them empty, near the first of its
+/// solutions that has an exact motion nearby, or else the first. The folds of exact and balance curves
+/// differ slightly, so at a fold frequency only one of both has a motion: neighbouring solutions show
+/// whether there is one at all. Entries are independent: neither their order nor the threads change a
+/// digit. Without points where the structure has no modes to compute. Throws std::invalid_argument for
+/// options out of range, and as ContactProblem::response() does. A condensation and a exact_near_response()
+/// for each solution tried, and with stability a motion_stability().
 ExactAlongCurve exact_along(const ProblemMaker& make, const FrequencySweep& curve,
                             const std::vector<std::vector<CurvePlace>>& places,
                             const ExactAlongOptions& options = {});

@@ -20,15 +20,15 @@ struct MotionStability {
   /// The multiplier of the largest modulus, Im >= 0, of several the one with the largest real part; NaN where
   /// it is not known or below 1e-2.
   std::complex<double> leading{missing, missing};
-  /// Whether it is that of the motion of the structure, by phases of contact, or of the balance.
+  /// Whether it belongs to the exact motion or to the balance.
   bool by_phases = false;
   double wall_seconds = 0.0;
 };
 
-/// How the stability of a problem's motions is found unless it is said otherwise: as many harmonics as
-/// the trial functions, at most 255, since 127 already give exponents to 1e-6 and the cost grows like their
-/// cube; the monodromy of up to 120 states where contact is too stiff for the harmonics, since it costs
-/// seconds with many; operations of about ten seconds.
+/// Default options for the stability of a problem's motions: as many harmonics as the trial functions, at
+/// most 255, since 127 already give exponents to 1e-6 and the cost grows like their cube; the monodromy of
+/// up to 120 states where contact is too stiff for the harmonics, since it costs seconds with many;
+/// operations of about ten seconds.
 StabilityOptions stability_options(const CondensedProblem& problem);
 
 /// The verdict on a motion of which all multipliers are known, the largest first.

@@ -9,8 +9,8 @@ namespace wavebalance::solvers {
 /// The poles of a structure, computed by whichever thread needs them first.
 class StructureDynamics {
  public:
-  /// Those of `structure`, which must be the same in each call but for the speed of one that turns; null
-  /// where it has no modes to compute. O(n^3) the first time, and of one that turns at each other speed.
+  /// The dynamics of `structure`, which must be the same in each call except for the speed of a rotor; null
+  /// if it has no modes. O(n^3) the first time, and for a rotor at each other speed.
   std::shared_ptr<const ContactDynamics> of(const LinearStructure& structure);
 
  private:

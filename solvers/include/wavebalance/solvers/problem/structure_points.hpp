@@ -20,7 +20,7 @@ std::string_view to_string(StructurePointStatus status);
 
 struct NearStructurePoint {
   StructurePointStatus status = StructurePointStatus::not_sought;
-  std::size_t event = 0;  ///< that of StructurePoints::events, where it is found or repeated
+  std::size_t event = 0;  ///< of StructurePoints::events, if it is found or repeated
 };
 
 /// Extent and effort of the search for exact bifurcation points.
@@ -36,8 +36,8 @@ struct StructurePointsOptions {
   double max_distance = 0.1;      ///< as of ExactAlongOptions
   double first_step = 0.02, largest_step = 0.2;  ///< as of ExactCurveOptions
   CollocationOptions phases{};
-  int threads = 1;      ///< that take the stretches one by one; 0: one per core
-  Observer observer{};  ///< called by the caller's thread alone
+  int threads = 1;      ///< that process the segments one by one; 0: one per core
+  Observer observer{};  ///< called only by the caller's thread
 
   /// Throws std::invalid_argument for a number out of its range.
   void validate() const;
@@ -61,13 +61,13 @@ struct StructurePoints {
   bool cancelled = false;  ///< the observer returned false
 };
 
-/// The bifurcation and grazing points of the structure along a balance's curve. exact_curve() is followed
-/// from a motion by phases of contact near the first point of the balance's curve, and where it does not come
-/// to its last point, back from that. Where a quarter of the operations is not enough for it, or it is lost,
-/// it is followed along stretches about the bifurcation and grazing points of the balance alone, likewise
-/// from both ends; where the effort was too small, without those of grazings alone. Points that lie near each
-/// other share a stretch, so that one of the structure stands once where samples make many of it, and one
-/// that the balance does not have is found in a stretch, too; beside all stretches none is sought.
+/// The exact bifurcation and grazing points along a balance's curve. exact_curve() is followed from an
+/// exact motion near the first point of the balance's curve, and back from its last point if it does not
+/// reach that. If a quarter of the operations is not enough, or the curve is lost, it is followed only
+/// along segments around the bifurcation and grazing points of the balance, likewise from both ends; if the
+/// effort was too small, without segments that have only grazings. Neighbouring points share a segment, so
+/// that one exact point appears once where samples split it, and additional exact points in a segment are
+/// found. Outside all segments no points are computed.
 ///
 /// `make` makes the problem on which the curve was traced with keep_unknowns; `points` are of its
 /// CurveStability. Neither the order of the stretches nor the threads change a digit. Without events where

@@ -18,13 +18,13 @@ ArcLengthOptions arc_scales(const FrequencySweep& curve);
 PeriodicResponse curve_response(CondensedProblem& problem, const ContactLaws& laws,
                                 const FrequencySweep& curve, double value, const Eigen::VectorXd& unknown);
 
-/// The responses at exactly `value`, the frequency (Hz) or load scale, in the order in which the curve passes
-/// it: one each time. A point of the curve is sought between the two neighbours, in planes perpendicular to
-/// the chord of those before, so that near a fold either side has its own, also where the curve turns between
-/// two of its points, and Newton's method solves for it at that value. Where that does not converge, the
-/// status says so. A point of the curve that is at `value` to rounding is one of them. Empty where the curve
-/// does not pass it. The problem is left at another value in the
-/// displacement form. Throws std::invalid_argument for a curve without unknowns. About ten solutions each.
+/// The responses at exactly `value`, the frequency (Hz) or load scale, in the order in which the curve
+/// passes it: one each time. A point of the curve is searched for between the two neighbours, in planes
+/// perpendicular to the previous chord, so that near a fold either side has its own, also where the curve
+/// turns between two of its points, and Newton's method solves for it at that value. If that does not
+/// converge, the status reports it. A point of the curve that is at `value` to rounding is one of them.
+/// Empty where the curve does not pass it. The problem is left at another value in the displacement form.
+/// Throws std::invalid_argument for a curve without unknowns. About ten solutions each.
 std::vector<PeriodicResponse> responses_at(CondensedProblem& problem, const ContactLaws& laws,
                                            const FrequencySweep& curve, double value);
 

@@ -15,7 +15,7 @@ struct ForcedResponseOptions {
   /// Whether more than Newton's method from the start is tried, see Strategy.
   bool fallbacks = true;
   /// Whether what is tried after Newton's method starts from the guess, too: a residual homotopy from there
-  /// in place of all other strategies, so that the response is one near the guess or none. Without effect
+  /// instead of all other strategies, so that the response is near the guess or missing. Without effect
   /// where there is no guess.
   bool stay_near_guess = false;
   double max_fallback_operations = 1e10;  ///< of each further Newton run; 20 iterations at least

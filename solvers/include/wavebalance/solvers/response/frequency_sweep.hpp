@@ -17,8 +17,8 @@ enum class SweepStatus {
   closed,     ///< the curve came back to an earlier point of itself in the same direction, with shorter steps
               ///< and with every grazing event solved for, too
   lost,       ///< no further point was found, neither along the tangent nor at a grazing event
-  unbounded,  ///< the response grew past all bounds, as it does at a resonance without damping: that of a
-              ///< Nyquist coefficient which the pair keeps
+  unbounded,  ///< the response grew past all bounds, as at an undamped resonance: of a Nyquist coefficient
+              ///< that the pair keeps
   point_limit,  ///< max_points was reached
   ended,        ///< SweepStart::ends
   cancelled     ///< the observer returned false
@@ -118,8 +118,8 @@ struct SweepStart {
 /// A curve of periodic responses.
 struct FrequencySweep {
   SweepStatus status = SweepStatus::no_start;
-  /// Of a closed curve, whether it came back to its first point, so that it is complete. Another earlier
-  /// point is one at which curves cross, or after which a step has jumped.
+  /// For a closed curve: whether it returned to its first point and is complete. Another earlier point is
+  /// one at which curves cross, or after which a step has jumped.
   bool closed_at_start = false;
   SweepParameter parameter = SweepParameter::frequency;
   ContactForm form = ContactForm::displacement;  ///< of the whole curve
@@ -135,11 +135,11 @@ struct FrequencySweep {
 /// The curve of periodic responses over the forcing frequency [JL14, section 5.6], by arc length through
 /// folds and grazing events, from `from` until it leaves the interval.
 ///
-/// A long step may jump to a closed curve beside the one that is followed. A curve that returns to an earlier
-/// point of itself, to 1e-6 of arc length and in the same direction, is therefore followed again from before
-/// that point with half and a quarter of the largest step, and then through every grazing event. If it still
-/// returns, it is `closed`. Its points of number 2^n are those compared with, so that a cycle is noticed
-/// before four times the points up to the end of its first round have been computed.
+/// A long step may jump to another, closed curve. A curve that returns to an earlier point of itself, to
+/// 1e-6 of arc length and in the same direction, is therefore followed again from before that point with
+/// half and a quarter of the largest step, and then through every grazing event. If it still returns, it is
+/// `closed`. It is compared with its points of number 2^n, so that a cycle is noticed before four times the
+/// points up to the end of its first round have been computed.
 ///
 /// Throws std::invalid_argument for
 /// frequencies that are not positive, finite and different, and for laws that are neither one nor one per

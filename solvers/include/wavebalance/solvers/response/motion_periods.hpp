@@ -9,8 +9,8 @@ namespace wavebalance::solvers {
 /// Throws std::invalid_argument for a number of periods below 1.
 double change_after(const CondensedProblem& problem, const PeriodicResponse& response, int periods);
 
-/// What change_after() a motion that repeats may have. Where the points of a problem are no multiple of its
-/// load_periods(), no period has the samples of another, and a motion repeats but for their error.
+/// Largest change_after() of a motion that repeats. If the points of a problem are no multiple of its
+/// load_periods(), the periods have different samples, and a motion repeats up to their error.
 inline constexpr double largest_change = 1e-3;
 
 /// The period of a motion in periods of the load: the least divisor p of load_periods() with change_after()

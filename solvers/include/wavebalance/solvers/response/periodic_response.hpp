@@ -38,7 +38,7 @@ struct PeriodicResponse {
   double residual = 0.0;               ///< ||R|| / (||u0|| + ||K f||)
   int iterations = 0;                  ///< Newton iterations of all attempts
   Strategy strategy = Strategy::none;  ///< what found it
-  /// AttractorMotion::attractor_periods where the structure was settled; -1 where it was not, or not known.
+  /// AttractorMotion::attractor_periods if an attractor was computed; -1 otherwise.
   int attractor_periods = -1;
   /// The motion that it converges to, where that has the period of the problem and the response none near it.
   std::shared_ptr<const AttractorMotion> settled;

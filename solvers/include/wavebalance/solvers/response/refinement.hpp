@@ -95,12 +95,12 @@ struct RefinementResult {
 /// samples in contact, linear between those. When neither converges and sizes in between were left out, these
 /// are solved next; the path of the homotopy is the last resort.
 ///
-/// Where several responses exist the refinement keeps to one. If the change of a later level exceeds that of
-/// the previous one and 3 %, the level is solved anew from the linear response, and the nearer of the
-/// two responses is kept.
+/// Where several responses exist the refinement keeps to one. If the change of a later level exceeds the
+/// previous one and 3 %, the level is solved anew from the linear response, and the nearer of the two
+/// responses is kept.
 ///
-/// Throws std::invalid_argument for options out of range and what `make_problem` throws. The cost is near
-/// that of the last level: sizes grow geometrically, and Newton starts near the solution.
+/// Throws std::invalid_argument for options out of range and the exceptions of `make_problem`. The cost is
+/// near the cost of the last level: sizes grow geometrically, and Newton starts near the solution.
 RefinementResult response_to_tolerance(const ProblemFactory& make_problem, const ContactLaws& laws,
                                        const RefinementOptions& options);
 

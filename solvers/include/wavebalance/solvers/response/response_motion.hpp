@@ -16,7 +16,7 @@ Motion contact_motion(const CondensedProblem& problem, const PeriodicResponse& r
                       const ContactLaws& laws, int points);
 
 /// The motion of all n degrees of freedom, without forces, in a response of `problem`, whose load scale
-/// must be that of the response. Throws std::invalid_argument where the problem is at another frequency, and
+/// must equal the response's. Throws std::invalid_argument where the problem is at another frequency, and
 /// SingularSystem. O(n (M + points log points)).
 Motion structure_motion(CondensedProblem& problem, const PeriodicResponse& response, int points);
 

@@ -19,7 +19,7 @@ struct ContactDynamicsOptions {
   void validate() const;
 };
 
-/// An exponent lambda of a structure of its own, Im lambda >= 0, and what it contributes to the compliance of
+/// An exponent lambda of the linear structure, Im lambda >= 0, and its contribution to the compliance of
 /// the contacts: residue shape left^T / (s - lambda), and its conjugate where Im lambda > 0.
 struct ContactPole {
   std::complex<double> exponent;  ///< 1/s
@@ -31,14 +31,14 @@ struct ContactPole {
 /// The compliance of the contacts, S (s^2 M + s C + K)^-1 S^T, at any complex exponent s, by the modes of the
 /// structure, and the exponents of the structure without contact.
 ///
-/// Modes that decouple the damping are taken where they exist, otherwise the 2n complex ones. C and K need
-/// not be symmetric: the left modes are then rows of the inverse of the matrix of right ones. Structures of
+/// Modes that decouple the damping are used if they exist, otherwise the 2n complex ones. C and K need not
+/// be symmetric: the left modes are then rows of the inverse of the matrix of right ones. Structures of
 /// more than max_size degrees of freedom are projected on the block Krylov space of K^-1 M from the static
 /// deflections K^-1 S^T [R. R. Craig, A. L. Hale, J. Guid. Control Dyn. 11, 1988, doi:10.2514/3.20353].
-/// Without symmetry that of K^-1 M and K^-1 C is taken, from K^-1 S^T and K^-T S^T.
-/// Statics are then exact. What is neglected is the dynamics of modes that the contacts hardly excite or that
-/// lie above the frequencies which the vectors span; exponents() has the others. reduced() tells, and a
-/// comparison with Condensation::dynamic_compliance() at the highest harmonic measures it.
+/// Without symmetry the space of K^-1 M and K^-1 C is used, from K^-1 S^T and K^-T S^T. Statics are then
+/// exact. Neglected is the dynamics of modes that the contacts hardly excite or that are above the
+/// frequencies which the vectors span; exponents() has the others. reduced() reports it, and a comparison
+/// with Condensation::dynamic_compliance() at the highest harmonic measures it.
 ///
 /// Immutable; may be shared between threads.
 class ContactDynamics {
@@ -56,15 +56,15 @@ class ContactDynamics {
   static ContactDynamics undamped(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXd& shapes,
                                   Eigen::Index dynamic);
 
-  /// The same with springs, constant(), in place of the poles beyond a modulus (1/s). Exact in statics; what
-  /// is neglected grows with the square of a frequency over that modulus. O(poles C^2).
+  /// The same with springs, constant(), instead of the poles beyond a modulus (1/s). Exact in statics; the
+  /// error grows with the square of a frequency over that modulus. O(poles C^2).
   ContactDynamics with_springs_beyond(double modulus) const;
 
   int contacts() const { return static_cast<int>(constant_.rows()); }  ///< C
   /// Whether the structure was reduced, so that exponents() is not complete.
   bool reduced() const { return reduced_; }
-  /// kappa, N/m, of springs along all contacts that hold a structure which is free to move, so that its poles
-  /// do not lie at zero; 0 for others. held_stiffness() takes them back.
+  /// kappa, N/m, of springs along all contacts that hold a structure which is free to move, so that no pole
+  /// is zero; 0 for others. held_stiffness() removes them.
   double holding() const { return holding_; }
   /// Whether the structure has a loss factor, which is left out here: stability is then unknown.
   bool structurally_damped() const { return structurally_damped_; }
@@ -110,8 +110,8 @@ class DynamicsAlong {
   DynamicsAlong(const ContactDynamics& dynamics)
       : given_(std::shared_ptr<const ContactDynamics>(), &dynamics) {}
 
-  /// Those of a structure at its speed (TurningParts::speed). The last ones are kept, others take O(n^3).
-  /// Throws as ContactDynamics does.
+  /// The dynamics at its speed (TurningParts::speed). The last ones are kept, others need O(n^3). Throws as
+  /// ContactDynamics does.
   std::shared_ptr<const ContactDynamics> at(const LinearStructure& structure);
 
  private:

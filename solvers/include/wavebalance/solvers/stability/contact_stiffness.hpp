@@ -26,8 +26,8 @@ enum class StabilityStatus {
   too_many_states,  ///< a law that depends on the velocity, at a structure with more states than max_states
   structural_damping,  ///< it has no equation in time, so that no perturbation grows or decays by it
   effort_limit,        ///< max_evaluations were not enough
-  /// friction or a CoupledLaw beside a law that depends on the velocity, both together, friction in a
-  /// structure of more than max_states, slip along two tangents, or another law over a period
+  /// friction or a CoupledLaw together with a law that depends on the velocity, both together, friction in
+  /// a structure of more than max_states, slip along two tangents, or another law over a period
   unsupported_law
 };
 
@@ -56,7 +56,8 @@ struct FrictionPart {
   enum class State { open, stick, slip };
   State state = State::stick;
   double begin = 0.0, end = 1.0;
-  /// Of the friction force in slip along one tangent; of stick, in the slip before it, 0 after closing.
+  /// Sign of the friction force in slip along one tangent; in stick, of the slip before it, 0 after
+  /// closing.
   double sign = 0.0;
   double ratio =
       0.0;  ///< of stick after closing: the tangential velocity over the normal one at that instant
@@ -68,7 +69,7 @@ enum class ContactState { open, closed, stick, slip };
 /// States of a contact over a period, to the accuracy of its forces and velocities.
 struct FrictionCycle {
   int row = 0;                        ///< the first of its contact directions
-  double work = 0.0;                  ///< J, that friction takes over its surface, with dashpots beside it
+  double work = 0.0;                  ///< J, dissipated by friction and its parallel dashpots
   double slip = 0.0;                  ///< m, the distance that the slider moves over its surface
   double wear = 0.0;                  ///< J, the normal force times that distance [Archard]
   std::array<double, 4> shares = {};  ///< of the period, by ContactState
@@ -134,11 +135,11 @@ PeriodicStiffness held_stiffness(const PeriodicStiffness& stiffness, int contact
 ///
 /// A CoupledLaw has its intervals for each of its rows, a law that ActsAtInstants has the whole period.
 ///
-/// A law whose force depends on the velocity has its intervals where it acts; the velocity is that of the sum
-/// of trial functions or of the interpolant.
+/// A law whose force depends on the velocity has its intervals where it acts; the velocity follows from the
+/// trial functions or the interpolant.
 ///
-/// Rigid contact has the status no_finite_stiffness and no tangent; the intervals are those of the contact
-/// force, but empty where elastic laws are in contact, too.
+/// Rigid contact has the status no_finite_stiffness and no tangent; the intervals follow from the contact
+/// force, but are empty if elastic laws are also in contact.
 ///
 /// The result refers to `laws` no more than by copies. O(C (N + intervals M)).
 /// Throws std::invalid_argument for laws that are neither one nor one per contact, and for samples of another

@@ -14,7 +14,7 @@ struct PointStability {
   StabilityStatus status = StabilityStatus::no_response;
   int unstable = -1;  ///< multipliers outside the unit circle; -1 unless converged
   int contacts = 0;   ///< intervals of contact within the period, of all contacts
-  int fold = 0;       ///< StabilitySigns::fold; of counts alone it may be 0, as flip
+  int fold = 0;       ///< StabilitySigns::fold; with counts only it may be 0, as flip
   int flip = 0;       ///< StabilitySigns::flip
 };
 
@@ -52,7 +52,7 @@ struct SpecialPoint {
 struct CurveStabilityOptions {
   StabilityOptions stability;
   double tolerance = 1e-6;     ///< width of a bracket over the distance of two points of the curve
-  bool special_points = true;  ///< whether they are located; without them counts alone take far less
+  bool special_points = true;  ///< whether they are located; without them counts need far less
   int output_points =
       1024;           ///< times per period at which the maxima of bifurcation and grazing points are taken
   Observer observer;  ///< called after each point
@@ -74,9 +74,9 @@ struct CurveStability {
 /// The stability of every point of a curve that frequency_sweep() or amplitude_sweep() has traced on
 /// `problem` with keep_unknowns, and its bifurcation and grazing points. Where two neighbours differ in the
 /// count, in a sign or in the number of intervals of contact, the curve between them is divided, each time
-/// with a new solution of the balance, until each difference stands alone in a bracket of the tolerance: at
-/// the grazing that samples predict, else in the middle. Two changes between neighbours that cancel each
-/// other are not noticed.
+/// with a new solution of the balance, until a bracket of the tolerance has a single difference: at the
+/// grazing that samples predict, else in the middle. Two changes between neighbours that cancel each other
+/// are not noticed.
 ///
 /// Throws std::invalid_argument for a curve without unknowns and as unstable_multipliers does. One
 /// unstable_multipliers() per point, about 7 responses per grazing point, and about 20 responses and counts

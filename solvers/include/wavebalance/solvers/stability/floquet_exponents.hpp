@@ -23,7 +23,7 @@ struct FloquetOptions {
   StabilityOptions stability;
   /// H is raised where contact is too stiff for it (StabilityOptions::max_omitted), by at most this factor.
   int max_raise = 4;
-  int max_exponents = 4;     ///< those of the largest multipliers, a conjugate pair counted once
+  int max_exponents = 4;     ///< exponents of the largest multipliers, a conjugate pair counted once
   double tolerance = 1e-11;  ///< on the last step of Newton's method, relative to the frequency
   int max_iterations = 40;   ///< of Newton's method for each exponent
   /// Where Newton's method starts, 1/s, as along a curve from the point before; empty: at the roots of the
@@ -42,17 +42,17 @@ struct FloquetExponents {
   int evaluations = 0;  ///< of the determinant
 };
 
-/// The exponents sigma with the largest real parts of the perturbations of unstable_multipliers(), with their
-/// motions. Newton's method on Delta(sigma) = 0, whose poles at the structure's own exponents are divided out
-/// by (T/2)(coth((sigma - lambda_j) T/2) - 1) in the logarithmic derivative, and likewise the exponents
-/// already found. Without `starts`, Delta times its poles is sampled on the unit circle, where it is a
-/// polynomial in 1/z [the numerator prod (1 - mu_j / z)], and the roots of that are the starts: 17 to 513
-/// evaluations, and 5 to 10 for each exponent. Where laws depend on the velocity the exponents are those of
-/// monodromy(), without motions. unstable_multipliers() then says whether all exponents with
-/// positive real parts are among those found; if not, the status is effort_limit. Multipliers below 1e-2 are
-/// not sought. An undamped structure has poles on that circle and its status is undamped, except with
-/// `starts`, which are not checked.
-/// Throws std::invalid_argument as unstable_multipliers does.
+/// The exponents sigma with the largest real parts of the perturbations of unstable_multipliers(), with
+/// their motions. Newton's method on Delta(sigma) = 0, whose poles at the exponents of the linear structure
+/// are divided out by (T/2)(coth((sigma - lambda_j) T/2) - 1) in the logarithmic derivative, and likewise
+/// the exponents already found. Without `starts`, Delta times its poles is sampled on the unit circle,
+/// where it is a polynomial in 1/z [the numerator prod (1 - mu_j / z)], and the roots of that are the
+/// starts: 17 to 513 evaluations, and 5 to 10 for each exponent. With laws that depend on the velocity the
+/// exponents come from monodromy(), without motions. unstable_multipliers() then checks whether all
+/// exponents with positive real parts are among those found; if not, the status is effort_limit.
+/// Multipliers below 1e-2 are not computed. An undamped structure has poles on that circle and its status
+/// is undamped, except with `starts`, which are not checked. Throws std::invalid_argument as
+/// unstable_multipliers does.
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                    double frequency, const FloquetOptions& options);
 FloquetExponents floquet_exponents(const ContactDynamics& dynamics, const CondensedProblem& problem,

@@ -10,8 +10,8 @@ namespace wavebalance::solvers {
 struct MonodromyOptions {
   int nodes =
       20;  ///< Gauss nodes on each piece of an interval of contact, which is halved where they do not do
-  /// Largest change over a piece of the phase of the highest mode and of the contact's stiffness on the mass
-  /// beside it, rad.
+  /// Largest change over a segment of the phase of the highest mode and of the contact's stiffness on the
+  /// neighbouring mass, rad.
   double max_phase = 12.0;
   int max_segments = 500;  ///< at most, of a contact that lasts the whole period
 
@@ -25,13 +25,13 @@ struct MonodromyOptions {
 ///
 ///   u(t) + integral_a^t h(t - s) D(s) u(s) ds = free motion,   h(t) = sum_l r_l exp(lambda_l t),
 ///
-/// collocated at Gauss nodes; pieces end where any contact opens or closes. It shares neither harmonics nor
-/// the determinant with unstable_multipliers() and serves to check it. Any number of contacts, massless ones
-/// too. A reduced structure has the multipliers of its reduced modes. Of the n states, m are more than
-/// rounding after the longest free flight; the multipliers of the others are zero. O(pieces (nodes^2 n C^2 +
-/// (nodes C)^3 + nodes C n m) + m^3). Throws std::invalid_argument for a frequency (Hz) that is not positive
-/// and finite, a stiffness whose status is not converged, and options out of range. NaN where the contact is
-/// so stiff that max_segments do not resolve it.
+/// collocated at Gauss nodes; segments end where any contact opens or closes. It shares neither harmonics
+/// nor the determinant with unstable_multipliers() and serves to check it. Any number of contacts, massless
+/// ones too. A reduced structure has the multipliers of its reduced modes. m of the n states are more than
+/// rounding after the longest free flight; the multipliers of the others are zero. O(segments (nodes^2 n
+/// C^2 + (nodes C)^3 + nodes C n m) + m^3). Throws std::invalid_argument for a frequency (Hz) that is not
+/// positive and finite, a stiffness whose status is not converged, and options out of range. NaN where the
+/// contact is so stiff that max_segments do not resolve it.
 Eigen::VectorXcd monodromy(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                            double frequency, const MonodromyOptions& options = {});
 

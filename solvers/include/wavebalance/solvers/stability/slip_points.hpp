@@ -5,10 +5,10 @@
 
 namespace wavebalance::solvers {
 
-/// Where along a curve with friction the first contact begins to slip or to open, or the last one ceases to:
-/// between two neighbours of which one has contacts that stick for the whole period alone. Up to there the
-/// force of each contact is a spring's, so that the place is that at which the trial functions of the motion
-/// just reach a limit somewhere in the period, solved for to rounding, not one at which a sample does.
+/// Points of a curve with friction at which the first contact begins to slip or to open, or the last one
+/// stops doing so: between two neighbours of which one has only sticking contacts. There each contact acts
+/// as a spring, so the point is solved for to rounding: the trial functions of the motion, not only their
+/// samples, just reach a limit.
 ///
 /// Points have the type `slip`, no multiplier, and the unknowns of the last motion that sticks. None in the
 /// force form. Throws std::invalid_argument for a curve without unknowns. One response per neighbours that

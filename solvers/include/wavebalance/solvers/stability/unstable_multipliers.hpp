@@ -8,17 +8,17 @@ namespace wavebalance::solvers {
 
 /// How the determinant of a perturbation is evaluated and its argument followed.
 struct StabilityOptions {
-  /// Harmonics H of the perturbation on either side; 0: those of the trial functions, (M - 1) / 2.
+  /// Harmonics H of the perturbation on either side; 0: as many as the trial functions have, (M - 1) / 2.
   int harmonics = 0;
-  /// How far contact may matter beyond H: the largest |S Z(i n omega)^-1 S^T| D at harmonics n > H, times the
-  /// cycles that the contact's stiffness goes through on the mass beside it while the contact lasts, if these
-  /// are more than one. The compliance of modes that yield like springs beyond H does not count. Where it is
-  /// larger, H harmonics do not represent perturbations: stable motions of stiff contacts look unstable.
-  /// Count and signs are then those of monodromy().
+  /// Limit of the effect of contact beyond H: the largest |S Z(i n omega)^-1 S^T| D at harmonics n > H,
+  /// times the cycles of the neighbouring mass on the contact's stiffness during contact, if these are more
+  /// than one. The compliance of modes that yield like springs beyond H does not count. Where it is larger,
+  /// H harmonics do not represent perturbations: stable motions of stiff contacts look unstable. Count and
+  /// signs then come from monodromy().
   double max_omitted = 0.5;
   /// States up to which the monodromy may be taken, at O(states^3); 0: never.
   int max_states = 400;
-  /// The same with friction, where each interval between two transitions takes a matrix exponential.
+  /// The same with friction, where each interval between two transitions needs a matrix exponential.
   int max_states_with_friction = 400;
   /// Whether the monodromy also gives the leading multiplier, which requires its eigenvalues.
   bool leading = true;
@@ -36,7 +36,7 @@ struct UnstableMultipliers {
   int count = -1;        ///< -1 unless converged
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant; two real ones count as two
-  double winding = 0.0;  ///< the unrounded count; differs from an integer by rounding alone
+  double winding = 0.0;  ///< the unrounded count; differs from an integer only by rounding
   /// The largest multiplier in modulus, Im >= 0, where it was asked for and the monodromy was taken, NaN
   /// elsewhere.
   std::complex<double> leading{missing, missing};
@@ -47,15 +47,15 @@ struct UnstableMultipliers {
 ///   M v'' + C v' + K v + S^T D(t) S v = 0,   D periodic with `frequency` (Hz).
 ///
 /// With v = exp(sigma t) p(t) and the compliance G_sigma(t) = sum_{|n| <= H} S Z(sigma + i n omega)^-1 S^T
-/// exp(i n omega t) the contacts alone remain. At Gauss nodes t_j with weights w_j, ceil(1.8 H length) + 7 on
-/// each interval of contact, the determinant
+/// exp(i n omega t) only the contacts remain. At Gauss nodes t_j with weights w_j, ceil(1.8 H length) + 7
+/// on each interval of contact, the determinant
 ///
 ///   Delta(sigma) = det(I + G_sigma(t_i - t_j) w_j D(t_j))
 ///
 /// is the quotient of the characteristic polynomials with and without contact, prod (z - mu_j) / (z -
-/// exp(lambda_j T)), z = exp(sigma T). The count is that of the poles lambda_j with a positive real part less
-/// [arg Delta(i nu)] / pi over nu = 0..omega/2: the generalised Nyquist criterion [N. M. Wereley, S. R. Hall,
-/// Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516].
+/// exp(lambda_j T)), z = exp(sigma T). The count is the number of poles lambda_j with a positive real part
+/// less [arg Delta(i nu)] / pi over nu = 0..omega/2: the generalised Nyquist criterion [N. M. Wereley, S.
+/// R. Hall, Frequency response of linear time periodic systems, CDC 1990, doi:10.1109/CDC.1990.203516].
 ///
 /// Two real maps of the period have the multipliers of Delta, exact at z = 1 and at z = -1. Where their
 /// distances leave no doubt on which side of the circle these lie, they are counted: two evaluations. Else
@@ -64,9 +64,9 @@ struct UnstableMultipliers {
 /// followed from points around the natural frequencies, folded into that range, and steps are halved until it
 /// changes by less than a third of pi and as its derivative says.
 ///
-/// Where following it takes more than 1e9 operations, as it does when many contacts last long, and the
-/// monodromy of at most `options.max_states` states is known, its eigenvalues are counted, or powers of it
-/// that vanish show that there are none. With `options.leading` it then comes before the two maps.
+/// If following it needs more than 1e9 operations, as for many long contacts, and the monodromy of at most
+/// `options.max_states` states is known, its eigenvalues are counted, or powers of it that vanish show that
+/// there are none. With `options.leading` it then comes before the two maps.
 ///
 /// `options.harmonics` must be set. O(evaluations (H n C^2 + nodes^2 H + nodes^3)), two real evaluations, and
 /// where these leave doubt 9 to 65 complex ones, as there are multipliers that do not decay. Throws

@@ -19,14 +19,15 @@ class SingularSystem : public std::runtime_error {
 /// turns with parts of G and K_s too; S are their directions, C x n.
 struct CondensedPoint {
   Eigen::MatrixXcd compliance;  ///< S Z^-1 S^T, C x C, m/N
-  /// S Z^-1 L, m for a unit time function of each load: C L values, that of contact c by load l at c + C l.
-  /// The loads are the columns of LinearStructure::load_shapes(); without forces there is one.
+  /// S Z^-1 L, m for a unit time function of each load: C L values, contact c by load l at c + C l. The
+  /// loads are the columns of LinearStructure::load_shapes(); without forces there is one.
   Eigen::VectorXcd load_response;
   /// Derivatives of both along dZ = d2 M + d1 C + d0 K.
   Eigen::MatrixXcd compliance_slope;
   Eigen::VectorXcd load_response_slope;
-  /// Estimated rounding errors, C each, by first-order bounds: of the diagonal of the compliance, m/N, whose
-  /// entry (c, d) has at most the geometric mean of those of c and d, and of the load response, m.
+  /// Estimated rounding errors, C each, by first-order bounds: of the diagonal of the compliance, m/N,
+  /// whose entry (c, d) has at most the geometric mean of the errors of c and d, and of the load response,
+  /// m.
   Eigen::VectorXd compliance_error = {}, load_response_error = {};
 };
 
@@ -91,9 +92,9 @@ class Condensation {
 
   /// Threads that condense() may use, at least 1; 0: one per core of the machine. With more than one it
   /// factorises the dynamic stiffnesses of several k at the same time, each thread with a copy of the
-  /// structure and factors of its own: `dense` and `sparse` from 64 degrees of freedom on, `modal` of
-  /// many contacts. The results are the same to the last digit. A BLAS with threads of its own should be set
-  /// to one (use_one_blas_thread()).
+  /// structure and separate factors: `dense` and `sparse` from 64 degrees of freedom on, `modal` of many
+  /// contacts. The results are the same to the last digit. A BLAS with threads should be set to one
+  /// (use_one_blas_thread()).
   void set_threads(int threads);
   int threads() const { return threads_; }
 
@@ -103,22 +104,22 @@ class Condensation {
   CondensedPoint dynamic_compliance(const ImpedanceCoefficients& factors,
                                     const ImpedanceCoefficients& derivatives);
 
-  /// dynamic_compliance() for all k at once, with results resized to fit. A bar that is loaded and touches at
-  /// its last degree of freedom alone takes one forward recursion, vectorised over k. K times the cost of a
+  /// dynamic_compliance() for all k at once, with results resized to fit. A bar with load and contact only
+  /// at its last degree of freedom needs one forward recursion, vectorised over k. K times the cost of a
   /// point. `load`: amplitudes of the loads at each k, K x L, which weight the error of the load response;
   /// empty: 1.
   void condense(const StiffnessSpectrum& factors, const StiffnessSpectrum& derivatives,
                 CondensedSpectrum& result, const Eigen::MatrixXcd& load = {});
 
   /// Condition of the dynamic stiffnesses of the last condense(): the largest over k of (|s2| max|M| + |s1|
-  /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to a
-  /// factor of the row length. SingularSystem is thrown from 4.5e14 on; the vectorised recursion of a bar
-  /// computes the contact's entry of x alone.
+  /// max|C| + |s0| max|K|) ||x|| / ||b|| over the systems Z(k) x = b that were solved, a lower bound up to
+  /// a factor of the row length. SingularSystem is thrown from 4.5e14 on; the vectorised recursion of a bar
+  /// computes only the contact's entry of x.
   double condition() const { return condition_; }
 
-  /// Rounding errors of the last condense(). The modal sums lose the digits by which their terms exceed them:
-  /// far from the load in a weakly coupled structure all of them. An elimination keeps them there, and loses
-  /// digits beside natural frequencies and antiresonances only.
+  /// Rounding errors of the last condense(). The modal sums lose the digits by which their terms exceed
+  /// them: far from the load in a weakly coupled structure all of them. An elimination keeps them there,
+  /// and loses digits only near natural frequencies and antiresonances.
   const RoundingErrors& rounding() const { return rounding_; }
 
   /// The full displacement Z^-1 (load a - S^T b), n values, for a load of amplitude a and contact forces b

@@ -17,18 +17,18 @@ using ContactDirections = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// one that is out of 0..size-1 or listed twice.
 ContactDirections contact_rows(const std::vector<int>& dofs, int size);
 
-/// The largest entry of A - A^T over that of a square A, 0 for none. O(entries).
+/// The largest entry of A - A^T over the largest entry of a square A, 0 for none. O(entries).
 double asymmetry(const Eigen::SparseMatrix<double>& matrix);
 /// Whether that is at most 1e-12, the rounding of a matrix that was assembled as a symmetric one.
 bool is_symmetric(const Eigen::SparseMatrix<double>& matrix);
 
-/// What turning adds to damping and stiffness at the speed Omega of the load, 2 pi f with f its frequency:
-/// Omega G and Omega^2 K_s. LinearStructure holds damping and stiffness at one speed, at_speed() those at
-/// another.
+/// Additions of rotation to damping and stiffness at the speed Omega of the load, 2 pi f with f its
+/// frequency: Omega G and Omega^2 K_s. LinearStructure holds damping and stiffness at one speed, at_speed()
+/// converts them to another.
 struct TurningParts {
   Eigen::SparseMatrix<double> gyroscopic = {};  ///< G, n x n, N s^2/m; empty without
   Eigen::SparseMatrix<double> stiffness = {};   ///< K_s, n x n, symmetric, N s^2/m; empty without
-  double speed = 0.0;                           ///< rad/s, that of the structure's damping and stiffness
+  double speed = 0.0;                           ///< rad/s, speed of the structure's damping and stiffness
 };
 
 /// The linear part of a vibrating structure, M x'' + C x' + K x = load cos(2 pi f t) + forces - S^T f(S x),
@@ -39,7 +39,8 @@ struct LinearStructure {
   Eigen::SparseMatrix<double> stiffness;   ///< n x n, N/m; its skew part is circulatory
   Eigen::VectorXd load;                    ///< n, N, amplitude of the cosine load
   ContactDirections contact_directions;    ///< S, C x n: at least one row, none of them zero
-  std::vector<PeriodicForce> forces = {};  ///< beside `load`: static, of other harmonics, phases and places
+  std::vector<PeriodicForce> forces = {};  ///< in addition to `load`: static, other harmonics, phases and
+                                           ///< places
   /// eta of structural damping: K (1 + i eta) at the positive harmonics of a periodic motion, K at rest.
   double loss_factor = 0.0;
   /// n x r with K R = 0 and R^T M R = 1: the motions along which the structure is free [find_rigid_modes];
@@ -59,11 +60,11 @@ struct LinearStructure {
   /// The shapes of load and forces, n x (1 + number of forces), `load` first.
   Eigen::MatrixXd load_shapes() const;
   int load_count() const { return 1 + static_cast<int>(forces.size()); }
-  /// Takes transformation^T times each shape, as for x = transformation y. The other members are left alone.
+  /// Multiplies each shape by transformation^T, as for x = transformation y. Other members do not change.
   void transform_loads(const Eigen::MatrixXd& transformation);
-  /// The series of load and forces by harmonics of their own period, of which the period of `harmonics`, the
-  /// series of the load, has `repeats` at a frequency (Hz), with all but the static one times `factor`: a row
-  /// for each column of load_shapes(), a column for each harmonic, N.
+  /// The series of load and forces by harmonics of their period, of which the period of `harmonics`, the
+  /// series of the load, has `repeats` at a frequency (Hz), with all but the static one times `factor`: a
+  /// row for each column of load_shapes(), a column for each harmonic, N.
   Eigen::MatrixXcd load_series(const Eigen::VectorXcd& harmonics, int repeats, double frequency,
                                double factor = 1.0) const;
   /// The degree of freedom that row `contact` selects with the coefficient 1, or -1 for any other direction.

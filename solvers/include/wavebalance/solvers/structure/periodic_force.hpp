@@ -3,9 +3,9 @@
 
 namespace wavebalance::solvers {
 
-/// A factor that varies with the frequency of a load: through its values by cubics that are monotone between
-/// places and have a continuous slope, which curves over the frequency need [M. Steffen, Astron. Astrophys.
-/// 239, 1990]; by a line of two places, and beyond the places that of the nearest.
+/// A factor that varies with the frequency of a load: through its values by cubics that are monotone
+/// between places and have a continuous slope, which curves over the frequency need [M. Steffen, Astron.
+/// Astrophys. 239, 1990]; by a line for two places, and constant beyond the places.
 struct FrequencyFactor {
   Eigen::VectorXd frequencies = {};  ///< Hz, ascending; empty: the factor is 1
   Eigen::VectorXd values = {};       ///< one each

@@ -14,7 +14,7 @@ struct Motion {
   int rows() const { return static_cast<int>(displacement.rows()); }
   int points() const { return static_cast<int>(displacement.cols()); }
   bool empty() const { return displacement.size() == 0; }
-  /// The motion of contact c alone, 1 x points each. 0 <= c < rows(); of an empty motion an empty one.
+  /// The motion of contact c, 1 x points each. 0 <= c < rows(); of an empty motion an empty one.
   Motion contact(int c) const;
 };
 

@@ -10,9 +10,9 @@ namespace wavebalance::solvers {
 /// Displacement and velocity of periodic motions at uniform points of the period, for one trial basis.
 ///
 /// Velocities are sum_j a_j q_j'(t) / T [JL14, eq. (34)]. Trial functions without a pointwise derivative
-/// (Haar) take the jump between neighbouring cells divided by the cell width, placed at the cell edge and
-/// held for half a cell on either side, which spreads the paper's delta functions over one cell. Owns plans:
-/// one object per thread.
+/// (Haar) use the jump between neighbouring cells divided by the cell width, placed at the cell edge and
+/// held for half a cell on either side, which spreads the paper's delta functions over one cell. Owns
+/// plans: one object per thread.
 class MotionEvaluator {
  public:
   /// `points` as in the constructor of TrialEvaluator.

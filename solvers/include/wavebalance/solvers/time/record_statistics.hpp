@@ -26,15 +26,16 @@ Estimate root_of(const Estimate& square);
 
 /// One-sided power spectral density: its sum over the frequencies times their distance is the variance.
 struct PowerSpectrum {
-  Eigen::VectorXd frequency;     ///< Hz, up to 20 times that of the load
+  Eigen::VectorXd frequency;     ///< Hz, up to 20 times the forcing frequency
   Eigen::MatrixXd density;       ///< series x frequencies, unit^2/Hz
   int segments = 0;              ///< that are averaged
   double segment_periods = 0.0;  ///< periods of the load in each
 };
 
-/// That of series of uniform samples over `periods` periods of a load of `frequency` (Hz), by the mean of the
-/// periodograms of half-overlapping segments of an eighth of them under the window of Hann [P. D. Welch, IEEE
-/// Trans. Audio Electroacoust. 15, 1967, doi:10.1109/TAU.1967.1161901]. Means are taken off before.
+/// The spectrum of series of uniform samples over `periods` periods of a load of `frequency` (Hz), by the
+/// mean of the periodograms of half-overlapping segments of an eighth of them under the window of Hann [P.
+/// D. Welch, IEEE Trans. Audio Electroacoust. 15, 1967, doi:10.1109/TAU.1967.1161901]. Means are subtracted
+/// before.
 PowerSpectrum power_spectrum(const std::vector<std::vector<double>>& series, int periods, double frequency);
 
 }  // namespace wavebalance::solvers

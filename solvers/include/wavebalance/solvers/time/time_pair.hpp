@@ -10,7 +10,7 @@
 
 namespace wavebalance::solvers {
 
-/// Where the two time derivatives of the inertia term stand: on the trial functions [JL14, eq. (14)], one on
+/// Place of the two time derivatives of the inertia term: on the trial functions [JL14, eq. (14)], one on
 /// each side [JL14, eq. (15)], or on the weighting functions [JL14, eq. (16)].
 enum class Formulation { strong, weak, distributional };
 
@@ -18,13 +18,13 @@ enum class Formulation { strong, weak, distributional };
 /// the paper does), or exactly.
 enum class InnerProducts { quadrature, exact };
 
-/// What becomes of the coefficient over translates k = M/2 of an even M, the alternating one. Its symbols are
-/// real for every pair of real generators, those of the first derivative too, so that C enters its dynamic
+/// Treatment of the coefficient over translates k = M/2 of an even M, the alternating one. Its symbols are
+/// real for every pair of real generators, also for the first derivative, so that C enters its dynamic
 /// stiffness as a spring does and damps nothing: a lightly damped structure resonates where a natural
 /// frequency meets M/2 times the forcing frequency, or near it. Dropped, the coefficient is in neither the
-/// trial nor the weight space; two Fourier bases of M functions are then those of M - 1. An odd M has none.
-/// Which Nyquist function a Fourier basis ends with, cosine or sine, is spectral::Nyquist: without effect
-/// where the coefficient is dropped.
+/// trial nor the weight space; two Fourier bases of M functions then equal bases of M - 1. An odd M has
+/// none. Which Nyquist function a Fourier basis ends with, cosine or sine, is spectral::Nyquist: without
+/// effect where the coefficient is dropped.
 enum class NyquistCoefficient { keep, drop };
 
 /// A trial and a weighting basis that cannot be paired: s_p + s_q > 2 does not hold, or a derivative that the
@@ -57,7 +57,7 @@ struct TimePairOptions {
 };
 
 /// Whether the duality pairing of the bases exists: the Sobolev exponents satisfy s_p + s_q > 2, and with
-/// sampled inner products every derivative that the formulation takes has pointwise values.
+/// sampled inner products every derivative of the formulation has pointwise values.
 Admissibility admissibility(const AnyTimeBasis& trial, const AnyTimeBasis& weight, Formulation formulation,
                             InnerProducts inner_products);
 
@@ -94,7 +94,7 @@ class TimePair {
   Formulation formulation() const { return options_.formulation; }
   InnerProducts inner_products() const { return options_.inner_products; }
 
-  /// lambda_d(k), k = 0..M/2, of A_d for d = 0, 1, 2, with that of a dropped coefficient; the unit is 1, time
+  /// lambda_d(k), k = 0..M/2, of A_d for d = 0, 1, 2, including a dropped coefficient; the unit is 1, time
   /// scaled to the period.
   const Eigen::VectorXcd& symbol(int derivative) const {
     return symbols_[static_cast<std::size_t>(derivative)];
