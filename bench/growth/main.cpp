@@ -17,7 +17,7 @@
 namespace wavebalance::bench {
 namespace {
 
-constexpr double longest = 4.0;  // s; what is expected to take longer is not run
+constexpr double longest = 4.0;  // s; longer solves are not run
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A scene over functions or elements.
@@ -40,7 +40,7 @@ solvers::CondensedProblem condensed_problem(const app::Scene& scene) {
   return {app::make_pair(scene.time), app::make_structure(scene), Eigen::Vector2cd(0.0, 1.0)};
 }
 
-// Complementarity paths would hide what Newton takes.
+// Complementarity paths would hide the cost of Newton's method.
 solvers::ForcedResponseOptions newton_only() {
   solvers::ForcedResponseOptions options;
   options.fallbacks = false;

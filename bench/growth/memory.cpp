@@ -36,7 +36,7 @@ double peak_bytes(const std::function<void()>& warm_up, const std::function<void
   double bytes = std::numeric_limits<double>::quiet_NaN();
   int ends[2];
   if (pipe(ends) != 0) return bytes;
-  malloc_trim(0);  // what earlier work left in the heap would hide what the child takes from it
+  malloc_trim(0);  // free memory in the heap would hide the child's use
   const pid_t child = fork();
   if (child == 0) report(warm_up, work, ends[1]);
   close(ends[1]);

@@ -20,7 +20,7 @@ constexpr double complex = 2 * sizeof(double);
 double fft_flops(double points) { return 2.5 * points * std::log2(points); }
 
 // Four samplings and their transforms (trial functions; weights and their first two derivatives) give three
-// symbols. Daubechies Galerkin pairs sample both generators alone and transform three columns of M values.
+// symbols. Daubechies Galerkin pairs sample only both generators and transform three columns of M values.
 void symbol_assembly(benchmark::State& state, const std::string& trial, const std::string& weight) {
   app::Time time;
   time.trial = trial;
@@ -128,7 +128,7 @@ void newton_step(benchmark::State& state) {
            2.0 * real * active * active);
 }
 
-// The same by GMRES, to the residual that Newton asks for at first; the limit is that of the four transforms.
+// The same by GMRES, to the first residual of Newton's method; the limit is set by the four transforms.
 void newton_step_gmres(benchmark::State& state) {
   const Case scene = jl14_case(1);
   const auto points = static_cast<int>(state.range(0));

@@ -4,7 +4,7 @@
 
 #include "limits.hpp"
 
-// What this machine does at best with plain code: the measure of the kernels.
+// Best speed of this machine with plain code: the reference of the kernels.
 namespace wavebalance::bench {
 namespace {
 

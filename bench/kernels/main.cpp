@@ -4,7 +4,7 @@
 #include "limits.hpp"
 #include "program.hpp"
 
-// Time of the kernels beside what this machine could do at best: kernels.csv and its picture.
+// Time of the kernels compared with the best of this machine: kernels.csv and its picture.
 namespace wavebalance::bench {
 namespace {
 

@@ -6,8 +6,8 @@
 #include "wavebalance/contact/rigid_law.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"
 
-// A bar of 50 elements, EA = rho A = L = 1, whose end has a mass of its own and meets a rigid stop twice in a
-// period.
+// A bar of 50 elements, EA = rho A = L = 1, whose end has an additional mass and meets a rigid stop twice
+// in a period.
 namespace wavebalance::bench {
 namespace {
 

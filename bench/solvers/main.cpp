@@ -16,7 +16,7 @@
 namespace wavebalance::bench {
 namespace {
 
-// Work of libraries alone, of the kinds that a solve consists of: a dense LU and transforms.
+// Work of libraries only, of the kinds that a solve consists of: a dense LU and transforms.
 constexpr auto yardstick_name = "yardstick";
 void yardstick(benchmark::State& state) {
   constexpr int size = 120, points = 4096;
@@ -47,8 +47,8 @@ std::string bare_name(const benchmark::BenchmarkReporter::Run& run) {
   return name;
 }
 
-// Shows the console table, and after it each "dense_X" over its "X": how much slower the assembled system of
-// all n (2H + 1) unknowns is in this run. Of repetitions the quickest counts.
+// Shows the console table, and after it each "dense_X" over its "X": how much slower the assembled system
+// of all n (2H + 1) unknowns is in this run. The quickest repetition counts.
 class RatioReporter final : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -91,7 +91,7 @@ class RatioReporter final : public benchmark::ConsoleReporter {
 // Two runs of one build differ by less than this on a machine with other work.
 constexpr double noise = 1.3;
 
-// What follows `option` among the arguments, which it is taken out of; empty without it.
+// The value after `option`, removed from the arguments; empty without it.
 std::filesystem::path take_option(int& argc, char** argv, const char* option) {
   const std::size_t length = std::strlen(option);
   for (int i = 1; i < argc; ++i) {

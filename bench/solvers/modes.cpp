@@ -20,7 +20,7 @@ struct ModeCase {
   solvers::ModalModel model;
   int harmonics;
   int points;                          // of the curve
-  double largest_energy;               // over that of grazing
+  double largest_energy;               // over the energy of grazing
   double last_ratio;                   // omega over omega_1 a little beyond the largest energy
   std::vector<double> dense_energies;  // at which the dense baseline is measured
 };
@@ -77,7 +77,7 @@ void mode_backbone(benchmark::State& state, ModeCase (*make)()) {
   state.counters["accepted"] = accepted;
 }
 
-// All r (2N + 1) unknowns (rod 420, blade 1232) in the augmented Lagrangian take long for the whole curve: a
+// All r (2N + 1) unknowns (rod 420, blade 1232) in the augmented Lagrangian are slow for the whole curve: a
 // few points of it, each from the condensed point one energy step before, scaled to as many points as the
 // curve above.
 void dense_mode_backbone(benchmark::State& state, ModeCase (*make)()) {

@@ -15,9 +15,9 @@
 #include "wavebalance/spectral/fft.hpp"
 #include "wavebalance/wavelets/connection.hpp"
 
-// One periodic response from the linear response, condensation included, the pair of bases and FFT
-// plans made before; beside it the same by Newton on all n (2H + 1) unknowns with dense LU, the way the
-// published codes do it.
+// One periodic response from the linear response, condensation included, the pair of bases and FFT plans
+// made before; and the same by Newton on all n (2H + 1) unknowns with dense LU, the way the published codes
+// do it.
 namespace wavebalance::bench {
 namespace {
 
@@ -33,8 +33,8 @@ double fft_pair_seconds(int points) {
   });
 }
 
-// "over_ffts" is the time over that of the transforms alone that no Newton method on samples does without:
-// one pair for each residual and one for each step.
+// "over_ffts" is the time over the time of the transforms that every Newton method on samples needs: one
+// pair for each residual and one for each step.
 void solve_points(benchmark::State& state, solvers::CondensedProblem& problem, const Case& scene) {
   const solvers::AnyContactLaw law = scene.law();
   solvers::PeriodicResponse response;
@@ -108,7 +108,7 @@ void wavelet_point(benchmark::State& state, const std::string& name) {
   solve_points(state, problem, scene);
 }
 
-// What wavelet_point and point leave out: the symbol of the pair with its plans.
+// Part that wavelet_point and point omit: the symbol of the pair with its plans.
 void make_pair(benchmark::State& state, const std::string& name) {
   const spectral::FourierBasis basis((1 << wavelet_level) - 1);
   for (auto _ : state) {
@@ -137,7 +137,7 @@ void dense_point(benchmark::State& state) {
   state.counters["newton"] = solution.iterations;
 }
 
-// Times one Newton step of the large system alone, assembly included: the ratio is then a lower bound.
+// Times only one Newton step of the large system, assembly included: the ratio is then a lower bound.
 void dense_step(benchmark::State& state) {
   const Case scene = jl14_case(static_cast<int>(state.range(0)));
   auto system = dense_problem(scene, static_cast<int>(state.range(1)), static_cast<int>(state.range(2)));

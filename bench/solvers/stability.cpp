@@ -10,8 +10,8 @@
 #include "wavebalance/solvers/stability/floquet_exponents.hpp"
 #include "wavebalance/solvers/stability/monodromy.hpp"
 
-// What the stability of one response costs, over the time that a point of its response curve takes in the
-// same run: the counter sweep_points.
+// Cost of the stability of one response, over the time of a point of its response curve in the same run:
+// the counter sweep_points.
 namespace wavebalance::bench {
 namespace {
 

@@ -37,7 +37,7 @@ void sweep_at_turning_points(benchmark::State& state) {
   follow(state, solvers::GrazingEvents::at_turning_points);
 }
 
-// The dense system takes minutes for a whole sweep: two points of it, one with contact, each from the point
+// The dense system needs minutes for a whole sweep: two points of it, one with contact, each from the point
 // before, scaled to as many points as the curve above has.
 void dense_sweep(benchmark::State& state) {
   const Case scene = jl14_case(2);

@@ -9,8 +9,8 @@
 #include "wavebalance/app/files/table.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
-// What a tolerance asked for gives and costs, beside the cheapest fixed choice of the same error:
-// tolerance.csv and its picture.
+// Error and cost for a tolerance, compared with the cheapest fixed choice of the same error: tolerance.csv
+// and its picture.
 namespace wavebalance::bench {
 namespace {
 

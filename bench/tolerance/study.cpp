@@ -46,7 +46,7 @@ ToleranceStudy::Solution ToleranceStudy::solve(const FixedChoice& choice) const 
                 .functions = choice.functions,
                 .quadrature_points = choice.points};
   solvers::CondensedProblem problem = app::make_problem(scene, model_);
-  // A choice that Newton alone does not solve is never the cheapest of its error.
+  // A choice that Newton's method does not solve is never the cheapest of its error.
   solvers::ForcedResponseOptions options;
   options.fallbacks = false;
   auto response = solvers::forced_response(problem, law_, options);

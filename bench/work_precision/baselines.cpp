@@ -9,7 +9,7 @@
 #include "wavebalance/solvers/flow/periodic_flow.hpp"
 #include "wavebalance/spectral/fourier_basis.hpp"
 
-// What the condensed solver is measured against: the assembled system, time stepping and collocation.
+// Baselines of the condensed solver: the assembled system, time stepping and collocation.
 namespace wavebalance::bench {
 namespace {
 

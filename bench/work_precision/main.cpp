@@ -33,7 +33,7 @@ void append(std::vector<Point>& points, std::vector<Point> more) {
   points.insert(points.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-/// What is expected to take longer than `max_seconds` is not run.
+/// Runs expected to exceed `max_seconds` are skipped.
 app::SizeStudyOptions sizes(bool quick, std::vector<int> quick_points, double max_seconds) {
   app::SizeStudyOptions options;
   options.functions = quick ? std::vector{4, 16} : std::vector{4, 8, 16, 32, 64, 128, 256, 512, 1024};
@@ -78,7 +78,7 @@ void report(const Study& study, const std::vector<Point>& points, double seconds
 
 using Method = std::function<std::vector<Point>(const Study&)>;
 
-/// Rows and notes of all studies so far. Written after each, as the whole takes minutes.
+/// Rows and notes of all studies so far. Written after each, because the whole needs minutes.
 class Results {
  public:
   explicit Results(const Program& program) : program_(program) {}
@@ -107,7 +107,7 @@ class Results {
   }
 
  private:
-  /// The table of the page, which takes the HTML one in, too.
+  /// The table of the page, which also contains the HTML one.
   void write_cheapest() const {
     write_data(program_.output, "cheapest_pairs", cheapest_.table(),
                {"The cheapest pair of bases for an error, and the time of Fourier:Fourier over its own",

@@ -34,7 +34,7 @@ void add_panel(app::Figure& figure, const Study& study, const std::vector<Point>
     panel.add(app::best_of(pair, points));
   app::Series phases = app::best_of(app::BasisPair::phases(), points);
   phases.label = "exact solution from 63 functions";
-  phases.marker = 8;  // that of no pair in the same colour
+  phases.marker = 8;  // of no pair in the same colour
   for (app::Series one : {baseline("dense", "Fourier:Fourier, assembled system", 6, points),
                           baseline("time_stepping", "time stepping", 7, points), std::move(phases)})
     if (!one.x.empty()) panel.add(std::move(one));

@@ -15,7 +15,7 @@ app::Scene scene(const std::string& file) {
 }
 
 Study study(const std::string& name, const std::string& title, const std::string& file) {
-  constexpr double seconds = 60.0;  // at most; collocation take milliseconds
+  constexpr double seconds = 60.0;  // at most; collocation needs milliseconds
   app::Scene loaded = scene(file);
   app::StructureModel model = app::make_model(loaded);
   app::Reference reference = app::find_reference(loaded, model, loaded.analysis.output_points, seconds);

@@ -19,8 +19,8 @@ double inner_slope(double a, double b, double p, double q) {
   return (near + far) / (near / p + far / q);
 }
 
-// Slope at an end whose interval has the length a and the slope p, beside one of b and q: that of the
-// parabola through three points, limited to what is monotone.
+// Slope at an end whose interval has the length a and the slope p, next to one of b and q: slope of the
+// parabola through three points, limited for monotony.
 double end_slope(double a, double b, double p, double q) {
   const double slope = ((2.0 * a + b) * p - a * q) / (a + b);
   if (!(slope * p > 0.0)) return 0.0;
@@ -85,7 +85,7 @@ std::size_t TableLaw::cell_of(double displacement) const {
   return static_cast<std::size_t>(share * static_cast<double>(displacements_.size() - 1));
 }
 
-// The points of a cell are those at which its number is that of the cell, which rises with the displacement.
+// The points of a cell are all points with its number, which rises with the displacement.
 void TableLaw::set_cells() {
   cells_.reserve(displacements_.size() + 1);
   for (std::size_t i = 0; i < displacements_.size(); ++i)

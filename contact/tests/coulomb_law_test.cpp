@@ -169,7 +169,8 @@ TEST(CoulombLaw, OfOneTangentHasAtMostFiveSlopesPerForce) {
   }
 }
 
-// The largest difference of the tangential forces from those of 64 times as many points, at the coarse ones.
+// The largest difference of the tangential forces from a solution with 64 times as many points, at the
+// coarse ones.
 double error_of(const CoulombLaw& law, int points, double phase) {
   const auto forces = [&](int count) {
     std::vector<double> u;
@@ -243,7 +244,7 @@ TEST(CoulombLaw, RefusesWhatMakesNoLaw) {
   EXPECT_NE(message({0.1, 1.0, 1.0, 2, {0.0}}).find("slider has 1 entries"), std::string::npos);
 }
 
-// v = u + h f: the forces of the law at u are those of its resolvent at v, along straight steps of either.
+// v = u + h f: the forces of the law at u equal its resolvent's at v, along straight steps of either.
 TEST(CoulombLaw, ResolventHasTheForcesOfTheLawAtTheEndOfSprings) {
   std::mt19937 generator(7);
   constexpr int points = 4096;
@@ -274,7 +275,7 @@ TEST(CoulombLaw, RigidFrictionIsElasticInSeriesWithASpring) {
   EXPECT_THROW(rigid.over_period(2, std::vector<double>{0.0, 1.0}, false), std::invalid_argument);
   EXPECT_THROW(rigid.resolvent(std::vector<double>{0.0}), std::invalid_argument);
   EXPECT_THROW(rigid.resolvent(std::vector<double>{1.0, 1.0}), std::invalid_argument);
-  // A step of rigid friction behind a spring is that of the elastic law along v.
+  // A step of rigid friction in series with a spring equals the step of the elastic law along v.
   for (const double travel : {0.1, 0.3, 2.0}) {
     std::vector<double> force{0.4}, other{0.4};
     const std::vector<double> before{0.2}, v{0.2 + 0.25 * 0.4 + travel}, start{0.2 + 0.25 * 0.4}, none{0.0};

@@ -123,7 +123,7 @@ TEST(TableLaw, RefusesDevicesPipesFoldersAndFilesThatAreTooLarge) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   EXPECT_EQ(reason(folder / "pipe"), ": cannot be read: it is not a regular file");
   const auto large = folder.write("large.csv", "0,0\n1,1\n");
-  std::filesystem::resize_file(large, (1u << 24) + 1);  // a hole, which takes no room
+  std::filesystem::resize_file(large, (1u << 24) + 1);  // a hole, which needs no space
   EXPECT_EQ(reason(large), ": cannot be read: it has 16777217 bytes; expected at most 16777216");
 }
 

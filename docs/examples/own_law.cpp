@@ -1,5 +1,5 @@
-// A frequency sweep with stability of two masses, of which the second meets a rubber stop with a law of its
-// own.
+// A frequency sweep with stability of two masses, of which the second meets a rubber stop with a custom
+// law.
 #include <wavebalance/solvers/response/frequency_sweep.hpp>
 #include <wavebalance/solvers/stability/curve_stability.hpp>
 #include <wavebalance/spectral/fourier_basis.hpp>

@@ -317,7 +317,7 @@ void draw_stiff_stops(const Files& files) {
   app::write_pictures("stiff_stops", figure);
 }
 
-// How often a bar whose end has no mass of its own meets a rigid stop in a period, over its elements.
+// Number of impacts per period of a bar without end mass against a rigid stop, over its elements.
 void write_impacts_of_bars(const Files& files) {
   app::Scene scene = app::load_scene(files.at(0));
   scene.structure.massless_tip = false;

@@ -90,7 +90,7 @@ class BlockLanczos {
 
   /// Replaces W by Q with W = V C + Q R, Q orthonormal to itself and to the basis V in the inner product of
   /// M, adds C to `coefficients` and returns R. Directions of W below rounding relative to `scale` are left
-  /// out of Q. Each pass projects and then takes a square root of the Gram matrix; a third corrects the
+  /// out of Q. Each pass projects and then computes a square root of the Gram matrix; a third corrects the
   /// rounding of the second. M Q is kept.
   Eigen::MatrixXd orthonormalise(Eigen::MatrixXd& block, Eigen::MatrixXd& coefficients, double scale) {
     Eigen::MatrixXd root = Eigen::MatrixXd::Identity(block.cols(), block.cols());
@@ -109,7 +109,7 @@ class BlockLanczos {
           along.norm() + (gram - Eigen::MatrixXd::Identity(gram.rows(), gram.cols())).norm();
       normalise(block, gram, root, least);
       if (pass > 0 && change < 1e-8) {
-        // What was projected out is still in M Q, from which the next image follows.
+        // The projected parts are still in M Q, from which the next image follows.
         if (along.norm() > 1e-14) momenta_ = symmetric_product(mass_, block);
         break;
       }

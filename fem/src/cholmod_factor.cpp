@@ -84,7 +84,7 @@ Eigen::Index SymmetricFactor::rows() const { return implementation_->rows; }
 
 double SymmetricFactor::smallest_pivot() const { return implementation_->smallest; }
 
-// CHOLMOD does not change a factor that it solves with; its workspace is that of the call.
+// CHOLMOD does not change a factor that it solves with; its workspace belongs to the call.
 Eigen::MatrixXd SymmetricFactor::solve(const Eigen::MatrixXd& right) const {
   CholmodSession own(CHOLMOD_AUTO);
   Eigen::MatrixXd solution(right.rows(), right.cols());

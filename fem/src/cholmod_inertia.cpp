@@ -9,7 +9,7 @@
 #include "symmetric_factor.hpp"
 
 // L D L^T of an indefinite matrix by the multifrontal method [DR83], whose order and blocks of columns
-// CHOLMOD finds. CHOLMOD itself has dense blocks for L L^T alone.
+// CHOLMOD finds. CHOLMOD has dense blocks only for L L^T.
 namespace wavebalance::fem::detail {
 namespace {
 
@@ -33,7 +33,7 @@ class Blocks {
   const int* order() const { return static_cast<const int*>(factor_->Perm); }
   int first_column(std::size_t block) const { return static_cast<const int*>(factor_->super)[block]; }
   int columns(std::size_t block) const { return first_column(block + 1) - first_column(block); }
-  /// Places, ascending; the first are those of the columns.
+  /// Places, ascending; the first belong to the columns.
   const int* rows(std::size_t block) const { return static_cast<const int*>(factor_->s) + start(block); }
   int height(std::size_t block) const { return start(block + 1) - start(block); }
 
@@ -44,7 +44,7 @@ class Blocks {
   cholmod_factor* factor_ = nullptr;
 };
 
-/// What a block contributes to the blocks after it: a symmetric matrix over `rows`, its lower triangle.
+/// Contribution of a block to the blocks after it: a symmetric matrix over `rows`, its lower triangle.
 struct Contribution {
   std::vector<int> rows;
   Eigen::MatrixXd matrix;

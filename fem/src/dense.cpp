@@ -1,7 +1,7 @@
 #include "dense.hpp"
 
 #include <complex>
-// The types of LAPACK's C interface are those of C unless they are given.
+// By default LAPACK's C interface uses types of C.
 #define lapack_complex_float std::complex<float>
 #define lapack_complex_double std::complex<double>
 #include <lapacke.h>

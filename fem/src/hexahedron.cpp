@@ -89,9 +89,8 @@ double positive_determinant(const Eigen::Matrix3d& matrix) {
   return determinant;
 }
 
-// Columns: gradients of 1 - xi^2, 1 - eta^2, 1 - zeta^2 with the Jacobian at the centre in place of that at
-// the point. Their integral vanishes for an element of any shape, so that constant stress does no work on
-// them.
+// Columns: gradients of 1 - xi^2, 1 - eta^2, 1 - zeta^2 with the Jacobian at the centre instead of at the
+// point. Their integral vanishes for an element of any shape, so that constant stress does no work on them.
 Eigen::Matrix3d incompatible_gradients(const Eigen::Matrix3d& centre, double determinant,
                                        const Eigen::Vector3d& point) {
   const double ratio = centre.determinant() / determinant;

@@ -82,7 +82,7 @@ TEST(Surface, OfSolidsIsThatOfTheirBoundaryFaces) {
     const MeshSurface surface = surface_of(mesh_of(solid));
     EXPECT_EQ(std::ssize(surface.triangles), 6 * boundary_faces(solid).cols());
     EXPECT_TRUE(surface.segments.empty());
-    // What it encloses, by the divergence theorem, whatever the order of the faces.
+    // The enclosed volume by the divergence theorem, for any order of the faces.
     double volume = 0.0, expected = 0.0;
     for (std::size_t i = 0; i < surface.triangles.size(); i += 3) {
       Eigen::Matrix3d corners;

@@ -65,7 +65,7 @@ TEST_P(EveryRotor, HasASymmetricGeometricStiffnessThatIsTheSameInAllDirections) 
   EXPECT_EQ(block(0, 1).norm(), 0.0);
 }
 
-// Turned with its axis, so that every component of stress takes part: the same matrix, node by node.
+// Turned with its axis, so that every component of stress occurs: the same matrix, node by node.
 TEST_P(EveryRotor, HasAGeometricStiffnessThatIsIndifferentToTheFrame) {
   const SolidModel model = clamped(GetParam());
   SolidModel turned = model;

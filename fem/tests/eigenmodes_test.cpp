@@ -94,7 +94,7 @@ TEST(Eigenmodes, AreCompleteAtACoarseToleranceToo) {
   }
 }
 
-// A free bar: its rigid translation has frequency zero, the others are those of standing waves, m pi/n an
+// A free bar: its rigid translation has frequency zero, the others belong to standing waves, m pi/n an
 // element.
 TEST_P(BothSolvers, FindTheRigidModeOfAFreeBarWithANegativeShift) {
   const int nodes = 40;

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Solid, EveryBeam,
                                          SolidElement::hexahedron20_reduced),
                          case_name);
 
-// Slenderness 50: shear and rotatory inertia take 0.1 % of the frequency.
+// Slenderness 50: shear and rotatory inertia lower the frequency by 0.1 %.
 TEST_P(EveryBeam, HasTheFrequencyOfEulerAndBernoulliWhenSlender) {
   const Beam beam{0.03, 0.02, 1.0};
   EXPECT_NEAR(lowest(clamped(beam, GetParam(), {2, 2, 20})) / beam.euler_bernoulli_omega(), 1.0, 2e-3);

@@ -17,7 +17,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 Matrices small_blade() { return solid_matrices(blade(blade_of(SolidElement::hexahedron8, 4, 2, 6)).model); }
 
-/// A symmetric matrix of random entries, about four beside the diagonal of each row.
+/// A symmetric matrix of random entries, about four off the diagonal in each row.
 Sparse random_matrix(int size, unsigned seed) {
   std::mt19937 generator(seed);
   const auto uniform = [&] { return 2.0 * static_cast<double>(generator()) / std::mt19937::max() - 1.0; };

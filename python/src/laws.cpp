@@ -56,7 +56,7 @@ class LawOfFunctions {
   std::vector<double> kinks_;
 };
 
-/// Of force, tangent and potential over the displacement.
+/// Force, tangent and potential over the displacement.
 class FunctionLaw : public LawOfFunctions {
  public:
   FunctionLaw(std::vector<py::function> functions, double gap, bool unilateral, bool monotone,
@@ -72,7 +72,7 @@ class FunctionLaw : public LawOfFunctions {
   bool monotone_;
 };
 
-/// Of force, tangent and damping over displacement and velocity, and the potential over the displacement.
+/// Force, tangent and damping over displacement and velocity, and the potential over the displacement.
 class VelocityFunctionLaw : public LawOfFunctions {
  public:
   using LawOfFunctions::LawOfFunctions;

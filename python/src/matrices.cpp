@@ -10,7 +10,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What the files hold: (role, file, matrix) of each, and the names, nodes and directions of the rows or
+/// Content of the files: (role, file, matrix) of each, and the names, nodes and directions of the rows or
 /// None.
 py::tuple read_matrices(const std::vector<std::string>& names) {
   const std::vector<std::filesystem::path> files(names.begin(), names.end());

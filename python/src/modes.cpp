@@ -98,7 +98,7 @@ Backbone backbone(const Structure& structure, const py::object& laws, const solv
   });
 }
 
-/// Of the whole structure at a point.
+/// Motion of the whole structure at a point.
 solvers::Motion structure_motion(const Backbone& one, int index, int points) {
   const ModePoint& point = one.at(index);
   if (point.amplitudes.size() == 0)
@@ -118,14 +118,14 @@ struct DampedCurve {
   const solvers::DampedPoint& at(int index) const { return point_at(curve.points, index); }
 };
 
-/// Of the whole structure at a point.
+/// Motion of the whole structure at a point.
 solvers::Motion structure_motion(const DampedCurve& one, int index, int points) {
   const solvers::DampedPoint& point = one.at(index);
   const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(one.dofs, one.dofs);
   return app::synthesised_motion(one.mode.amplitudes(point, all), point.omega, points);
 }
 
-/// Amplitudes of 0: half of that of first slip, and ten times it.
+/// Amplitudes of 0: half the amplitude of first slip, and ten times it.
 DampedCurve damped_curve(const Structure& structure, const py::object& laws, const solvers::TimePair& pair,
                          int mode, double first, double last, int points) {
   const solvers::ContactLaws all = laws_of(laws);

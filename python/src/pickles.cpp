@@ -12,8 +12,8 @@
 #include "response.hpp"
 #include "sweeps.hpp"
 
-/// What responses and curves hold beside their problem and laws, as tuples of plain values that can be
-/// pickled.
+/// Data of responses and curves in addition to their problem and laws, as tuples of plain values that can
+/// be pickled.
 namespace wavebalance::python {
 
 namespace py = pybind11;

@@ -103,7 +103,7 @@ void add_structure(py::module_& module) {
       .def_property_readonly("symmetric", &Structure::symmetric);
 }
 
-/// The pair "trial:weight" of scenes with their keys; of a name alone both functions are the same.
+/// The pair "trial:weight" of scenes with their keys; with a single name both functions are the same.
 std::shared_ptr<solvers::TimePair> make_pair(const std::string& name, int functions, int points,
                                              const std::string& formulation,
                                              const std::string& inner_products, const std::string& nyquist,

@@ -14,7 +14,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What is known of a response.
+/// Results of a response.
 struct Stability {
   std::string status;
   int unstable = -1;

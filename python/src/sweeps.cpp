@@ -45,7 +45,7 @@ solvers::FrequencySweepOptions options_of(double from, double to, const Steps& s
   return options;
 }
 
-/// `frequency` is that of all points of an amplitude sweep; NaN for a frequency sweep.
+/// `frequency`: of all points of an amplitude sweep; NaN for a frequency sweep.
 std::shared_ptr<Curve> sweep(const std::shared_ptr<Problem>& problem, const py::object& laws,
                              double frequency, double from, double to, const Steps& steps) {
   auto one = std::make_shared<Curve>(Curve{problem, laws_of(laws, problem->condensed().structure()), {}, {}});

@@ -200,8 +200,8 @@ std::vector<app::Sweep> swept_under(report::Artefact& artefact, const std::strin
       fmt::format("analysis.largest_step={}", reading.largest_step),
       fmt::format("analysis.first_step={}", std::min(0.5, reading.largest_step)),
       std::string("time.nyquist=") + (reading.keeps_nyquist ? "keep" : "drop")};
-  // With short steps a curve that passes the interval takes fewer points than this; the others end thousands
-  // of points later, unbounded.
+  // With short steps a curve that passes the interval needs fewer points than this; the others end
+  // thousands of points later, unbounded.
   constexpr double short_step = 2.0;
   if (reading.largest_step <= short_step) overrides.emplace_back("analysis.max_points=900");
   artefact.scene(file, overrides);

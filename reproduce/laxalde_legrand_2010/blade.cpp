@@ -14,7 +14,7 @@ std::vector<SecondSolution> second_solutions(const app::ModeStudy& study, const 
                                              const std::vector<double>& energies) {
   auto options = lagrangian_options(study.scene(), study.scene().analysis.harmonics);
   options.cosine_only =
-      true;  // the motions are even in time, and half the unknowns take an eighth of the time
+      true;  // the motions are even in time, and half the unknowns need an eighth of the time
   const LagrangianMode mode(study.mode().model(), options);
   std::vector<SecondSolution> solutions;
   for (const double energy : energies) {

@@ -66,7 +66,7 @@ app::Series resonance_points(const std::vector<double>& energy, const std::vecto
                         Colour::grey, {.marker = 8});
 }
 
-/// Points on internal resonances, with their names where they stand apart.
+/// Points on internal resonances, with their names if these do not overlap.
 void add_resonances(app::Panel& panel, const app::ModeStudy& study, const app::Backbone& backbone,
                     bool onset) {
   std::vector<double> energy, ratio;
@@ -113,7 +113,7 @@ void add_quotient(app::Figure& figure, const Table& table, double step) {
     series.marker_every = 4;
     panel.add(series);
   }
-  panel.add(resonance_points({}, {}));  // for the legend, which is that of all panels
+  panel.add(resonance_points({}, {}));  // for the legend of all panels
   panel.mark_x(1.0);
 }
 

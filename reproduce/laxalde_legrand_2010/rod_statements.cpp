@@ -20,7 +20,7 @@ using report::Verdict;
 
 constexpr double compared[] = {1.2, 1.8, 3.0, 5.0, 10.0};  // energy ratios
 
-/// What ω over the linear frequency rises by from the linear mode to the last energy compared, exact.
+/// Exact increase of ω over the linear frequency from the linear mode to the last energy compared.
 double frequency_range(const RodCurves& curves) {
   return exact_mode(curves.study.scene(), *std::rbegin(compared)).frequency_ratio() - 1.0;
 }
@@ -52,7 +52,7 @@ double first_contact(const app::Backbone& curve) {
   return least;
 }
 
-/// The energy 1 and that of the first contact tie.
+/// The energy 1 and the energy of the first contact tie.
 Verdict at_unity(double energy) {
   return report::plain(std::max(energy, 1.0 / energy) <= 1.0 + report::tie_share);
 }

@@ -105,7 +105,7 @@ struct RealFft::Plan {
         complex(make_buffer<std::complex<double>>(points / 2 + 1)),
         shared(shared_plans(points)) {}
 
-  // FFTW's vector code needs the alignment that the plan was made with, that of fftw_malloc.
+  // FFTW's vector code needs the alignment of the plan, given by fftw_malloc.
   bool fits(const double* values) const {
     return fftw_alignment_of(const_cast<double*>(values)) == fftw_alignment_of(real.get());
   }

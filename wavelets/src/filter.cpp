@@ -21,8 +21,8 @@ int zeros_at_pi(const Eigen::VectorXd& filter) {
                    std::to_string(filter.sum()), "2");
   const auto length = static_cast<int>(filter.size());
   const long double centre = 0.5L * (length - 1);
-  // Moments with (l - centre)/centre in place of l: the terms are of order 1, and the moments up to an order
-  // vanish exactly when those with l do.
+  // Moments with (l - centre)/centre instead of l: the terms are of order 1, and the moments up to an order
+  // vanish exactly when the moments with l do.
   for (int order = 0; order < length; ++order) {
     long double moment = 0, scale = 0;
     for (int l = 0; l < length; ++l) {

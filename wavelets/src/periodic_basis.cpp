@@ -37,7 +37,7 @@ Eigen::VectorXd PeriodicBasis::samples(int points, int derivative) const {
 }
 
 // g(l/points) = sum_j c~[i - j mod M] B(x - i + j) with x = M l/points, i = floor(x), c~ the wrapped
-// coefficients. x - i takes points / gcd(points, M) values only.
+// coefficients. x - i has only points / gcd(points, M) values.
 Eigen::VectorXd PeriodicBasis::spline_samples(int points, int derivative) const {
   const Eigen::Index period = functions();
   const int degree = *scaling_function_.spline_degree();

@@ -23,7 +23,7 @@ ExtendedVector eigenvector_at_integers(const ExtendedVector& mask) {
   return values;
 }
 
-// Values at twice as many points: the given values, and between them those of the refinement equation.
+// Values at twice as many points: the given values, and between them values of the refinement equation.
 Eigen::VectorXd refine(const Eigen::VectorXd& table, const Eigen::VectorXd& mask, Eigen::Index one) {
   Eigen::VectorXd finer = Eigen::VectorXd::Zero(2 * table.size() - 1);
   for (Eigen::Index n = 0; n < table.size(); ++n) finer[2 * n] = table[n];

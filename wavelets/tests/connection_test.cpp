@@ -210,7 +210,7 @@ TEST(PeriodicInnerProducts, OfOneConstantAreItsMeanSquare) {
   }
 }
 
-// Coefficients that depend on the families alone are computed once, by the first thread that needs them.
+// Coefficients that depend only on the families are computed once, by the first thread that needs them.
 TEST(PeriodicInnerProducts, AreTheSameFromEveryThread) {
   std::vector<Eigen::VectorXd> columns(8);
   std::vector<std::thread> threads;

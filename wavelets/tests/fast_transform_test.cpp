@@ -74,8 +74,8 @@ TEST(FastWaveletTransformErrors, NameTheArgument) {
   EXPECT_THROW(transform.analysis(Eigen::VectorXd(), 0), std::invalid_argument);
 }
 
-// The analysis of one level takes the samples of a smooth function's coefficients to those of the translates
-// twice as wide, which are known from their own inner products.
+// The analysis of one level maps a smooth function's coefficients to coefficients of translates twice as
+// wide, which are known from their inner products.
 TEST(TwoScaleFilter, OfTheOrthonormalSplineIsOrthonormalAndRefinesItsTranslates) {
   const auto phi = ScalingFunction::orthonormal_bspline();
   const TwoScaleFilter filter = two_scale_filter(phi);

@@ -54,8 +54,7 @@ RC_GTEST_PROP(PeriodicBasisProperty, TranslatesAreOrthogonalOnTheCircle, ()) {
   RC_ASSERT((a - expected * Eigen::VectorXd::Unit(a.size(), 0)).cwiseAbs().maxCoeff() < 512 * eps * expected);
 }
 
-// <p_i, q_j> of one level from those of the next finer: both functions are sums of finer ones with their
-// filters.
+// <p_i, q_j> of one level from the next finer: both functions are sums of finer ones with their filters.
 RC_GTEST_PROP(ConnectionProperty, InnerProductsOfTwoLevelsAreRelatedByTheFilters, ()) {
   const auto trial = ScalingFunction::daubechies(any_length()),
              weight = ScalingFunction::daubechies(any_length());

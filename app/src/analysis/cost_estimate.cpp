@@ -42,7 +42,7 @@ Sizes sizes_of(const Scene& scene) {
 }
 
 bool takes_all_modes(const Scene& scene, double degrees) {
-  constexpr double most_modal = 1000;  // what solvers' condensation takes by modes
+  constexpr double most_modal = 1000;  // cost of the modal condensation of solvers
   return scene.structure.modal_damping > 0.0 || scene.analysis.type == AnalysisType::nonlinear_mode ||
          (scene.structure.type != StructureType::bar && degrees <= most_modal);
 }
@@ -107,7 +107,7 @@ double responses(const Analysis& analysis) {
   return std::min(steps + 1.0, static_cast<double>(analysis.max_points));
 }
 
-/// Beside a curve that takes so long.
+/// In addition to a curve with this time.
 void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
   if (!is_sweep(scene.analysis) || !scene.analysis.stability) return;
   constexpr double least = 0.1, most = 10.0;         // of the curve
@@ -123,8 +123,8 @@ void add_stability(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
       (sizes.contacts > 1.0 && seeks_exact_points(scene) ? longest_structure_curve : 0.0);
 }
 
-/// Beside a response: Newton steps of the exact motion, of unknowns that only the search shows. What is not
-/// found by collocation is sought by the flow with as many operations.
+/// In addition to a response: Newton steps of the exact motion, whose number of unknowns is not known
+/// before. If collocation fails, event-driven integration uses as many operations again.
 void add_exact_motion(const Scene& scene, const Sizes& sizes, CostEstimate& cost) {
   if (is_sweep(scene.analysis) || !scene.analysis.phases) return;
   constexpr double rate = 5e9;  // operations per second

@@ -12,7 +12,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// The bifurcation points near which exact solutions are sought, in the order of the curve.
+/// The bifurcation points near which exact solutions are computed, in the order of the curve.
 std::vector<std::size_t> special_points_taken(const std::vector<solvers::SpecialPoint>& points, bool all) {
   std::vector<std::size_t> taken(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) taken[i] = i;
@@ -24,7 +24,7 @@ std::vector<std::size_t> special_points_taken(const std::vector<solvers::Special
   return taken;
 }
 
-/// A curve of which phases are sought.
+/// A curve with exact solutions.
 struct CurveWithExact {
   const Scene& scene;  ///< with the period of the curve
   const StructureModel& model;
@@ -39,8 +39,8 @@ Tries tries_at(const solvers::FrequencySweep& curve, std::size_t point) {
   return {{parameter_of(curve.points[point], curve.parameter), curve.points[point].unknown}};
 }
 
-/// Adds points of the curve before `before` and from `after` on: the nearest and some further away, since
-/// near a fold several lie beyond that of the structure.
+/// Adds points of the curve before `before` and from `after` on: the nearest and some further away, because
+/// near a fold several are beyond the exact fold.
 void add_points_beside(Tries& tries, const solvers::FrequencySweep& curve, std::size_t before,
                        std::size_t after) {
   for (const std::size_t steps : {0, 3}) {
@@ -49,7 +49,7 @@ void add_points_beside(Tries& tries, const solvers::FrequencySweep& curve, std::
   }
 }
 
-/// Where exact solutions are sought: at the points taken, at the peak if the curve has one, and with
+/// Where exact solutions are computed: at the selected points, at the peak if the curve has one, and with
 /// analysis.phases at all points.
 std::vector<Tries> tries_along(const CurveWithExact& of, const std::vector<std::size_t>& special_points) {
   std::vector<Tries> all;
@@ -67,12 +67,12 @@ std::vector<Tries> tries_along(const CurveWithExact& of, const std::vector<std::
   return all;
 }
 
-/// About as many operations as 20 points of a curve of 24 contacts take, with panels for so many.
+/// About the operations of 20 points of a curve with 24 contacts and their panels.
 constexpr double most_operations = 1.5e9;
 constexpr int most_cut_panels = 30;
 
-/// The errors of single responses need no more digits. Where no motion is near, as beyond a fold, the search
-/// takes longest, and the points beside are tried next.
+/// The errors of single responses need no more digits. Where no motion is near, as beyond a fold, the
+/// search takes longest, and the neighbouring points are tried next.
 solvers::CollocationOptions exact_options(bool all) {
   solvers::CollocationOptions options;
   options.max_operations = most_operations;
@@ -108,12 +108,10 @@ ExactAlongSweep phases_of(const CurveWithExact& of, const Observer& observer, bo
   return result;
 }
 
-/// Of motions, with which the frequencies of bifurcation points have eight digits. Three more digits of a
-/// pipe with 23 degrees of freedom take three times as long.
+/// With this tolerance of motions the frequencies of bifurcation points have eight digits.
 constexpr double enough_for_special_points = 1e-6;
 
-/// Those of the structure along the main curve, with more effort where all of its exact motions are asked
-/// for.
+/// Exact points along the main curve, with more effort if all of its exact motions are requested.
 void add_structure_points(const Scene& scene, const StructureModel& model, Sweep& sweep,
                           const Observer& observer) {
   if (sweep.phases_cancelled) return;
@@ -201,8 +199,8 @@ void add_exact(const Scene& scene, const StructureModel& model, Sweep& sweep, co
   if (!wanted || sweep.curve.points.empty() || sweep.stopped() || !model.contact_dynamics()) return;
   sweep.phases.push_back(phases_of({scene, model, sweep.curve, sweep.stability.special_points, true},
                                    observer, sweep.phases_cancelled));
-  // Along curves with friction or laws of several rows, which have no phases to be followed, this takes as
-  // long as exact ones.
+  // Along curves with friction or laws of several rows, which have no exact curves by collocation, this
+  // needs as long as exact ones.
   const bool followed = !has_friction(scene) && !names_coupled_rows(scene.contact);
   if (scene.analysis.stability && scene.analysis.special_points && followed && seeks_exact_points(scene))
     add_structure_points(scene, model, sweep, observer);

@@ -24,7 +24,7 @@ int highest_harmonic(const Forcing& forcing) {
   return highest;
 }
 
-/// What a search for phases ended with.
+/// Result of a search for an exact solution.
 struct ExactFound {
   std::string status = "no_start";
   std::string strategy;
@@ -48,7 +48,7 @@ void note(ExactFound& found, solvers::ExactSolution motion, const char* strategy
   found.motion = std::move(motion);
 }
 
-/// From one balance after the other, as long as these do not take too long.
+/// From one harmonic balance after the other, as long as the time allows.
 ExactFound from_balances(const Scene& scene, const StructureModel& model, const Observer& observer) {
   constexpr double most_seconds = 60.0;  // after which no further balance is begun
   const WallClock clock;
@@ -197,7 +197,8 @@ Response timed_response(const Scene& scene, const StructureModel& model, const R
   return result;
 }
 
-/// Phases take no pair; a scene that names another one than Fourier functions asks for its balance.
+/// Exact solutions need no pair. A scene that names a pair other than Fourier functions requests its
+/// balance.
 bool may_leave_pair(const Time& time) {
   return time.trial.empty() || (time.trial == "fourier" && time.weight == "fourier");
 }

@@ -15,7 +15,7 @@ namespace {
 
 using solvers::ExactCurve, solvers::ExactEvent, solvers::ExactPoint, solvers::ExactSolution;
 
-/// What a curve's points are measured by.
+/// Measures of a curve's points.
 struct Measure {
   solvers::SweepParameter parameter;
   double frequency;  ///< Hz, of an amplitude sweep

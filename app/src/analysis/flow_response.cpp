@@ -34,8 +34,7 @@ Response flow_response(const Scene& scene, const StructureModel& model, const Re
   if (model.contact_dynamics() == nullptr) return result;
   const solvers::ContactDynamics& dynamics = *model.contact_dynamics();
   Scene paired = scene;
-  paired.time =
-      balance_of(scene, least_start_functions(scene)).time;  // loads need a pair, which takes no part
+  paired.time = balance_of(scene, least_start_functions(scene)).time;  // loads need a pair, which is not used
   const solvers::CondensedProblem problem = make_problem(paired, model);
   solvers::TimeSteppingOptions stepping_options;
   stepping_options.output_points = scene.analysis.output_points;

@@ -107,7 +107,7 @@ std::vector<FrictionMeasures> exact_measures(const std::vector<SceneContact>& pl
 /// The law of the contact with friction whose first row this is.
 using LawAtRow = std::pair<std::size_t, contact::CoulombLaw>;
 
-/// In the force form the unknown is that of the laws in series with its springs.
+/// In the force form the unknown belongs to the laws in series with its springs.
 std::vector<LawAtRow> laws_of_rows(const std::vector<SceneContact>& places,
                                    const Eigen::VectorXd& flexibility) {
   std::vector<LawAtRow> laws;

@@ -24,7 +24,7 @@ std::vector<const solvers::FrequencySweep*> known_curves(const Sweep& sweep) {
   return curves;
 }
 
-/// A curve that was found, as a sweep of its own.
+/// A curve that was found, as a separate sweep.
 Sweep isola_of(const Scene& scene, const StructureModel& model, solvers::IsolatedCurve found,
                const Observer& observer) {
   Scene alone = scene;

@@ -49,7 +49,7 @@ void note_motion(solvers::ContactProblem& problem, const solvers::PeriodicRespon
   note_attractor(problem, scene, options.observer, result);
 }
 
-/// Whether the exact motion that time integration converges to is known now, in place of a balance.
+/// Whether the exact motion that time integration converges to is known now, instead of a balance.
 bool solve_exactly(solvers::ContactProblem& problem, const solvers::PeriodicResponse& found,
                    const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    Response& result) {
@@ -82,8 +82,7 @@ void solve_law(const Scene& scene, const StructureModel& model, const ResponseOp
   note_motion(problem, found, scene, model, options, result);
 }
 
-/// A scene without a pair takes Fourier functions. In the benchmark of tolerances the cheapest choice of the
-/// same error is mostly a pair of them.
+/// A scene without a pair uses Fourier functions, mostly the cheapest choice for an error.
 Scene with_pair(Scene scene) {
   if (scene.time.trial.empty()) scene.time.trial = scene.time.weight = "fourier";
   return scene;

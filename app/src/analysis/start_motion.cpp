@@ -86,8 +86,8 @@ std::size_t directions_of(const Table& table, const fs::path& file) {
   return rows;
 }
 
-/// The number of directions of contact of a table of all of them. Contacts of one direction stand from 1 on
-/// at each time.
+/// The number of contact degrees of freedom in a table of all of them. Each time has its contacts from 1
+/// on.
 std::size_t contacts_of(const Table& table, const fs::path& file) {
   if (!table.has_column("contact")) return 1;
   if (table.has_column("direction")) return directions_of(table, file);
@@ -126,8 +126,8 @@ solvers::Motion motion_of(const Table& table, const fs::path& file) {
   return motion;
 }
 
-/// The periods of the load that the motion of a file spans, as the summary beside it says: of the whole
-/// record, or of this one of several motions.
+/// The periods of the load that the motion of a file spans, from the summary in the same folder: of the
+/// whole record, or of this one of several motions.
 int periods_of(const Summary& summary, const fs::path& file) {
   std::string name = file.filename().string();
   for (const std::string& ending : {std::string(contacts_suffix), std::string(".csv")})

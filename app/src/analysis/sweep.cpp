@@ -145,7 +145,8 @@ Sweep amplitude_sweep(const Scene& scene, const StructureModel& model, const Obs
 
 namespace {
 
-/// Period of a branch over that of the curve, at most. Each doubling takes twice the functions and points.
+/// Largest period of a branch over the period of the curve. Each doubling needs twice the functions and
+/// points.
 constexpr int largest_period = 4;
 
 void add_branches(const Scene& scene, solvers::ContactProblem& problem, const Observer& observer,

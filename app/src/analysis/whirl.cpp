@@ -35,7 +35,7 @@ std::vector<WhirlMode> whirls_of(const solvers::LinearStructure& structure, bool
                                  std::size_t most) {
   constexpr double at_rest =
       1e-12;  // of the squared displacement in the plane of the mode that moves it most
-  // Of the exponent, as rounding makes pairs of equal real ones, and of the largest exponent.
+  // Relative to the exponent, because rounding makes pairs of equal real ones, and to the largest exponent.
   constexpr double overdamped = 1e-4, rigid = 1e-8;
   const solvers::ContactDynamics dynamics(structure, {.max_size = 100, .reduced_size = 48});
   double largest = 0.0, fastest = 0.0;

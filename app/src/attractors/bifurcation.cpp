@@ -13,8 +13,8 @@
 namespace wavebalance::app {
 namespace {
 
-/// Whether a point and the next one lie nearer to each other in the last quarter of a section than in the
-/// first, as those of a transient do, and of a chaotic or quasi-periodic motion do not.
+/// Whether successive points are nearer to each other in the last quarter of a section than in the first.
+/// This holds for transients, not for chaotic or quasi-periodic motions.
 bool comes_nearer(const Eigen::MatrixXd& section) {
   constexpr double nearer = 0.25;
   const Eigen::Index moves = section.cols() - 1, quarter = moves / 4;
@@ -130,7 +130,7 @@ int unstable_at(const Sweep& sweep, std::size_t branch, std::size_t point) {
   return point < points.size() ? points[point].unstable : -1;
 }
 
-/// Behind those of other curves of the diagram.
+/// After the rows of other curves of the diagram.
 void add_exact_lines(const Sweep& sweep, int place, Diagram& diagram) {
   const int first = diagram.exact.empty() ? 0 : diagram.exact.back().branch + 1;
   for (std::size_t branch = 0; branch < sweep.exact_motions.size(); ++branch) {
@@ -159,8 +159,8 @@ Scene reversed(Scene scene) {
   return scene;
 }
 
-/// A curve that comes back to its first end, or ends within, leaves the motions at the other end out, which
-/// have a curve of their own.
+/// A curve that comes back to its first end, or ends within, omits the motions at the other end, which have
+/// a separate curve.
 void add_exact_curve(const Scene& scene, const StructureModel& model, const Observer& observer,
                      Diagram& diagram) {
   diagram.exact_status = "not_sought";

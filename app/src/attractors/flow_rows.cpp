@@ -12,7 +12,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// The places of analysis.outputs alone, each once, without contacts: rows have displacements in SI units.
+/// Only the places of analysis.outputs, each once, without contacts: rows have displacements in SI units.
 std::vector<Output> output_rows(Scene scene) {
   scene.analysis.contact_outputs = false;
   std::vector<std::string> places;
@@ -60,7 +60,7 @@ std::vector<MotionPlace> places_of(const Scene& scene) {
   return places;
 }
 
-/// Loads need a pair, which takes no part.
+/// Loads need a pair, which is not used.
 Scene paired_scene(const Scene& scene) {
   Scene paired = scene;
   paired.time = balance_of(scene, least_start_functions(scene)).time;

@@ -23,7 +23,7 @@ solvers::LimitCycleOptions options_of(const Scene& scene, const StartMotion& sta
   return options;
 }
 
-// What is known of a motion, which the search may have left unsolved.
+// Data of a motion, which may be unsolved.
 void copy_solution(const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                    LimitCycleResponse& result) {
   Response& response = result.response;

@@ -26,7 +26,7 @@ Estimate negative_of(const Estimate& one) { return {-one.value, one.error}; }
 /// Values of each period by their names.
 using PeriodValues = std::map<std::string, std::vector<double>>;
 
-/// What is kept of each recorded period.
+/// Data of each recorded period.
 class PeriodBook {
  public:
   PeriodBook(const Scene& scene, const FlowRows& rows, double frequency)
@@ -128,7 +128,7 @@ class PeriodBook {
   std::vector<std::vector<double>> series_;
 };
 
-/// The measures of one place, in the order in which they are told.
+/// The measures of one place, in the order of the output.
 class PlaceMeasures {
  public:
   PlaceMeasures(const MotionPlace& place, const PeriodValues& values, std::vector<MotionMeasure>& measures)
@@ -215,7 +215,7 @@ bool goes_on_from(const Response& response, solvers::ContactFlow& flow) {
   return true;
 }
 
-/// The sums over all contacts of what each takes in a period.
+/// The sums over all contacts of their dissipation in a period.
 void measure_sums(const PeriodBook& book, RecordedMotion& result) {
   struct Sum {
     const char *values, *quantity, *unit;
@@ -245,7 +245,7 @@ void measure_places(const Scene& scene, const PeriodBook& book, RecordedMotion& 
 
 RecordedMotion recorded_by(solvers::ContactFlow& flow, const FlowRows& rows, const Scene& scene,
                            const solvers::LongMotionOptions& options) {
-  constexpr double tolerance = 1e-4;  // of the section, by which longer periods are told
+  constexpr double tolerance = 1e-4;  // of the section, to detect longer periods
   const double frequency = scene.forcing.frequency;
   PeriodBook book(scene, rows, frequency);
   const LongMotion motion = solvers::long_motion(
@@ -321,7 +321,7 @@ std::optional<RecordedMotion> recorded_motion(const Scene& scene, const Structur
     if (motion.places.empty()) return std::nullopt;
     if (known) motion.transient = response.iterations;
     return motion;
-  } catch (const std::invalid_argument&) {  // laws that no flow takes
+  } catch (const std::invalid_argument&) {  // laws that no flow supports
     return std::nullopt;
   }
 }

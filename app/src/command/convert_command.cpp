@@ -39,7 +39,7 @@ std::vector<Converted> converted(const fem::CollectedMatrices& all) {
   return files;
 }
 
-/// The keys of a scene that take the files.
+/// The keys of a scene for the files.
 std::string keys_text(const std::vector<Converted>& files) {
   constexpr std::array<std::array<std::string_view, 2>, 5> keys{{{"mass.mtx", "structure.mass"},
                                                                  {"stiffness.mtx", "structure.stiffness"},

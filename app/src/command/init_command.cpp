@@ -55,7 +55,7 @@ std::string row_names(Eigen::Index rows) {
   return text;
 }
 
-/// `text` with `stem` in place of STEM.
+/// `text` with `stem` instead of STEM.
 std::string with_stem(std::string text, const std::string& stem) {
   for (auto place = text.find("STEM"); place != std::string::npos;
        place = text.find("STEM", place + stem.size()))

@@ -1,4 +1,4 @@
-// The command `wavebalance`. CLI11 is included here alone: it takes longer to compile than the rest of the
+// The command `wavebalance`. Only this file includes CLI11, which compiles longer than the rest of the
 // command.
 #include <CLI/CLI.hpp>
 #include <charconv>
@@ -209,7 +209,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
                               (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
-/// What is wrong with the arguments, the option that was probably meant, and where to read on.
+/// The error in the arguments, the option that was probably meant, and where to read on.
 std::string usage_text(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App& command = parsed.empty() ? app : *parsed.front();

@@ -164,7 +164,7 @@ Step damping_depth(const Scene& scene) {
   return changed("a positive", key, 1e-6);
 }
 
-// As stiff as lets the limit of a millionth of a metre hold, which is little beside most motions.
+// As stiff as lets the limit of a millionth of a metre hold, which is small compared with most motions.
 Step elastic_friction(const Scene& scene) {
   constexpr double displacement = 1e-6;  // m
   for (const SceneContact& one : contacts_of(scene)) {

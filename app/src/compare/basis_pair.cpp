@@ -98,7 +98,7 @@ std::vector<BasisPair> common_pairs() {
   std::vector<BasisPair> pairs;
   for (const char* weight : common_bases)
     for (const char* trial : common_bases) pairs.push_back({trial, weight});
-  // What leads against rigid obstacles, as bench measures it.
+  // The best pairs for rigid obstacles, as measured by bench.
   for (const char* weight : {"daubechies10", "fourier"}) pairs.push_back({"daubechies10", weight});
   return pairs;
 }

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int error_points = 1024;        // at which motions are compared
 constexpr double reference_share = 0.3;   // of the budget; a third of it for the exact solution
-constexpr double phases_share = 0.1;      // of the budget: the exact solution beside the pairs
+constexpr double phases_share = 0.1;      // of the budget: the exact solution, in addition to the pairs
 constexpr double longest_share = 0.1;     // of the budget: a single solve
 constexpr double smallest_error = 1e-8;   // a pair that reaches it is not solved with more functions
 constexpr double stability_share = 0.05;  // of the budget, kept for the stability of what is recommended
@@ -71,8 +71,8 @@ class ResponseComparison {
 
   double reference_error() const { return found_.reference.error_by(found_.measure); }
 
-  /// The force decides, too, where its error is defined: some force acts, and that of the reference is known
-  /// well enough for the largest error of a recommendation.
+  /// The force decides, too, where its error is defined: some force acts, and the reference's is accurate
+  /// enough for the largest error of a recommendation.
   void choose_measure() {
     using enum ErrorMeasure;
     found_.measure = options_.measure.value_or(both);
@@ -106,7 +106,7 @@ class ResponseComparison {
     return phase_study(measured_, found_.reference, study);
   }
 
-  /// After the admissible pairs: what the phases did, or why they were not sought.
+  /// After the admissible pairs: the exact solution, or why it was not computed.
   void add_exact_result() {
     const std::string& reason = found_.reference.without_phases;
     const BasisPair phases = BasisPair::phases();

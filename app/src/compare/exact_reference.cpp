@@ -20,7 +20,7 @@ struct CollocationLevel {
 constexpr std::array<CollocationLevel, 4> phase_levels{{{1e-6, 8}, {1e-9, 8}, {1e-12, 12}, {1e-12, 16}}};
 constexpr double coarsest_reference = 1e-6;  // with a larger error a refined balance is as good
 constexpr double least_error = 1e-14;        // rounding
-// Where there is one motion alone, of which an estimate may say too little.
+// With a single motion, whose error estimate may be too small.
 constexpr const char* unchecked = "no time was left to check it with more nodes";
 constexpr int most_divided = 64;  // panels: rounding may keep the estimate above the tolerance
 
@@ -30,7 +30,7 @@ struct NamedStatus {
   const char* phrase;
 };
 
-/// Statuses that are not named are those of curves and of impacts.
+/// Other statuses belong to curves and impacts.
 NamedStatus named(solvers::ExactStatus status) {
   using enum solvers::ExactStatus;
   static constexpr std::array<NamedStatus, 10> statuses{
@@ -117,7 +117,7 @@ ExactReference phase_reference(Guide& guide, const solvers::Observer& observer) 
     }
     if (!better) break;
     solvers::Motion contacts = sampled(motion, guide.contacts.points());
-    // An estimate is as much too small, at most, as that of the motion before was.
+    // An estimate is too small at most by the factor of the previous motion.
     double too_small = 1.0;
     if (!first) {
       too_small = std::max(1.0, displacement_error(best.contacts, contacts) / best.error);

@@ -15,7 +15,7 @@ namespace wavebalance::app {
 namespace {
 
 constexpr double choosing_tolerance = 1e-6;  // with which the balance is chosen
-constexpr double same_motion = 1e-2;         // error below which it is that of the reference
+constexpr double same_motion = 1e-2;         // error below which the reference's error dominates
 
 struct CollocationSolve {
   solvers::PeriodicResponse balance;

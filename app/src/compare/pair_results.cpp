@@ -31,7 +31,7 @@ double order_of(const std::vector<SolvePoint>& points, double SolvePoint::*error
 }
 
 void note_orders(PairResult& result, const std::vector<SolvePoint>& own, double reference_error) {
-  // An even number of Fourier functions is a series of its own; the odd one has no Nyquist coefficient.
+  // An even number of Fourier functions is a separate series; the odd one has no Nyquist coefficient.
   std::map<int, std::vector<SolvePoint>> series;
   for (const SolvePoint& point : own)
     if (!result.pair.is_fourier() || point.functions % 2 == 1)

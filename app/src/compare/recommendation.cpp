@@ -113,7 +113,7 @@ std::string second_sentence(const Recommendation& found, const std::vector<Solve
   return "Fourier:Fourier was not among the pairs.";
 }
 
-/// Where the force keeps every pair from the error, what reaches it by the displacement alone.
+/// If no pair reaches the error of the force: the choice for the displacement only.
 std::string displacement_sentence(const Recommendation& found, std::vector<SolvePoint> points) {
   if (found.measure == ErrorMeasure::displacement) return "";
   for (SolvePoint& point : points) point.error = point.displacement_error;

@@ -68,8 +68,9 @@ class ReferenceSearch {
   }
 
  private:
-  /// After a level of a refinement: whether the next one is expected to end within the time allowed. A level
-  /// cannot be stopped while its Newton matrix is factorized. The first motion is sought in any case.
+  /// After a level of a refinement: whether the next one is expected to end within the time allowed. A
+  /// level cannot be stopped while its Newton matrix is factorized. The first motion is computed in any
+  /// case.
   bool next_level_fits(const solvers::Progress& progress) {
     if (progress.phase != "refinement" || tolerance_ >= coarse_guide) return true;
     const double now = clock_.seconds(), seconds = now - std::exchange(level_began_, now);
@@ -106,7 +107,7 @@ class ReferenceSearch {
     const auto few = sized_guide(scene_, model_, few_functions, observer_);
     return few && few->response.strategy == solvers::Strategy::newton;
   } catch (const solvers::SingularSystem&) {
-    return false;  // with few functions alone, as the reference is known
+    return false;  // only with few functions, because the reference is known
   }
 
   /// A reference near the start.
@@ -124,7 +125,7 @@ class ReferenceSearch {
     const Scene three = discretised(scene_, {"fourier", "fourier"}, 3, 8);
     const solvers::CondensedProblem problem = make_problem(three, model_);
     const Eigen::MatrixXd samples = solvers::by_contact(problem.linear_response(), model_.contacts());
-    // A cosine of 8 samples: its amplitude is that of its rms.
+    // A cosine of 8 samples: its amplitude follows from its rms.
     const Eigen::VectorXd amplitude = std::sqrt(2.0 / 8.0) * samples.rowwise().norm();
     const bool open = scene_.contact.law == no_law || ((amplitude.array() < model_.gaps.array()).all() &&
                                                        make_laws(scene_).force(-amplitude).isZero(0.0));
@@ -145,7 +146,7 @@ class ReferenceSearch {
     allowed_ = share * seconds_;
     tolerance_ = tolerance;
     level_began_ = clock_.seconds();
-    level_seconds_ = std::numeric_limits<double>::infinity();  // the first level takes next to no time
+    level_seconds_ = std::numeric_limits<double>::infinity();  // the first level needs hardly any time
     return refined_guide(scene_, model_, tolerance, observer_);
   }
 
@@ -155,14 +156,14 @@ class ReferenceSearch {
     return found.has_value();
   }
 
-  /// Whether a motion is that of the balances and not another one.
+  /// Whether a motion agrees with the balances and is not another one.
   bool is_of_guide(const solvers::Motion& motion) const {
     const double near = std::clamp(10.0 * guides_.back().estimated_error, 0.02, 0.1);
     return displacement_error(motion, guides_.back().contacts) < near;
   }
 
-  /// Of rigid contact, from few functions: the force oscillates in finer balances, which then seem to have
-  /// many phases.
+  /// With rigid contact, from few functions: the force oscillates in finer balances, which then seem to
+  /// have many phases.
   std::optional<Reference> rigid_intervals() {
     if (!is_rigid(scene_.contact.law) || !exact_refusal(model_).empty()) return std::nullopt;
     return exact_of_sizes(rigid_sizes);
@@ -231,8 +232,8 @@ class ReferenceSearch {
     }
   }
 
-  /// The finest balance, whose stability is that of a guide. Beyond a few contacts a count of multipliers
-  /// takes longer than the solution.
+  /// The finest balance, whose stability is only a guide. With many contacts a count of multipliers needs
+  /// longer than the solution.
   Reference by_balance(Guide& counted) {
     const Guide& last = guides_.back();
     Reference reference = found_reference("finer_balance",
@@ -249,7 +250,7 @@ class ReferenceSearch {
 
   static constexpr double least_growth = 2.0, largest_growth = 8.0;  // of the times of two levels
   static constexpr double phases_share = 1.0 / 3.0;                  // of the time
-  // Errors of the balances from which the phases are sought, and sizes of those before them.
+  // Errors of the balances used as starts of exact solutions, and sizes of the balances before them.
   static constexpr double coarse_guide = 1e-2, fine_guide = 1e-3, finest_guide = 1e-4;
   static constexpr std::array rigid_sizes{15, 31, 63};
   static constexpr std::array start_sizes{31, 63, 127, 255};

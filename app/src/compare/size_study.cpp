@@ -34,8 +34,8 @@ class SolvedSoFar {
     found->second = std::min(found->second, point.seconds);
   }
 
-  /// s, of this size, or four times that of half the size where none of it has converged; infinite where no
-  /// smaller one has either.
+  /// s, of this size, or four times the time of half the size where none of it has converged; infinite
+  /// where no smaller one has either.
   double fastest(int size, int points) const {
     constexpr double growth = 4.0;
     double factor = 1.0;
@@ -46,7 +46,7 @@ class SolvedSoFar {
     return std::numeric_limits<double>::infinity();
   }
 
-  /// Time of a solve over that of the fastest with no larger error: 1 on the front, infinite for a failure.
+  /// Time of a solve over the fastest with no larger error: 1 on the front, infinite for a failure.
   double lag(const SolvePoint& point) const {
     if (!point.converged) return std::numeric_limits<double>::infinity();
     double fastest = point.seconds;
@@ -133,7 +133,7 @@ class SizeSeries {
     const solvers::ResponseStart start = response_start(measured_.start, scene);
     solvers::PeriodicResponse response;
     const auto solve = [&] {
-      // Ends a solve that takes too long; it has not converged then.
+      // Ends a solve that exceeds its time; it has not converged then.
       response =
           response_near(scene, *problem, start, [&, begin = processor_seconds()](const solvers::Progress&) {
             return processor_seconds() - begin < max_seconds_ && goes_on();
@@ -163,8 +163,8 @@ class SizeSeries {
   bool ended_ = false;
 };
 
-/// Series that were Pareto-optimal at their last size come first, because the budget may run out. Benchmarks
-/// have the time for all and take them in their own order.
+/// Series that were Pareto-optimal at their last size come first, because the budget may run out.
+/// Benchmarks have the time for all and use a fixed order.
 std::vector<SizeSeries*> in_order(std::vector<SizeSeries>& all, const SizeStudyOptions& options) {
   std::vector<std::pair<double, SizeSeries*>> lags;
   for (SizeSeries& series : all)

@@ -91,7 +91,7 @@ class CurveComparison {
       : scene_(scene), model_(make_model(scene, observer)), options_(options), observer_(observer) {
     scene_.analysis.stability = scene_.analysis.branches = scene_.analysis.exact = false;
     name_axis();
-    model_.threads = 1;  // so that the time of a curve is that of its thread
+    model_.threads = 1;  // so that the time of a curve is the time of its thread
   }
 
   SweepComparison compare() {

@@ -41,13 +41,13 @@ solvers::AnyTimeBasis basis_opposite(const std::string& name, const std::string&
 }
 
 /// At the middles the alternating B-spline has no product with the alternating Haar function, nor with any
-/// force that is constant in each cell, as those of Haar motions are: the coefficient is zero.
+/// force that is constant in each cell, as for Haar motions: the coefficient is zero.
 bool has_no_nyquist_force(const Time& time) {
   return is_haar(time.trial) && time.weight == "bspline" && time.sample_offset != 0.0 &&
          effective_inner_products(time) == InnerProducts::quadrature;
 }
 
-/// What a scene's pair is made of: the verdict on a pair and the pair itself are of the same bases.
+/// Bases of a scene's pair, for both the verdict on the pair and the pair.
 struct PairParts {
   solvers::AnyTimeBasis trial, weight;
   solvers::TimePairOptions options;
@@ -63,7 +63,7 @@ PairParts pair_parts(const Time& time) {
   if (!is_wavelet(time.trial) || !is_wavelet(time.weight))
     return {basis_opposite(time.trial, time.weight, time), basis_opposite(time.weight, time.trial, time),
             std::move(options)};
-  // A filter takes longer to compute than a pair of small bases: one for all.
+  // A filter needs longer to compute than a pair of small bases: one for all.
   const wavelets::PeriodicBasis trial = wavelet_basis(time.trial, time.functions);
   const wavelets::PeriodicBasis weight =
       time.weight == time.trial ? trial : wavelet_basis(time.weight, time.functions);
@@ -149,8 +149,8 @@ fem::EigenmodesResult all_modes(const Eigen::SparseMatrix<double>& stiffness,
   return modes;
 }
 
-/// Modes of a structure of which some degrees of freedom have no mass: those of the others, with the former
-/// condensed, and the deflections of the former alone as springs.
+/// Modes of a structure with massless degrees of freedom: modes of the others, with the former condensed,
+/// and the deflections of the massless ones as springs.
 StructureModes modes_beside_springs(const solvers::LinearStructure& structure, const std::vector<int>& moving,
                                     const std::vector<int>& massless) {
   constexpr double beyond = 1e10;  // omega^2 of springs over the largest of the others
@@ -197,7 +197,8 @@ void turn(StructureModes& modes, Eigen::Index begin, Eigen::Index end) {
 }
 
 /// Turns modes of equal frequency into those combinations that move the contacts most, in descending order.
-/// Their frequencies become those of the combinations, which differ by less than equal_frequencies.
+/// Their frequencies become the frequencies of the combinations, which differ by less than
+/// equal_frequencies.
 void separate_equal_modes(StructureModes& modes) {
   const Eigen::VectorXd omega = modes.model.omega_squared.cwiseSqrt();
   const Eigen::Index last = omega.size() - modes.model.springs;

@@ -173,7 +173,7 @@ void check_rigid_friction(const Document& document, const Scene& scene) {
               rigid + "its force is no function of the displacement; expected \"automatic\" or \"force\"");
 }
 
-/// Keys of friction without steps over samples: their ranges beside each other.
+/// Rules between the keys of friction without steps over samples.
 void check_friction_of_states(const Document& document, const Scene& scene, const SceneContact& contact) {
   const auto given = [&](const char* key) { return contact::number_or(contact.values, key, 0.0); };
   const double friction = given("friction"), at_rest = given("static_friction");

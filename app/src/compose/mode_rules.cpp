@@ -12,7 +12,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// What limits the number of linear modes.
+/// Limits of the number of linear modes.
 std::string size_text(const Scene& scene) {
   const int size = reduced_size(scene);
   if (scene.structure.type == StructureType::bar) return "structure.elements = " + std::to_string(size);

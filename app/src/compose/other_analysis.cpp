@@ -50,7 +50,7 @@ bool has_friction_law(const Document& document) {
   });
 }
 
-/// Of a motion without damping and load.
+/// For a motion without damping and load.
 bool acts_on_free_motion(const DocumentEntry& entry) {
   constexpr std::array<std::string_view, 5> names{"structure.damping", "structure.modal_damping",
                                                   "structure.stiffness_damping", "structure.loss_factor",

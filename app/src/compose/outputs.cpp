@@ -132,7 +132,7 @@ int closing_direction(const SceneContact& contact, int row) {
   return never_opens ? -1 : row - contact.place;
 }
 
-/// The displacement of a row of the files from those of the unknowns.
+/// The displacement of a row of the files from the unknowns.
 Eigen::RowVectorXd row_of_unknowns(const StructureFiles& files, int row) {
   const auto place = [row](const std::vector<int>& rows) -> Eigen::Index {
     const auto found = std::find(rows.begin(), rows.end(), row);

@@ -31,7 +31,7 @@ fem::Observer reduction_observer(const solvers::Observer& observer) {
                               "degrees of freedom in contact and under load; expected fewer");
 }
 
-/// A semidefinite mass has as many modes as its rank; the boundary takes some of them.
+/// A semidefinite mass has as many modes as its rank; the boundary uses some of them.
 fem::CraigBampton craig_bampton_of(const fem::Matrices& matrices, const std::vector<int>& boundary,
                                    const fem::CraigBamptonOptions& options) {
   fem::CraigBampton reduced;

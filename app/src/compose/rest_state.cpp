@@ -17,7 +17,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// The static parts of its forces alone, without mass and damping.
+/// Only the static parts of its forces, without mass and damping.
 solvers::LinearStructure at_rest(const solvers::LinearStructure& structure) {
   solvers::LinearStructure result = structure;
   result.load.setZero();
@@ -32,8 +32,8 @@ solvers::LinearStructure at_rest(const solvers::LinearStructure& structure) {
   return result;
 }
 
-/// One function, which is constant, and one point; of a structure that is free to move, whose mean is an
-/// unknown of its own, three functions, of which the others have no load.
+/// One function, which is constant, and one point; for a free structure, whose mean is an additional
+/// unknown, three functions, of which the others have no load.
 solvers::TimePair pair_at_rest(bool free) {
   solvers::TimePairOptions options;
   options.quadrature_points = free ? 4 : 1;
@@ -60,7 +60,7 @@ solvers::LinearStructure structure_of_files(const Scene& scene) {
   return structure;
 }
 
-/// Hz, of the size of that of the load, but beside it: the load may be at a natural frequency.
+/// Hz, near the forcing frequency but different: the load may be at a natural frequency.
 double frequency_of(const Scene& scene) {
   constexpr double beside = 0.618;
   const double frequency =
@@ -71,7 +71,7 @@ double frequency_of(const Scene& scene) {
 /// Whether contacts that press against each other hold the structure where its equations leave no more than
 /// rounding. A balance measures its residual by the motion, which is none there.
 bool holds_itself(solvers::CondensedProblem& problem, const solvers::PeriodicResponse& found) {
-  constexpr double rounding = 1e-13;  // of what each force alone would move
+  constexpr double rounding = 1e-13;  // of the displacements by each force separately
   Eigen::VectorXd moved;
   problem.apply(found.contact_force, moved);
   const double left = (found.displacement - problem.linear_response() + moved).norm();

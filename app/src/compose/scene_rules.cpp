@@ -50,7 +50,7 @@ void check_least_tolerance(const Document& document, const Scene& scene) {
     fail_rule(document, {"time.tolerance"}, "expected a number of at least 1e-13");
 }
 
-/// What a tolerance chooses must not be given too.
+/// Values that a tolerance chooses must not be given.
 void check_tolerance(const Document& document, const Scene& scene) {
   check_least_tolerance(document, scene);
   Time time = scene.time;
@@ -100,7 +100,7 @@ void check_subharmonic(const Document& document, const Scene& scene) {
                   ", or more time.functions");
 }
 
-/// Settling and phases of contact are those of structures with an equation in time and not too many modes.
+/// Attractors and exact solutions require an equation in time and not too many modes.
 void check_coexisting(const Document& document, const Scene& scene) {
   if (scene.analysis.type != AnalysisType::motions || solves_by_impacts(scene)) return;
   const int most = solvers::AttractorOptions{}.max_size, size = reduced_size(scene);
@@ -116,7 +116,7 @@ void check_coexisting(const Document& document, const Scene& scene) {
             " for analysis.type = \"motions\", which computes all modes; structure.kept_modes reduces them");
 }
 
-/// Motions beside a curve are attractors of the structure.
+/// Motions on other curves are attractors of the structure.
 void check_isolas(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.isolas) return;
@@ -144,7 +144,7 @@ void check_isolas(const Document& document, const Scene& scene) {
              " for time integration, which requires all modes; structure.kept_modes reduces them");
 }
 
-/// What an exact curve does not do yet, or does not need.
+/// Keys that an exact curve does not support or need.
 void check_exact(const Document& document, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.exact) return;
@@ -231,7 +231,7 @@ void check_dense_size(const Document& document, const Scene& scene) {
   fail_rule(document, {"structure.kept_modes", "structure.stiffness"}, count + most + why + advice);
 }
 
-/// Impacts are those of contacts with mass in an equation in time, and leave no functions to choose.
+/// Impacts require contacts with mass in an equation in time, without basis functions.
 void check_impacts(const Document& document, const Scene& scene) {
   const auto refuse = [&](bool given, const char* key, const std::string& why) {
     if (given) fail_rule(document, {key, "contact.restitution"}, why);

@@ -124,7 +124,7 @@ Eigen::VectorXd blade_inertia(const Scene& scene, const fem::Blade& blade, const
   return mass * motion;
 }
 
-/// The stiffness of the turning blade; its damping stays that of the material at rest.
+/// The stiffness of the turning blade; its damping is the material's at rest.
 void stiffen_by_rotation(fem::Matrices& matrices, const fem::SolidModel& solid, const BladeStructure& blade) {
   if (blade.rotation_speed == 0.0) return;
   const auto& axis = blade.rotation_axis;
@@ -220,7 +220,7 @@ solvers::LinearStructure structure_with_mass(const Scene& scene, const Structure
   return bar_model(kept).structure;
 }
 
-/// Modes beside contacts without mass: those kept by a reduction, or as many as the contacts leave.
+/// Modes in addition to massless contacts: kept by a reduction, or as many as the contacts leave.
 int massless_modes(const Structure& structure, const solvers::LinearStructure& model) {
   const int most = model.size() - model.contacts();
   return structure.kept_modes > 0 ? std::min(structure.kept_modes, most) : most;

@@ -36,7 +36,7 @@ void check_damping(const Document& document, const Scene& scene) {
                    : "expected 0 for a nonlinear mode, which is a motion without damping");
 }
 
-/// Contacts with mass alone hold a structure that is free to move.
+/// Only contacts with mass hold a free structure.
 void check_free(const Document& document, const Scene& scene) {
   if (!scene.structure.matrices.free) return;
   if (names_friction(scene.contact) && scene.analysis.type == AnalysisType::nonlinear_mode)
@@ -54,7 +54,7 @@ void check_free(const Document& document, const Scene& scene) {
               "not with analysis.branches; expected analysis.branches = false");
 }
 
-/// The speed belongs to matrices that vary with it. What is taken from one stiffness cannot follow it.
+/// The speed belongs to matrices that vary with it. Results of a single stiffness cannot depend on it.
 void check_turning(const Document& document, const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   const bool turns = !structure.gyroscopic.empty() || !structure.spin_stiffness.empty();
@@ -78,7 +78,7 @@ void check_turning(const Document& document, const Scene& scene) {
               "not with modes that vary" + instead + "contact.mass = \"keep\" and a law that is not rigid");
 }
 
-/// It is defined for periodic motions that are sought as such.
+/// It is defined for periodic motions that are solved for as such.
 void check_loss_factor(const Document& document, const Scene& scene) {
   if (scene.structure.loss_factor == 0.0) return;
   if (scene.analysis.type == AnalysisType::nonlinear_mode && !names_friction(scene.contact))

@@ -94,7 +94,7 @@ std::string force_place(const Scene& scene) {
   return "at the tip";
 }
 
-/// Where a term acts; empty where its structure has one place alone.
+/// Where a term acts; empty if its structure has a single place.
 std::string term_place(const Scene& scene, const ForcingTerm& term) {
   if (!term.direction.empty()) return "along " + term.direction;
   if (!term.load.empty()) return "along its load vector";
@@ -106,7 +106,7 @@ std::string table_text(const std::string& file) {
   return file.empty() ? "" : " times a table over the frequency";
 }
 
-/// One of the loads beside the first.
+/// One of the additional loads.
 std::string term_line(const Scene& scene, const ForcingTerm& term) {
   const std::string size =
       seven_digits(term.amplitude, term.samples.empty() ? std::string(unit_of(term)) : "");
@@ -148,7 +148,7 @@ std::string outputs_line(const Scene& scene) {
                      count > shown ? fmt::format(" and {} more", count - shown) : "");
 }
 
-/// Where motions beside a sweep are sought, and what that takes.
+/// Where isolated branches are searched for, and the cost.
 std::string isolas_line(const Analysis& analysis) {
   if (!analysis.isolas) return "";
   const double interval = std::abs(analysis.frequency_to - analysis.frequency_from);
@@ -190,7 +190,7 @@ std::string chosen_text(const Time& time) {
                      pair, short_number(time.tolerance));
 }
 
-/// What becomes of the Nyquist coefficient; empty for an odd number of functions.
+/// Treatment of the Nyquist coefficient; empty for an odd number of functions.
 std::string nyquist_text(const Time& time) {
   if (time.functions % 2 != 0) return "";
   return effective_nyquist(time) == NyquistCoefficient::drop ? " (Nyquist coefficient dropped)"
@@ -321,7 +321,7 @@ std::string modes_text(const StructureFacts& facts) {
 
 /// Figures by which wrong units, files or boundary conditions of matrices show.
 std::string matrices_lines(const Scene& scene) {
-  constexpr std::int64_t most = 200'000;  // beyond which a check would take minutes
+  constexpr std::int64_t most = 200'000;  // beyond which a check would need minutes
   if (scene.structure.type != StructureType::matrices) return "";
   if (structure_dofs(scene) > most)
     return fmt::format("modes      not computed for more than {} degrees of freedom\n", most);

@@ -12,7 +12,7 @@ namespace wavebalance::app {
 namespace {
 
 constexpr std::size_t most_loops = 4;
-// Those of the fifth and the sixth curve, which no loop has.
+// Colours of the fifth and the sixth curve, which no loop has.
 constexpr Colour stick_colour = Colour::sky_blue, slip_colour = Colour::orange;
 
 struct Loop {
@@ -20,7 +20,7 @@ struct Loop {
   int row;
 };
 
-/// Those of the contacts that take most energy, in the order of the contacts.
+/// The contacts that dissipate most energy, in the order of the contacts.
 std::vector<Loop> loops_of(std::vector<FrictionMeasures> contacts) {
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const FrictionMeasures& a, const FrictionMeasures& b) { return a.work > b.work; });

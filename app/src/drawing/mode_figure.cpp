@@ -30,8 +30,7 @@ std::vector<double> motions_in(const Table& backbone, std::string_view name, boo
   return values;
 }
 
-/// The end of the axis of energies: that of linear grazing is shown, and `largest` only where the curve comes
-/// near.
+/// The end of the axis of energies: linear grazing is shown, and `largest` only where the curve comes near.
 double shown_energy(const std::vector<double>& energies, double largest) {
   double reached = 1.0;
   for (const double one : energies) reached = std::fmax(reached, one);
@@ -105,7 +104,7 @@ Figure empty_mode_figure(const Scene& scene) {
   return figure;
 }
 
-/// `y` where `shown`, and where `beside` it there is a point that is shown.
+/// `y` where `shown`, and next to such a point if `beside`.
 std::vector<double> selected(const std::vector<double>& y, const std::vector<bool>& shown, bool beside) {
   std::vector<double> result(y.size(), std::nan(""));
   for (std::size_t i = 0; i < y.size(); ++i) {

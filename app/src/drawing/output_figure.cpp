@@ -60,8 +60,8 @@ std::string ordinate(const Output& output, const Scale& scale, const std::string
   return output.unit.empty() ? words : words + " (" + scale.prefix + output.unit + ")";
 }
 
-/// Bifurcation and grazing points of a curve that is drawn: those of outputs on the line between its points
-/// beside them, at their middle where the curve turns there.
+/// Bifurcation and grazing points of a curve that is drawn: for outputs on the line between the
+/// neighbouring points, at its middle where the curve turns.
 std::vector<PlacedPoint> placed_on(const Series& drawn, const SweepLine& line, bool of_output,
                                    double factor) {
   return line.placed([&](const solvers::SpecialPoint& one) {

@@ -37,7 +37,7 @@ std::string structure_title(const Scene& scene) {
   return kind + ", " + std::to_string(contacts) + (contacts == 1 ? " contact" : " contacts");
 }
 
-/// What the panels of a motion have in common.
+/// Common parts of the panels of a motion.
 struct MotionPicture {
   const Response& response;
   PeriodWindow window;
@@ -132,7 +132,7 @@ void add_curve(Panel& panel, const Series& curve, const std::vector<solvers::Poi
     panel.add(extremes_of_runs(curve));
 }
 
-/// A quantity of impacts along a curve and its branches, in a panel of its own.
+/// A quantity of impacts along a curve and its branches, in a separate panel.
 void add_impacts_along(Figure& figure, const Sweep& sweep, double PointImpacts::*value,
                        const std::string& title, const std::string& unit) {
   double largest = 0.0;
@@ -262,7 +262,7 @@ void add_displacements_of(Panel& panel, const SweepLine& line, const std::vector
   add_curve(panel, rms, line.stability.points, {});
 }
 
-/// Largest and rms displacement of the contacts beside their gap.
+/// Largest and rms displacement of the contacts with their gap.
 void add_displacements_along(Figure& figure, const Scene& scene, const Sweep& sweep) {
   const std::vector<SweepLine> lines = lines_of(sweep);
   const std::vector<double> values = displacements_of(lines);
@@ -293,7 +293,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   if (scene.analysis.type == AnalysisType::amplitude_sweep)
     figure.title += ", " + quantity(scene.forcing.frequency, "Hz", 6);
   if (!sweep.converged()) figure.title += " (INCOMPLETE: " + plain(sweep.status()) + ")";
-  figure.panel_width = 660;  // two names of "half peak to peak, unstable" fit beside each other in the legend
+  figure.panel_width = 660;  // two names of "half peak to peak, unstable" fit into one row of the legend
   figure.panel_height = 420;
   const std::optional<std::size_t> output = leading_output(outputs.outputs, scene);
   const bool about_a_mean = vibrates_about_a_mean(scene);

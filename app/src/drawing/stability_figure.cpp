@@ -88,7 +88,7 @@ std::vector<Piece> pieces_of(const Series& curve, const std::vector<bool>& point
     std::size_t end = first;
     while (end < lines.size() && lines[end] == i) ++end;
     const bool before = unstable_at(i), after = unstable_at(i + 1);
-    // Where contact alone begins or ends, stability may change with it.
+    // Stability may change where contact begins or ends.
     const bool ends_at_grazing = end > first && all_grazings(special, first, end) && before != after;
     Vertex from = vertex(curve, i);
     for (; next <= end; ++next) {

@@ -97,7 +97,7 @@ std::string array_of(const Table& table, std::size_t column) {
   return npy_text("<f8", table.rows(), data);
 }
 
-/// What a file's two headers in an archive have in common: version 2.0, no flags but names in UTF-8, no
+/// Common part of a file's two headers in an archive: version 2.0, no flags but names in UTF-8, no
 /// compression, and the first day that the format knows.
 std::string zip_fields(const std::string& name, const std::string& contents) {
   std::string fields;

@@ -36,7 +36,8 @@ class Descriptor {
   int descriptor_;
 };
 
-/// A new file beside `target`; O_EXCL makes sure that nothing is overwritten and no link is followed.
+/// A new file in the folder of `target`; O_EXCL makes sure that nothing is overwritten and no link is
+/// followed.
 std::pair<int, fs::path> open_temporary(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   for (;;) {
@@ -84,8 +85,8 @@ fs::path write_temporary(const fs::path& target, std::string_view contents) {
   throw IoError(target, "cannot be written: " + reason_of(error));
 }
 
-/// Whether a file can be written beside `target`. Its name is gone before any signal is delivered, so that
-/// one that ends the process leaves nothing.
+/// Whether a file can be written in the folder of `target`. Its name is gone before any signal is
+/// delivered, so that one that ends the process leaves nothing.
 void require_writable(const fs::path& target) {
   sigset_t all, before;
   ::sigfillset(&all);

@@ -90,11 +90,11 @@ std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const s
 
 namespace {
 
-/// What becomes of a name of several rows, by the list in which it is.
+/// Treatment of a name of several rows, by its list.
 enum class SeveralRows {
   mean,     // of them, by coefficients: contacts, and forces that do work with it
   all,      // of the support that moves
-  refused,  // where each row stands for itself
+  refused,  // where each row is separate
 };
 
 /// A list of degrees of freedom, and what its names become: rows, each with its part of the name's weight.
@@ -214,7 +214,7 @@ std::string weights_key(const std::string& key) {
   return key == "dofs" ? "coefficients" : key == "load_dofs" ? "load_coefficients" : key + "_coefficients";
 }
 
-/// The weights of each row of `found`, from those of its names: the given ones, or those that are usual.
+/// The weights of each row of `found` from the weights of its names: the given or the default ones.
 DocumentList weights_of(const NamedRows& found, const DocumentEntry* given, bool pair) {
   const auto* list = given == nullptr ? nullptr : std::get_if<DocumentList>(&given->value);
   const std::size_t names = found.names.back() + 1;
@@ -231,8 +231,8 @@ DocumentList weights_of(const NamedRows& found, const DocumentEntry* given, bool
   return weights;
 }
 
-/// Sets the weights beside a list whose names are means of several rows. A list of weights of another length
-/// is an error that is told later.
+/// Sets the weights for a list whose names are means of several rows. A list of weights of another length
+/// is reported later.
 void set_weights(Document& document, const DocumentEntry& entry, const NamedRows& found) {
   const std::string key = weights_key(entry.key);
   const bool pair = is_pair_section(entry.section);

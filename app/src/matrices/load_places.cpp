@@ -78,7 +78,7 @@ void check_terms(const Scene& scene, const StructureFiles& files) {
   }
 }
 
-/// Terms and a weight with places of their own stand in place of a load of amplitude 0.
+/// Terms and a weight with places replace a load of amplitude 0.
 bool needs_place(const Scene& scene) {
   return kind_of(scene.analysis.type).under_load &&
          (scene.forcing.amplitude != 0.0 || (scene.forcing.terms.empty() && scene.forcing.weight.empty()));
@@ -93,7 +93,7 @@ void check_place(const Scene& scene) {
         "missing; expected load (a file of one column) or load_dofs (a list) for the place of the force");
 }
 
-/// Of each of `dofs`, an entry per row of the files: 1 or -1, times its coefficient where there are some.
+/// For each of `dofs` an entry per row of the files: 1 or -1, times its coefficient where there are some.
 Eigen::VectorXd signs_in_files(const std::vector<int>& dofs, const std::vector<double>& coefficients,
                                const StructureFiles& files) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(files.file_rows());

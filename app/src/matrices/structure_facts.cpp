@@ -42,13 +42,13 @@ Eigen::VectorXd damping_ratios_of(const Scene& scene, const StructureFiles& file
 Scene with_one_side(Scene scene) {
   for (ContactPair& pair : scene.contact.pairs) {
     pair.side = ObstacleSide::positive;
-    if (reads_signal(pair.law)) pair.law = "linear";  // places alone matter, and a signal has none
+    if (reads_signal(pair.law)) pair.law = "linear";  // only places matter, and a signal has none
   }
   return scene;
 }
 
-/// The lowest modes; a semidefinite mass has fewer, since rounding alone tells others from infinitely high
-/// ones.
+/// The lowest modes; a semidefinite mass has fewer, because others differ from infinitely high ones only by
+/// rounding.
 fem::EigenmodesResult lowest_modes(const StructureFiles& files, const Eigen::SparseMatrix<double>& elastic,
                                    int count, const fem::EigenmodesOptions& options) {
   constexpr double highest = 1e6;  // ratio of frequencies, of whose square 1e-16 is 1e-4
@@ -85,7 +85,7 @@ Eigen::VectorXd circulatory_compliances(const fem::Matrices& matrices,
   return condensation.dynamic_compliance({0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}).compliance.diagonal().real();
 }
 
-/// How many of `dofs` from one on are all rows of one name, as of an expanded beam; 1 where it stands alone.
+/// How many of `dofs` from one on are all rows of one name, as of an expanded beam; 1 for a single row.
 std::size_t copies_from(const StructureFiles& files, const std::vector<int>& dofs, std::size_t from) {
   if (!files.dof_map) return 1;
   fem::NodeDof dof = files.dof_map->dof(dofs[from] - 1);

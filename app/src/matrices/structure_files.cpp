@@ -89,7 +89,7 @@ std::vector<std::string> term_paths(const Scene& scene) {
   return paths;
 }
 
-/// Takes the moving rows out of a part that turns. What couples it to them is in the coupling at one speed.
+/// Removes the moving rows from a rotating part. Its coupling to them is in the coupling at one speed.
 void hold_moving_rows(const StructureFiles& files, Eigen::SparseMatrix<double>& part, const char* key) {
   if (part.size() == 0 || files.moving.empty()) return;
   if (files.turns_along_curve && matrix_part(part, files.rows, files.base_rows).norm() > 0.0)
@@ -159,7 +159,7 @@ void add_turning_parts(StructureFiles& files, const StructureInputs& inputs) {
   matrices.stiffness += files.spin_speed * files.spin_speed * files.spin_stiffness;
 }
 
-/// What a scene says of its files, none of which has been read.
+/// Files named by a scene, none of which has been read.
 StructureFiles named_files(const Scene& scene) {
   const MatricesStructure& structure = scene.structure.matrices;
   StructureFiles files;

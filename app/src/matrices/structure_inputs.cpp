@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view key_of_stiffness = "structure.stiffness";
 constexpr std::string_view key_of_map = "structure.dof_map";
 
-/// What `reader` makes of a file.
+/// Result of `reader` for a file.
 template <class Read>
 auto read(const std::string& path, std::string_view key, Read reader) {
   try {

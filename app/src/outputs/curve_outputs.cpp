@@ -17,7 +17,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// What `measure` finds of each of so many points. Sets `cancelled` where the observer stops it.
+/// Results of `measure` for each of so many points. Sets `cancelled` if the observer stops it.
 template <class Measure>
 std::vector<MeasuredPoint> along(std::size_t points, const Observer& observer, bool& cancelled,
                                  const Measure& measure) {
@@ -29,7 +29,7 @@ std::vector<MeasuredPoint> along(std::size_t points, const Observer& observer, b
   return measured;
 }
 
-/// Of the curve, 0, or of a branch, from 1.
+/// 0: the curve; from 1: a branch.
 std::vector<MeasuredPoint> along_curve(const Scene& scene, const StructureModel& model,
                                        const std::vector<Output>& outputs, const Sweep& sweep,
                                        std::size_t number, const Observer& observer, bool& cancelled) {

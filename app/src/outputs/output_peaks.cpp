@@ -110,7 +110,7 @@ class PeakSolver {
       length += std::hypot((value(i + 1) - value(i)) / extent, height(i + 1) / height(i) - 1.0);
     const double ahead = from > 0 ? value(from) - value(from - 1) : value(index) - value(from);
     const double reach = std::min(100.0 * extent, 0.9 * value(from));
-    const bool by_map = !sweep_.friction.empty();  // whose points take tens of milliseconds and more
+    const bool by_map = !sweep_.friction.empty();  // whose points need tens of milliseconds and more
     solvers::ExactCurveOptions options;
     options.from = value(from);
     options.to = value(from) + (ahead < 0.0 ? -reach : reach);
@@ -145,7 +145,7 @@ class PeakSolver {
   const solvers::ContactDynamics* dynamics_;
   solvers::ContactProblem problem_;
   PointMeasurer measurer_;
-  std::map<std::size_t, std::vector<Traced>> traced_;  // beside a point of the curve, of all outputs
+  std::map<std::size_t, std::vector<Traced>> traced_;  // near a point of the curve, of all outputs
 };
 
 }  // namespace
@@ -159,7 +159,7 @@ std::optional<std::size_t> highest(const std::vector<MeasuredPoint>& points, std
   return best;
 }
 
-/// Of analysis.outputs alone.
+/// Only for analysis.outputs.
 void solve_for_peaks(const Scene& scene, const StructureModel& model, SweepOutputs& found, const Sweep& sweep,
                      const Observer& observer) {
   if (scene.analysis.outputs.empty() ||

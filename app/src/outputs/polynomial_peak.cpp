@@ -36,7 +36,7 @@ std::optional<PolynomialPeak> polynomial_peak(std::span<const double> places, st
   for (std::size_t i = 1; i < x.size(); ++i)
     lengths.push_back(lengths.back() +
                       std::hypot((x[i] - x[i - 1]) / extent(x), (y[i] - y[i - 1]) / extent(y)));
-  // Heights above that of the point, in their range: whole heights near a peak differ by rounding alone.
+  // Heights relative to the point, in their range: absolute heights near a peak differ only by rounding.
   std::vector<double> above;
   for (const double one : y) above.push_back((one - heights[index]) / extent(y));
   constexpr double tolerance = 1e-6;

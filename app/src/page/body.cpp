@@ -21,7 +21,7 @@ double largest_of(const MovingBody& body) {
   return largest;
 }
 
-/// The points in the order in which they are met, which numbers those of the surface.
+/// The points in the order of their first use, which numbers the points of the surface.
 std::vector<int> renumbered(const std::vector<int>& points, std::map<int, int>& number) {
   std::vector<int> list;
   for (const int point : points)

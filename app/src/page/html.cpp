@@ -39,8 +39,7 @@ std::string link_or_content(const std::string& folder, const std::string& name, 
                : fmt::format("<script defer src=\"{}{}\"></script>\n", folder, name);
 }
 
-/// A library that is no module defines its name for all scripts only where it stands in a plain script
-/// element.
+/// A library that is no module defines its name for all scripts only in a plain script element.
 std::string library_html(const std::string& folder, Library library) {
   if (!available(library) || (folder.empty() && library == Library::katex)) return "";
   std::string text;

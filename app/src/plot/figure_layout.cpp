@@ -16,7 +16,7 @@ namespace wavebalance::app {
 namespace {
 
 constexpr int title_height = 34;  // px
-// gnuplot takes all letters of an SVG for 0.7 of the size of the font, 13.5 px, and lines for 1.5 of it.
+// gnuplot assumes letters of an SVG 0.7 times the font size (13.5 px) wide, and lines 1.5 times as high.
 constexpr double letter_width = 0.7 * 13.5, line_height = 1.5 * 13.5;
 constexpr double sample_width = 7 * letter_width;  // of the line before a name, and the space between columns
 
@@ -44,7 +44,7 @@ std::size_t letters_in(const std::string& label) {
   }));
 }
 
-/// What the looks of a name differ in; widths and the number of symbols on a curve do not matter.
+/// Differences between the looks of a name; widths and the number of symbols on a curve do not matter.
 using Look = std::tuple<std::string, Colour, Dash, SeriesStyle>;
 
 bool is_drawn(const Series& series, bool logarithmic) {

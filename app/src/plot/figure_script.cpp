@@ -28,7 +28,7 @@ std::vector<double> short_numbers(const std::vector<double>& values) {
   return result;
 }
 
-/// `values` as shares of the range of `axis`, which is that of the values where it has no limits.
+/// `values` as fractions of the range of `axis`, by default the range of the values.
 std::vector<double> on_axis(std::vector<double> values, const Axis& axis) {
   const auto scale = [&](double value) { return axis.logarithmic ? std::log10(value) : value; };
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -110,7 +110,7 @@ Json segment_data(const Segment& s) {
           {"label", s.label}};
 }
 
-/// A heat map as a series: the middles of its cells, half their sizes, colours, and what is told of each.
+/// A heat map as a series: the middles of its cells, half their sizes, colours, and the text of each.
 Json map_data(const HeatMap& map) {
   const auto half = [](const std::vector<double>& places) {
     return 0.5 * (places.back() - places.front()) / static_cast<double>(places.size() - 1);

@@ -39,7 +39,7 @@ class Scratch {
     ::lseek(descriptor(), 0, SEEK_SET);
   }
 
-  /// What the child wrote through its copy of the descriptor, which shares the position.
+  /// Output of the child through its copy of the descriptor, which shares the position.
   std::string read() {
     std::string text;
     std::array<char, 65536> buffer;

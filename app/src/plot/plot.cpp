@@ -41,7 +41,7 @@ Panel& Panel::mark_y(double y_value, const std::string& label) {
 
 namespace {
 
-/// The lowest and the highest ordinate of the axis: its limits, or those of the curves.
+/// The lowest and the highest ordinate of the axis: its limits, or the limits of the curves.
 std::pair<double, double> range_of(const Panel& panel) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Series& series : panel.series)

@@ -169,8 +169,8 @@ std::string mark_text(const TextMark& mark) {
                      number_text(mark.y), sides[static_cast<std::size_t>(mark.align)]);
 }
 
-/// Edges of the axes of a diagram in shares of the picture. In SVG gnuplot takes letters for higher than they
-/// are, and would leave half of a low panel to its margins. `aligned` panels stand below each other: 88 px
+/// Edges of the axes of a diagram in fractions of the picture. In SVG gnuplot overestimates the height of
+/// letters, and would use half of a low panel for its margins. `aligned` panels are below each other: 88 px
 /// hold labels like 0.0005. Labels of segments stand right of the panel.
 std::string margins_text(const Panel& panel, const FigureLayout& layout, const Box& box, bool heading,
                          bool aligned, bool labelled) {
@@ -186,8 +186,8 @@ std::string margins_text(const Panel& panel, const FigureLayout& layout, const B
   return text;
 }
 
-/// Labels of ordinates below each other. gnuplot would place each by the length that it takes its axis's
-/// numbers for, and beyond the edge where they are long.
+/// Labels of ordinates below each other. gnuplot would place each by its estimate of the numbers' length,
+/// and beyond the edge where they are long.
 std::string aligned_label_text(const Panel& panel, const FigureLayout& layout, const Box& box) {
   return "set ylabel ''\nset label " + quoted(panel.y.label) +
          fmt::format(" at screen {},graph 0.5 center rotate by 90\n",
@@ -203,7 +203,7 @@ std::string frame_text(bool frame) {
          "set grid lt 1 lc rgb '#D4D4D4' lw 0.8 dt solid\n";
 }
 
-/// The heading stands at the left so that letters of panels line up.
+/// The heading is at the left so that letters of panels line up.
 std::string heading_text(const std::string& letter, const std::string& title, bool perspective) {
   const std::string text =
       letter.empty() ? title : "{/:Bold " + letter + "}" + (title.empty() ? "" : "  " + title);

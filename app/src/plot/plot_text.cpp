@@ -30,7 +30,7 @@ std::array<const char*, 5> map_colours(const HeatMap& map) {
 }
 
 std::string colour_code(Colour colour) {
-  // In the order of the enumeration; what has no colour of its own is black.
+  // In the order of the enumeration; names without a colour are black.
   constexpr std::array codes{"#000000", "#000000", "#E69F00", "#56B4E9", "#009E73",
                              "#0072B2", "#D55E00", "#CC79A7", "#777777"};
   return codes[static_cast<std::size_t>(colour)];

@@ -13,7 +13,7 @@ std::string list_text(std::span<const double> values) {
   return fmt::format("[{:.6g}]", fmt::join(values, ","));
 }
 
-/// The contact force over the amplitude at the instants of the motion, which divide those of the response.
+/// The contact force over the amplitude at the instants of the motion, a subset of the response's instants.
 std::vector<double> forces(const Scene& scene, const Record& record) {
   const std::vector<double> all = record.response.numbers("contact_force_N");
   const std::size_t instants = static_cast<std::size_t>(record.bar_motion.cols());

@@ -32,7 +32,7 @@ std::string pair_of(const Table& table, std::size_t row) {
   return trial.empty() ? "" : label_of({trial, weight});
 }
 
-/// The table with a column that names the pair of each row, which takes less room than two.
+/// The table with a column that names the pair of each row, which needs less space than two.
 Table with_pairs(const Table& table) {
   std::vector<std::string> columns = table.columns();
   columns.push_back("pair");
@@ -45,7 +45,7 @@ Table with_pairs(const Table& table) {
   return named;
 }
 
-/// Two sentences for each error, with the table to paste where it is not that of the error before.
+/// Two sentences for each error, with the table to paste if it differs from the previous one.
 std::string recommendations(const ComparisonRecord& record, const Summary& summary) {
   const Table* table = table_of(summary, "recommendations");
   if (table == nullptr) return "";

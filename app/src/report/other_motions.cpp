@@ -10,7 +10,7 @@
 namespace wavebalance::app {
 namespace {
 
-/// How often and from where motions beside a curve were sought, and what was found.
+/// Number and starts of searches for isolated branches, and the results.
 std::string isolas_sentence(const Summary& summary) {
   const auto* isolas = value_in<Table>(summary, quantities::isolas.name);
   const std::size_t found = isolas == nullptr ? 0 : isolas->rows();

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the displacements of contacts.
+/// Measures of contact displacements.
 const std::array<OverlayQuantity, 4>& contact_quantities() {
   static const std::array<OverlayQuantity, 4> quantities{
       {{"max", quantities::max_displacement.column(), "Largest displacement"},
@@ -243,7 +243,7 @@ std::vector<std::string> names_in(const std::vector<Output>& outputs) {
   return names;
 }
 
-/// A name as outputs have it: without unit and, where it is that of none, as it is.
+/// A name as in outputs: without unit; unchanged if it is not an output.
 std::string name_of_output(const std::string& words) {
   try {
     return output_name(output_words(words));

@@ -33,7 +33,7 @@ void draw(Panel& panel, const OverlayCurve& curve, Colour colour, double factor)
   if (any_number(dashed)) panel.add(std::move(dashed));
 }
 
-/// Those of quasi-periodic motions, in a panel below that of the curves.
+/// Second frequencies of quasi-periodic motions, in a panel below the curves.
 void add_second_frequencies(Figure& figure, const Overlay& overlay, const std::vector<Colour>& colours) {
   for (std::size_t i = 0; i < overlay.curves.size(); ++i) {
     const OverlayCurve& curve = overlay.curves[i];

@@ -31,8 +31,8 @@ void append_record_pictures(RunFiles& run, const Record& record, bool report) {
 
 constexpr std::string_view copied = "input_";  // how the names of copies begin
 
-/// All files but the summary; with arguments.report first the report, still without contents. `scene` is that
-/// of the record, of which `inputs` are copies.
+/// All files but the summary; with arguments.report first the report, still without contents. `scene`
+/// belongs to the record; `inputs` are copies of its files.
 RunFiles result_files(const RunArguments& arguments, const Scene& scene, const Record& record,
                       std::vector<RecordFile> inputs) {
   const bool report = arguments.report;

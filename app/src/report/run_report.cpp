@@ -83,7 +83,7 @@ std::string outputs_of_record(const Record& record, const std::vector<RecordFile
          folded_table(summary, "critical_speeds", "Critical speeds");
 }
 
-/// The table of coexisting motions, which is what they were sought for, or folded those of points of a curve.
+/// The table of coexisting motions, the main result, or folded the motions at points of a curve.
 std::string motions_of_record(const Scene& scene, const Summary& summary) {
   if (scene.analysis.type != AnalysisType::motions)
     return folded_table(summary, "motions", "Motions at points of the curve");

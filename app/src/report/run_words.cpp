@@ -28,7 +28,7 @@ std::string with_unit(const Summary& summary, const Quantity& one) {
   return quantity(number_in(summary, one), std::string(one.unit));
 }
 
-/// That of the displacements of contacts.
+/// For displacements of contacts.
 std::string length_unit(const Summary& summary) {
   const std::string unit = text_in(summary, quantities::displacement_unit);
   return unit.empty() ? "m" : unit;
@@ -74,7 +74,7 @@ std::string beside_gap(double displacement, double gap, const std::string& unit)
                      quantity(gap, unit));
 }
 
-/// What impacts do in a motion, or at most along a curve.
+/// Impacts in a motion, or their maxima along a curve.
 void append_impacts(std::vector<std::string>& sentences, const Summary& summary) {
   const double impulse = number_in(summary, quantities::max_impulse),
                count = number_in(summary, quantities::impacts),
@@ -101,7 +101,7 @@ void append_impacts(std::vector<std::string>& sentences, const Summary& summary)
                     quantity(number_in(summary, quantities::max_contact_force), force_unit_in(summary))));
 }
 
-/// What contacts with friction do over a period: each of a few, or their sums.
+/// Friction over a period: each of a few contacts, or sums.
 void append_friction(std::vector<std::string>& sentences, const Summary& summary, const Table& contacts) {
   constexpr std::size_t few = 4;
   const std::vector<double> stick = contacts.numbers("stick_fraction"),

@@ -70,7 +70,7 @@ std::pair<std::ptrdiff_t, std::string> type_in_words(const std::string& type) {
   return {found - known.begin(), found == known.end() ? spaced_words(type) : found->second};
 }
 
-/// Those of the structure where its whole curve was followed.
+/// Exact points if the whole exact curve was followed.
 void append_special_points(std::vector<std::string>& sentences, const Summary& summary,
                            const SweepAxis& axis) {
   const bool whole = text_in(summary, quantities::structure_curve) == "whole";

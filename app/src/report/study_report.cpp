@@ -28,7 +28,7 @@ std::string command_of_study(const StudyArguments& arguments) {
          shell_word(arguments.output.string());
 }
 
-/// The command that solves the run of a row alone.
+/// The command that solves the run of a single row.
 std::string command_of_row(const Study& study, const Table& table, std::size_t row) {
   std::string text = "wavebalance run " + shell_word(study.scene.string());
   for (const std::string& one : study.unset) text += " --unset " + shell_word(one);
@@ -85,8 +85,8 @@ std::string failures_html(const Study& study, const StudyRecord& record) {
          code_html(command_of_row(study, record.table, failures.front()));
 }
 
-/// The runs with the largest and the least value of the quantity that pictures show, and how to solve the
-/// first of them alone.
+/// The runs with the largest and the least value of the quantity in the pictures, and the command for the
+/// first of them.
 std::string extremes_html(const Study& study, const StudyRecord& record) {
   const std::string quantity = text_in(record.summary, {"quantity"});
   if (quantity.empty()) return "";

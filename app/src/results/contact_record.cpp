@@ -68,9 +68,9 @@ void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contac
        settable ? ", which slider sets" : "");
 }
 
-/// The friction work beside the work that the contact forces take from the motion in a period, which is that
-/// of the load less that of the damping: their difference is an error of the discretisation. Missing without
-/// slip, where the work is the rounding of what is exchanged, and for trial functions without velocities.
+/// The difference of the friction work from the work of the load less damping, an error of the
+/// discretisation. Missing without slip, where the work is rounding, and for trial functions without
+/// velocities.
 double energy_error(const std::vector<FrictionMeasures>& contacts, const solvers::Motion& motion,
                     double period) {
   constexpr double rounding = 1e-12;
@@ -175,7 +175,7 @@ void append_endless(Record& record, const Response& response, double frequency) 
 void append_friction(Record& record, const Scene& scene, const Response& response, double frequency) {
   if (!has_friction(scene)) return;
   const std::vector<FrictionMeasures> contacts = friction_measures(scene, response);
-  const bool exact = is_exact(response) || response.flow;  // beside which samples say nothing
+  const bool exact = is_exact(response) || response.flow;  // below which samples are not significant
   double work = 0.0, wear = 0.0;
   bool wears = false;
   for (const FrictionMeasures& one : contacts) {

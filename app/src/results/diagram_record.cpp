@@ -58,7 +58,7 @@ double load_frequency(const Scene& scene, const DiagramValue& one) {
   return is_over_amplitude(scene.analysis) ? scene.forcing.frequency : one.value;
 }
 
-/// What the motion at each value is, and between which displacements it stays.
+/// Type and range of displacements of the motion at each value.
 Table envelope_table(const Scene& scene, const Diagram& diagram) {
   std::vector<std::string> columns{
       diagram.axis.column(), "way", "period", "second_frequency_Hz", "rotation_number", "curve_residual",

@@ -33,8 +33,8 @@ std::optional<std::size_t> row_of_largest(const std::vector<double>& values) {
   return best;
 }
 
-/// The vibration where contacts begin to act: of a damped mode by its first point, up to which it is linear,
-/// of another one that of the last linear point.
+/// The vibration where contacts begin to act: of a damped mode from its first point, up to which it is
+/// linear, otherwise at the last linear point.
 double vibration_at_onset(const Table& backbone, const std::vector<double>& vibration) {
   if (backbone.has_column("amplitude_ratio")) {
     const double first = vibration.empty() ? missing : backbone.numbers("amplitude_ratio").front();
@@ -46,7 +46,7 @@ double vibration_at_onset(const Table& backbone, const std::vector<double>& vibr
   return value;
 }
 
-/// What is known of an output along a mode.
+/// Data of an output along a mode.
 struct AlongMode {
   OutputMeasures most = {};  ///< where it vibrates most
   double frequency = missing, at_onset = missing, at_largest_damping = missing;

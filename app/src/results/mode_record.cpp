@@ -29,7 +29,7 @@ namespace {
 using solvers::ModePoint;
 using solvers::ModeStatus;
 
-/// Whether the curve comes to its end along an internal resonance, whose points are then those of the mode.
+/// Whether the curve comes to its end along an internal resonance, whose points then belong to the mode.
 bool ends_on_resonance(const Backbone& curve) {
   return curve.complete && !curve.points.empty() &&
          curve.points.back().status == ModeStatus::internal_resonance;
@@ -112,7 +112,7 @@ void append_statuses(Summary& summary, const Backbone& curve) {
   summary.emplace_back("interruptions", curve.interruptions.size());
 }
 
-/// The points of a curve where no motion was found, which beside an internal resonance leave it converged.
+/// The points of a curve where no motion was found, which near an internal resonance leave it converged.
 void warn_of_failed_points(Record& record, const Backbone& curve) {
   std::vector<std::string> counts;
   int failed = 0;
@@ -199,7 +199,7 @@ void append_stability(Summary& summary, const ModeStudy& study, const solvers::B
   summary.emplace_back(quantities::special_points, table_of(study, stability.special_points));
 }
 
-/// Those of one motion, and a warning where it is unstable.
+/// Multipliers of one motion, and a warning if it is unstable.
 void append_stability(Record& record, const ModeStudy& study, const solvers::ModePoint& point) {
   if (!study.scene().analysis.stability) return;
   ResponseStability stability;

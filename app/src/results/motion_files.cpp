@@ -117,7 +117,7 @@ std::string place_of(const CurveMotion& motion, const SweepAxis& axis) {
   return fmt::format("at the {}, {}", spaced_words(motion.at), quantity(motion.place, axis.unit, 7));
 }
 
-/// The motion as that of a single response, with the instants of contact where these are known.
+/// The motion as of a single response, with the instants of contact if known.
 void append_motion_picture(Record& record, const Scene& scene, const Sweep& sweep, const CurveMotion& motion,
                            const std::string& place) {
   Response response;

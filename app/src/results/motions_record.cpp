@@ -22,7 +22,7 @@ namespace {
 
 std::string name_of_motion(std::size_t number) { return fmt::format("motion_{}", number); }
 
-/// Missing of a motion with impacts alone, which pass on impulses.
+/// Missing with impacts only, which have impulses.
 double largest_force(const Scene& scene, const FoundMotion& one) {
   const bool impulses = solves_by_impacts(scene) && one.found.motion.phases.empty();
   return impulses ? missing : one.contacts.force.maxCoeff();
@@ -72,7 +72,7 @@ void warn_of_none(Record& record, const Motions& all, int longest) {
        all.none, all.starts, longest, ends.empty() ? "" : fmt::format(" ({})", fmt::join(ends, ", ")));
 }
 
-/// Motions that are known by integration alone.
+/// Motions that are known only from integration.
 void append_unsolved(Record& record, const Motions& all) {
   if (all.unsolved.empty()) return;
   Table table({"phases_status", "period", "max_displacement_m", "max_contact_force_N", "share"});
@@ -144,7 +144,7 @@ Record motions_record(const Scene& scene, const StructureModel& model, const Ana
   append_unsolved(record, all);
   append_box(record, all);
   record.add(quantities::warnings, record.warnings);
-  // read_start_motion() takes these, since tables are not read.
+  // read_start_motion() uses these, because tables are not read.
   for (std::size_t i = 0; i < all.motions.size(); ++i)
     if (all.motions[i].found.periods > 1)
       record.summary.emplace_back(name_of_motion(i + 1) + "_period",

@@ -50,7 +50,7 @@ std::vector<OrbitPlane> planes_of(const Scene& scene, bool with_unbalance) {
   return planes;
 }
 
-/// Adds the orbits of one motion: `plane` is that of the unbalance, 2 x points or empty.
+/// Adds the orbits of one motion: `plane`: of the unbalance, 2 x points or empty.
 void add_orbits(std::vector<OrbitPlane>& planes, const Scene& scene, const std::string& motion,
                 const Eigen::MatrixXd& plane, const Eigen::MatrixXd& contacts) {
   std::size_t next = 0;

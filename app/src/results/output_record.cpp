@@ -30,7 +30,7 @@ std::vector<const MeasuredPoint*> in_rows(const SweepOutputs& outputs, bool with
 
 double relative_error(double value, double exact) { return std::abs(value - exact) / std::abs(exact); }
 
-/// Of an output along a curve, as its points and what was solved for between them tell.
+/// An output along a curve, from its points and the solutions between them.
 struct PeakRow {
   double place = missing;
   OutputMeasures measures = {};
@@ -55,7 +55,7 @@ PeakRow sampled_peak(const std::vector<double>& places, const std::vector<Measur
   return row;
 }
 
-/// What was solved for between the points of a curve.
+/// Solutions between the points of a curve.
 PeakRow solved_peak(const OutputPeak& peak) {
   PeakRow row{peak.at.value, peak.measures, {peak.at.height_error, peak.at.value_error}};
   row.measures.max = peak.measures.highest;
@@ -139,7 +139,7 @@ Table measures_table(const std::vector<Output>& outputs, const MeasuredPoint& me
   return table;
 }
 
-/// Of each of analysis.outputs along a curve.
+/// Each of analysis.outputs along a curve.
 Summary curve_entries(const Sweep& sweep, const SweepOutputs& outputs, const Table& peaks,
                       std::size_t count) {
   const std::string place = sweep_axis(sweep).column();
@@ -157,7 +157,7 @@ Summary curve_entries(const Sweep& sweep, const SweepOutputs& outputs, const Tab
   return entries;
 }
 
-/// Of each of analysis.outputs in a motion.
+/// Each of analysis.outputs in a motion.
 Summary motion_entries(const std::vector<Output>& outputs, const MeasuredPoint& measured, std::size_t count,
                        int harmonics) {
   Summary entries;

@@ -83,7 +83,7 @@ Record stepping_record(const Scene& scene, const StructureModel& model, const An
   Response response = flow_response(scene, model, options);
   const auto recorded = recorded_motion(scene, model, response, options.observer);
   response.recorded = recorded.has_value();
-  // The motion of the structure is that of forces that repeat; the statistics have the outputs.
+  // The motion of the structure requires periodic forces; the statistics have the outputs.
   if (recorded) response.structure = {};
   Record record = response_record(scene, model, response);
   if (recorded) append_recorded(record, *recorded, scene, response.contact);

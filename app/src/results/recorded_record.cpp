@@ -22,7 +22,7 @@ void replace(Summary& summary, const Quantity& quantity, SummaryValue value) {
   if (found != summary.end()) found->value = std::move(value);
 }
 
-/// The value in the place of that of the last period, where the record has one, and its error behind it.
+/// Replaces the value of the last period, if the record has one, and appends its error.
 void replace_with_error(Record& record, const Quantity& value, const Quantity& error,
                         const solvers::Estimate& known) {
   if (find_entry(record.summary, value.name) == nullptr) return;
@@ -147,8 +147,8 @@ std::string kind_sentence(const RecordedMotion& motion, double frequency) {
   return before + "Whether it is aperiodic or still transient is not known: " + measured + ".";
 }
 
-/// What came out, of the contact with the largest force and of the summary, which has no more than the
-/// scene's laws do.
+/// Results of the contact with the largest force and of the summary, limited to the quantities of the
+/// scene's laws.
 std::vector<std::string> sentences_of(const RecordedMotion& motion, double frequency,
                                       const MotionPlace& contact, const Summary& summary) {
   const auto of = [&](const char* quantity) { return motion.of(contact.name, quantity); };

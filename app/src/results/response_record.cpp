@@ -74,7 +74,7 @@ void append_rigid(Summary& summary, const Response& response) {
   summary.emplace_back(quantities::complementarity, moves ? rigid.product : missing);
 }
 
-/// ", which analysis.subharmonic = 2 computes", where the scene takes it.
+/// ", which analysis.subharmonic = 2 computes", if the scene supports it.
 std::string computed_by(const Scene& scene, int periods) {
   SceneChange change = as_response(scene);
   change.set.push_back(fmt::format("analysis.subharmonic={}", periods));

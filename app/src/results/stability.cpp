@@ -43,7 +43,7 @@ bool folds_are_known(const solvers::CurveStability& stability) {
 }
 
 /// Rows of bifurcation and grazing points, each after `first`. Where the structure has no motion near there
-/// is no multiplier. `phases` are those of the curve, and empty where they were sought along others alone.
+/// is no multiplier. `phases` belong to the curve, and are empty if they were computed only for others.
 void append_special_points(std::vector<Summary>& rows, const Summary& first, const Sweep& sweep,
                            const solvers::CurveStability& stability, const ExactAlongSweep* phases) {
   for (std::size_t i = 0; i < stability.special_points.size(); ++i) {

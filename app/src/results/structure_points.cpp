@@ -76,8 +76,7 @@ bool is_jump(solvers::SpecialPointType type) {
          type == solvers::SpecialPointType::stick;
 }
 
-/// A fold, say, of the structure beside one of its grazings, which the balance has not: its samples take both
-/// for one.
+/// For example an exact fold next to a grazing, which the balance does not resolve.
 std::optional<double> left_out_beside(const solvers::StructurePoints& structure, std::size_t event) {
   const auto has_it = [&](std::size_t other) {
     return std::any_of(structure.of_balance.begin(), structure.of_balance.end(),

@@ -152,7 +152,7 @@ void append_period(Record& record, int periods, int motion_periods) {
        periods, motion_periods == 1 ? "one period" : fmt::format("{} periods", motion_periods), periods);
 }
 
-/// Of contacts with friction all parts of the period, by what they do in them.
+/// Contacts with friction: all parts of the period, by state.
 Table phases_table(const Scene& scene, const solvers::ExactSolution& motion) {
   const std::vector<SceneContact> places = contact_places(scene);
   const auto number_of = [&](int row) { return std::int64_t{places.at(std::size_t(row)).number}; };

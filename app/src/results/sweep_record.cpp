@@ -124,8 +124,8 @@ void append_impacts(Record& record, const Sweep& sweep) {
   if (sweep.by_impacts() && sweep.periods > 1) record.add(quantities::period_of_motion, sweep.periods);
 }
 
-/// The largest contact force of a curve: that of the one law at the largest displacement, or of the samples
-/// where contacts differ, and where the displacement alone does not say it.
+/// The largest contact force of a curve: from the law at the largest displacement, or from the samples if
+/// contacts differ or the displacement does not determine it.
 double largest_force(const Scene& scene, const solvers::FrequencySweep& curve, double displacement) {
   if (curve.points.empty() || solves_by_impacts(scene)) return missing;
   const std::vector<SceneContact> contacts = contacts_of(scene);
@@ -145,7 +145,7 @@ bool touches(const Sweep& sweep) {
          (!sweep.impacts.empty() && std::ranges::any_of(sweep.impacts.front(), strikes));
 }
 
-/// Of each point, the most where they differ.
+/// Per point, the largest if they differ.
 int unknowns_of(const Scene& scene, const StructureModel& model, const Sweep& sweep) {
   if (!sweep.by_impacts()) return model.contacts() * scene.time.functions;
   const auto unknowns = [](const PointImpacts& point) { return 2.0 * point.count + 1.0; };

@@ -58,10 +58,10 @@ Summary point_row(const SweepPoint& point, solvers::SweepParameter parameter, co
           {quantities::rms_vibration, point.rms_vibration}};
 }
 
-/// Which columns the table of a sweep has beside those of its points.
+/// Additional columns of the table of a sweep.
 struct MoreColumns {
   bool stability, phases, branches, isolas;
-  /// The directions of contacts that have columns of their own, or none.
+  /// The contact degrees of freedom with separate columns, or none.
   std::vector<SceneContact> contacts = {};
 };
 

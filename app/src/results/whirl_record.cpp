@@ -65,7 +65,7 @@ std::string whirls_text(const StructureModel& model, double speed) {
                      texts.empty() ? "none found" : fmt::format("{}", fmt::join(texts, ", ")));
 }
 
-/// Of a matrix G of the other sign than the unbalance; empty without.
+/// Warning for a matrix G whose sign differs from the unbalance's; empty without.
 std::string sense_warning(const Scene& scene, const CampbellDiagram& diagram) {
   if (scene.structure.matrices.gyroscopic.empty() || !turns_against_plane(diagram)) return "";
   return "The unbalance turns against structure.gyroscopic, which lowers forward whirls and "

@@ -38,7 +38,7 @@ class PairReader {
     fail_missing(document_, section_, name, key(name).expected() + more);
   }
 
-  /// Sets a value that stands in the file, or else its default.
+  /// Sets a value from the file, or else its default.
   void take(std::string_view name) { take_key(document_, section_, key(name), scene_); }
 
   void read_directions() {
@@ -104,7 +104,7 @@ class PairReader {
     return names;
   }
 
-  /// Laws of pairs are beside a law of the scene.
+  /// Laws of pairs are in addition to a law of the scene.
   void check_mixture(const DocumentEntry& own) const {
     if (scene_.contact.law == no_law)
       fail_at(

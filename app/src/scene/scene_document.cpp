@@ -45,7 +45,7 @@ DocumentEntry entry_of(std::string section, std::string key, const toml::node& n
 
 void add_section(Document& document, const std::string& name, const toml::table& table, int line);
 
-/// The entries of [[contact.pairs]] or [[forcing.terms]], each a section of its own.
+/// The entries of [[contact.pairs]] or [[forcing.terms]], each a separate section.
 void add_tables(Document& document, const toml::array& tables, std::string (*section)(std::size_t)) {
   for (std::size_t i = 0; i < tables.size(); ++i)
     add_section(document, section(i), *tables[i].as_table(), line_of(tables[i]));
@@ -63,7 +63,7 @@ void add_section(Document& document, const std::string& name, const toml::table&
       continue;
     }
     document.entries.push_back(entry_of(name, std::string(key.str()), node));
-    // A dotted key has no line of its own for the table between.
+    // A dotted key has no separate line for the intermediate table.
     if (document.entries.back().line == 0)
       document.entries.back().line = static_cast<int>(key.source().begin.line);
   }

@@ -110,7 +110,7 @@ std::string section_text(const std::string& title, std::span<const SceneKey> key
   return text.empty() ? "" : title + "\n" + text;
 }
 
-/// What stands above the keys of `section`.
+/// Heading of the keys of `section`.
 std::string section_title(std::string_view section) {
   if (section == "contact.pairs")
     return "[[contact.pairs]], any number of them, in place of structure.contact_dofs";

@@ -57,7 +57,7 @@ std::string unknown_section_text(const std::string& section) {
   return "unknown section" + unknown_text(section, known_names(section), shown);
 }
 
-/// What records of earlier versions say of their modes, and what holds for all modes now.
+/// Keys of modes in records of earlier versions, with their fixed present values.
 bool is_former(const DocumentEntry& entry) {
   const auto* text = std::get_if<std::string>(&entry.value);
   return entry.full_name() == "analysis.formulation" && text != nullptr && *text == "consistent";
@@ -145,7 +145,7 @@ bool holds(const DocumentScalar& one) {
   return std::holds_alternative<Type>(one);
 }
 
-/// Whether a value is a list of numbers alone.
+/// Whether a value is a list of numbers only.
 bool is_list(const DocumentValue& value) {
   const auto* list = std::get_if<DocumentList>(&value);
   return list != nullptr && std::none_of(list->begin(), list->end(), holds<std::string>);

@@ -32,7 +32,7 @@ std::string line_of(const SceneKey& key, const Scene& scene) {
   return line + "\n";
 }
 
-/// Whether a pair of this law has the key, with a value of its own.
+/// Whether a pair of this law has the key with a separate value.
 bool is_written(const SceneKey& key, const Scene& scene, const ContactPair& pair) {
   if (key.name == "law") return pair.law != no_law && !is_rigid(pair.law);
   const bool of_law = key.laws.empty() || contains(key.laws, pair.law);

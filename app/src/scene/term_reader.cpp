@@ -85,7 +85,7 @@ class TermReader {
               "expected the two rows of the plane in which it turns, or one of them");
   }
 
-  /// The key belongs to terms of one kind, and stands in place of dofs.
+  /// The key belongs to terms of one kind, and replaces dofs.
   void refuse_beside(std::string_view name, LoadKind kind) const {
     const DocumentEntry* given = entry(name);
     if (given == nullptr) return;

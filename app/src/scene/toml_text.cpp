@@ -69,7 +69,7 @@ std::string_view line_of_text(std::string_view text, int line) {
   return text.substr(0, text.find('\n'));
 }
 
-/// What the line `key = text` without its quotes, or without the last one, should be; empty for others.
+/// The correct form of the line `key = text` without its quotes, or without the last one; empty for others.
 std::string quotes_text(std::string_view line) {
   line = line.substr(0, line.find('#'));
   const auto equals = line.find('=');

@@ -36,7 +36,7 @@ int open_locked(const fs::path& file) {
   throw IoError(file, reason);
 }
 
-/// Why a journal that begins with this line is not that of the study.
+/// Why a journal that begins with this line belongs to another study.
 std::string difference_text(const std::string& found) {
   const std::optional<Summary> header = parse_summary(found);
   if (!header || header->empty() || header->front().name != "wavebalance_study")

@@ -9,7 +9,7 @@ Scene structure_part(const Scene& scene) {
   Scene part;
   part.structure = scene.structure;
   part.forcing = scene.forcing;
-  part.structure.matrices.spin_speed = spin_speed(scene);  // by default that of the load
+  part.structure.matrices.spin_speed = spin_speed(scene);  // by default the frequency of the load
   part.forcing.frequency = 0.0;
   if (turns_along_curve(scene)) {
     part.structure.matrices.spin_speed = 0.0;

@@ -23,7 +23,7 @@ int launched_processes() {
 std::unique_ptr<Messenger> launched_messenger() {
   const int processes = launched_processes();
   if (processes < 2) return nullptr;
-  // Kept until the program ends: MPI does not start twice. Its own plug-ins take its symbols.
+  // Kept until the program ends: MPI does not start twice. Its plug-ins use its symbols.
   void* library = ::dlopen(library_name, RTLD_NOW | RTLD_GLOBAL);
   void* symbol = library == nullptr ? nullptr : ::dlsym(library, messenger_symbol);
   if (symbol == nullptr) {

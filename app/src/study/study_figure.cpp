@@ -75,7 +75,7 @@ Shown take_to_shown(const std::string& quantity, std::vector<double>& values) {
   return shown;
 }
 
-/// What a picture says of each run beside its value.
+/// Text of a picture for each run in addition to its value.
 enum class Outcome { solved, unstable, not_converged };
 
 std::vector<Outcome> outcomes_of(const Table& table) {
@@ -218,7 +218,7 @@ void add_map(Figure& figure, const Table& table, const std::vector<Varying>& var
   if (!(largest > 0.0)) return;
   map.largest = largest;
   map.from_zero = least >= 0.0;
-  // Values near each other take all colours; white is left to what has no value.
+  // Close values use all colours; white is for missing values.
   constexpr double near = 0.5, pale = 0.15;
   if (least > near * largest) map.least = least - pale * (largest - least);
   Panel& panel = figure.add_panel();
@@ -242,7 +242,7 @@ void add_quantile_curves(Panel& panel, const Varying& x, const std::vector<doubl
   }
 }
 
-/// What all parameters but that of the abscissa are in a row.
+/// All parameters of a row except the abscissa.
 std::string others_text(const Study& study, const Table& table, std::size_t row, const std::string& abscissa,
                         const std::set<std::string>& shown) {
   std::string text;

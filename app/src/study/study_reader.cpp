@@ -108,7 +108,7 @@ class StudyTable {
   std::vector<std::string> known_;
 };
 
-/// Throws if no scene has such a key. Entries of lists of tables are counted by the scene alone.
+/// Throws if no scene has such a key. Only the scene counts entries of lists of tables.
 void check_key(const StudyTable& table, const toml::node* node, const std::string& key) {
   if (key.starts_with("contact.pairs[") || key.starts_with("forcing.terms[") ||
       find_scene_key(key) != nullptr)

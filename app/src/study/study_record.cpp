@@ -147,7 +147,7 @@ std::string run_text(const Study& study, const StudyRuns& runs, const StudyRow& 
   return fmt::format("run {} ({})", row.run + 1, values);
 }
 
-/// What becomes of the limit cycle from one row to the next; empty where nothing does.
+/// Change of the limit cycle from one row to the next; empty if there is none.
 std::string change_between(const StudyRow& before, const StudyRow& after) {
   if (before.converged && !after.converged)
     return fmt::format("the limit cycle is lost (status {})", after.status);

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 // end.
 constexpr char row_letter = 'r', hello_letter = 'h', alive_letter = 'a', solve_letter = 's', end_letter = 'e';
 
-/// What process 0 knows of another one.
+/// Data of process 0 about another one.
 struct Remote {
   int threads = 0;  // 0 until it has said so
   std::set<std::int64_t> runs;
@@ -32,7 +32,7 @@ struct Remote {
   bool lost = false;
 };
 
-/// Hands runs to the threads of this process and to other processes, and takes their rows.
+/// Hands runs to the threads of this process and to other processes, and receives their rows.
 class Distribution {
  public:
   Distribution(const Study& study, const StudyRuns& runs, const std::vector<std::int64_t>& todo,

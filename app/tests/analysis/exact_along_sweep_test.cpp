@@ -1,4 +1,4 @@
-// Whose stability a point of a curve has. What records say of it: tests/analyses/phases_of_curves_test.py.
+// Source of the stability of a point of a curve. Records: tests/analyses/phases_of_curves_test.py.
 #include "wavebalance/app/analysis/exact_along_sweep.hpp"
 
 #include <gtest/gtest.h>

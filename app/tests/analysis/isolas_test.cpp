@@ -1,4 +1,4 @@
-// How a sweep ends whose isolas were followed. What they are: tests/analyses/isolas_test.py.
+// Status of a sweep whose isolas were followed. Their values: tests/analyses/isolas_test.py.
 #include <gtest/gtest.h>
 
 #include "wavebalance/app/analysis/sweep.hpp"

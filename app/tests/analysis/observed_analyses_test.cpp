@@ -1,4 +1,4 @@
-// What an observer is told, and what a record holds whose observer stopped the analysis in a certain phase.
+// Calls of an observer, and records after an observer stopped the analysis.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -76,7 +76,7 @@ TEST(NextSteps, OfEveryStatusAnalysisAndLawAreAcceptedByTheScene) {
     try {
       scene = load_scene(file);
     } catch (const SceneError&) {
-      continue;  // as an analysis does not take each law
+      continue;  // because not every analysis supports each law
     }
     ++scenes;
     std::set<std::string> tried;  // statuses share steps

@@ -57,7 +57,7 @@ TEST(PairResults, CountFailuresByStatusAndFitTheOrderAboveTheErrorOfTheReference
     point.converged = functions != 8;
     point.status = point.converged ? "converged" : "stalled";
     point.error = point.displacement_error =
-        std::max(std::pow(functions, -3.0), 1e-6);  // a floor below twice that of the reference
+        std::max(std::pow(functions, -3.0), 1e-6);  // a floor below twice the reference's
     point.force_error = std::pow(functions, -1.0);
     points.push_back(point);
   }

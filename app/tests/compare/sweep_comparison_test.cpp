@@ -16,7 +16,7 @@
 namespace wavebalance::app {
 namespace {
 
-// Few elements, since the exact curve takes longest.
+// Few elements, because the exact curve is slowest.
 const std::vector<std::string> brief_sweep{"structure.elements=5",        "analysis.type=frequency_sweep",
                                            "analysis.frequency_from=100", "analysis.frequency_to=160",
                                            "time.functions=16",           "time.quadrature_points=64"};
@@ -74,7 +74,7 @@ TEST(SweepComparison, OnTwoThreadsThatIsInterruptedHoldsWhatWasMeasuredSoFar) {
   EXPECT_TRUE(found.interrupted);
   EXPECT_EQ(found.status(), "interrupted");
   EXPECT_GE(found.curves.size(), 4u);
-  EXPECT_LE(found.curves.size(), 6u);  // those of both threads were under way
+  EXPECT_LE(found.curves.size(), 6u);  // runs of both threads were under way
   EXPECT_TRUE(found.curves.front().converged());
 }
 

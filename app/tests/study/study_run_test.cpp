@@ -83,7 +83,7 @@ TEST(StudyRun, ARowIsOneLineOfItsJournal) {
   EXPECT_EQ(json_line(parse_row(line)), line);
 }
 
-/// Messages between threads in place of processes.
+/// Messages between threads instead of processes.
 class MailBoxes {
  public:
   explicit MailBoxes(int size) : boxes_(static_cast<std::size_t>(size)) {}
@@ -143,7 +143,7 @@ TEST(StudyRun, AProcessThatDiesLosesOnlyItsRunsWhichOthersSolve) {
   const BarStudy bar(20);
   MailBoxes boxes(2);
   ThreadMessenger dying(boxes, 1);
-  dying.send(0, "h2");  // it has two threads, takes runs and never answers
+  dying.send(0, "h2");  // it has two threads, accepts runs and never answers
   ThreadMessenger messenger(boxes, 0);
   StudyOptions options;
   options.messenger = &messenger;

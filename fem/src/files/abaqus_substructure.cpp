@@ -10,7 +10,8 @@ namespace {
 using detail::Lines;
 using Fields = std::vector<std::string_view>;
 
-/// What follows "name=" in a keyword line in lower case, without blanks around it; empty if it is not there.
+/// The text after "name=" in a keyword line in lower case, without blanks around it; empty if it is not
+/// there.
 std::string keyword_value(const std::string& line, std::string_view name) {
   for (const std::string_view word : detail::split(line, ",")) {
     const std::size_t sign = word.find('=');

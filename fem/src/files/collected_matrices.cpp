@@ -19,7 +19,7 @@ struct Word {
   std::string_view text, role;
 };
 
-// Those that stand anywhere in a title or in the name of a file; the first one counts.
+// Words anywhere in a title or in the name of a file; the first one counts.
 constexpr std::array inside_words{Word{"structural damp", "structural_damping"},
 
                                   Word{"stif", stiffness_role},

@@ -41,7 +41,7 @@ class Translation {
 std::optional<int> first_internal_node(const Sparse& stiffness, const DofMap& map) {
   constexpr int directions = 3, per_element = 3;
   constexpr double much_less = 0.1;
-  constexpr double most_internal = 0.8;  // three of each element, which has about one node of its own
+  constexpr double most_internal = 0.8;  // three of each element, which has about one separate node
   std::map<int, std::vector<int>, std::greater<>> rows;  // of each node, the highest number first
   std::vector<Translation> along(directions, Translation(stiffness));
   for (int row = 0; row < map.rows(); ++row) {

@@ -1,4 +1,4 @@
-// Meshes of CalculiX and Abaqus. Their orders of nodes are those of VTK, but for a beam's middle.
+// Meshes of CalculiX and Abaqus. Their nodes are in the order of VTK, except a beam's middle.
 #include <algorithm>
 #include <array>
 #include <istream>
@@ -25,7 +25,7 @@ constexpr std::array shapes{Shape{"c3d10", 10, 24}, Shape{"c3d15", 15, 26}, Shap
                             Shape{"c3d4", 4, 10},   Shape{"c3d6", 6, 13},   Shape{"c3d8", 8, 12},
                             Shape{"b31", 2, 3},     Shape{"b32", 3, 21},    Shape{"b21", 2, 3},
                             Shape{"t3d2", 2, 3},    Shape{"t3d3", 3, 21},   Shape{"t2d2", 2, 3}};
-// What follows the name of a family of surfaces.
+// The text after the name of a family of surfaces.
 constexpr std::array sides{Shape{"3", 3, 5}, Shape{"4", 4, 9}, Shape{"6", 6, 22}, Shape{"8", 8, 23}};
 constexpr std::array<std::string_view, 5> surfaces{"m3d", "cps", "cpe", "cax", "s"};
 constexpr std::array<std::string_view, 9> without_shape{"spring", "mass",   "dashpot", "gap", "dcoup",
@@ -66,7 +66,7 @@ struct Cell {
   std::vector<int> nodes;  // numbers of the file
 };
 
-/// What files hold so far, includes among them.
+/// Content of files so far, with includes.
 struct Found {
   std::map<int, std::array<double, 3>> points;
   std::vector<Cell> cells;
@@ -171,7 +171,7 @@ class MeshReader {
   std::vector<int> pending_;  // number and nodes of the element that is being read
 };
 
-/// The points of the cells alone, in the order of their numbers.
+/// Only the points of the cells, in the order of their numbers.
 NumberedMesh numbered(const Found& found, const std::string& name) {
   if (found.cells.empty())
     throw MatrixFileError(name + ": there is no element; expected *ELEMENT with solids, shells or beams");

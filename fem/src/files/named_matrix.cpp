@@ -14,7 +14,7 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-/// Of a file that names neither it nor its rows.
+/// For a file that names neither it nor its rows.
 NamedMatrix plain(Sparse matrix) {
   const bool load = matrix.rows() != matrix.cols();
   return {"", std::move(matrix), {}, load};
@@ -43,7 +43,7 @@ std::vector<NamedMatrix> read_format(MatrixFormat format, std::istream& input, c
   return {};
 }
 
-/// All that a file holds; with a name the others have names alone.
+/// Content of a file; with a name the others have only names.
 std::vector<NamedMatrix> read_all(const MatrixPlace& place, MatrixPart part) {
   const detail::FoundFormat found = detail::found_format(place.file);
   return detail::read_as(found, [&] {

@@ -36,7 +36,7 @@ TEST(DofMap, NamesTheRowsInTheOrderOfTheLines) {
   }
 }
 
-// As CalculiX writes those of shells and beams, which it expands to solids.
+// As CalculiX writes shells and beams, which it expands to solids.
 TEST(DofMap, CountsTheRowsThatHaveOneName) {
   const DofMap map = dof_map("2.3\n7.1\n2.3\n2.1\n2.3\n");
   EXPECT_EQ(map.name(0), "node 2 z #1");

@@ -140,7 +140,7 @@ TEST(MatrixMarket, RefusesDevicesPipesAndFoldersAtOnce) {
 TEST(MatrixMarket, RefusesFilesAboveTheSizeLimit) {
   const TemporaryFolder folder;
   const auto file = folder.write("large.mtx", general);
-  std::filesystem::resize_file(file, largest_matrix_file + 1);  // a hole: takes no space
+  std::filesystem::resize_file(file, largest_matrix_file + 1);  // a hole: needs no space
   expect_error([&] { read_matrix_market(file); }, "is 8000000001 bytes; it must be at most 8000000000");
 }
 

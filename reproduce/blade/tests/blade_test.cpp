@@ -1,4 +1,4 @@
-// What is measured of the blade's motions, and the models that they are of.
+// Measures of the blade's motions, and its models.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ TEST(TorsionShare, IsOneInATorsionModeAndCountsHarmonicsByTheirSquare) {
   point.amplitudes(1, 1) = {0.0, 2.0};
   EXPECT_EQ(torsion_share({false, true}, point), 1.0);
   EXPECT_EQ(torsion_share({true, false}, point), 0.0);
-  point.amplitudes(0, 2) = 1.0;  // n^2 |a|^2: 4 beside 4
+  point.amplitudes(0, 2) = 1.0;  // n^2 |a|^2: 4 and 4
   point.amplitudes(0, 0) = 7.0;  // a static displacement has no kinetic energy
   EXPECT_DOUBLE_EQ(torsion_share({false, true}, point), 0.5);
 }
@@ -104,7 +104,7 @@ TEST(SteppedResponses, KeepTheBranchTheyComeFrom) {
   for (const auto& response : up) {
     EXPECT_TRUE(response.converged) << response.frequency;
     const auto& other = at(down, response.frequency);
-    // Stiffening: upwards the response is never the smaller one, and the force is that of the springs.
+    // Stiffening: upwards the response is never the smaller one, and the force belongs to the springs.
     EXPECT_GE(response.displacement.maxCoeff(), other.displacement.maxCoeff() - tolerance);
     const Eigen::MatrixXd penetration = (response.displacement.array() - gap).cwiseMax(0.0);
     EXPECT_LT((response.force - scene.contact.number("stiffness") * penetration).cwiseAbs().maxCoeff(),

@@ -41,7 +41,7 @@ void check_levels(report::Artefact& artefact) {
        text, low > report::rounding && high < report::rounding});
 }
 
-/// The inner products of one level from those of the next finer one, by the refinement equation alone.
+/// The inner products of one level from the next finer one, only by the refinement equation.
 Eigen::VectorXd coarser(const Eigen::VectorXd& finer, const Eigen::VectorXd& filter) {
   const Eigen::Index size = finer.size() / 2;
   return Eigen::VectorXd::NullaryExpr(size, [&](Eigen::Index m) {
@@ -114,7 +114,7 @@ void state_shape(report::Artefact& artefact) {
   artefact.statement(statement);
 }
 
-/// Relative error of the sum over 2^level points per unit in place of the integral of (phi^(d))^2.
+/// Relative error of the sum over 2^level points per unit instead of the integral of (phi^(d))^2.
 double sum_error(const wavelets::ScalingFunction& phi, int level, int derivative) {
   const double exact =
       (derivative == 0 ? 1.0 : -1.0) * wavelets::connection_coefficients(phi, phi, 2 * derivative)(0);

@@ -62,7 +62,7 @@ void state_hbm(report::Artefact& artefact, const Case& study, const Readings& re
   artefact.statement(concluded(statement, found));
 }
 
-/// What the plateau of Fourier:Fourier shows under one reading.
+/// Measures of the plateau of Fourier:Fourier under one reading.
 Finding gibbs(const Case& study, const Readings& readings, std::size_t i) {
   const auto& hbm = readings.at(i, "fourier_fourier");
   const auto& reference = study.reference();

@@ -52,7 +52,7 @@ Verdict poor_with_16(const Convergence& results, int number) {
   });
 }
 
-/// Beyond 16 functions the error of DB6:DB6 is lower than with 16, and at most twice that of Fourier.
+/// Beyond 16 functions the error of DB6:DB6 is lower than with 16, and at most twice Fourier's.
 Verdict improves(const Convergence& results, int number) {
   const std::vector<int> more{32, 64, 128};
   return by_rms_and_mean([&](Measure measure) {

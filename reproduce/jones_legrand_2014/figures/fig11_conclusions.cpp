@@ -22,14 +22,14 @@ std::vector<double> everywhere(const Convergence& results, Measure measure, cons
   return values;
 }
 
-/// Whether a pair's errors are at most twice those of HBM for most numbers of functions and cases.
+/// Whether a pair's errors are at most twice as large as with HBM for most numbers of functions and cases.
 Verdict comparable(const Convergence& results, const std::string& name) {
   return by_rms_and_mean([&](Measure measure) {
     return within_twice(everywhere(results, measure, name), everywhere(results, measure, hbm_pair));
   });
 }
 
-/// How often an error is at most twice that of HBM, as text.
+/// How often an error is at most twice as large as with HBM, as text.
 std::string often_comparable(const Convergence& results, const std::string& name, bool labelled = true) {
   const auto errors = everywhere(results, &Measures::rms, name),
              others = everywhere(results, &Measures::rms, hbm_pair);

@@ -137,7 +137,7 @@ std::string passing_text(const std::vector<UnderReading>& all) {
                      passes[0], curves[0], passes[1], curves[1]);
 }
 
-/// The curves of all pairs under each reading, the first of which is that of the scene.
+/// The curves of all pairs under each reading, the first of which is used by the scene.
 std::vector<UnderReading> under_readings(report::Artefact& artefact) {
   std::vector<UnderReading> all;
   for (const SweepReading& reading : sweep_readings(artefact.scene(first_file)))

@@ -1,4 +1,4 @@
-// What JL14 leaves open in its sums, and what that does to the pairs with Haar trial functions.
+// Open choices in the sums of JL14, and their effect on pairs with Haar trial functions.
 #include <fmt/format.h>
 
 #include <algorithm>

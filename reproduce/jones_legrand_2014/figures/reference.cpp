@@ -1,5 +1,5 @@
-// The reference of one case, which Figs. 6-11 read: the exact periodic solution. Time stepping, the paper's,
-// is beside it.
+// The reference of one case, which Figs. 6-11 read: the exact periodic solution. The paper's time stepping
+// is added.
 #include <fmt/format.h>
 
 #include <complex>

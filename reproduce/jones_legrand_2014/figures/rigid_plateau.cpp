@@ -1,4 +1,5 @@
-// The step that JL14 names as its next one: the same bar against a rigid obstacle, beside the penalty law.
+// The step that JL14 names as its next one: the same bar against a rigid obstacle, compared with the
+// penalty law.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -146,7 +147,7 @@ void note_forces(report::Artefact& artefact, const Study& study) {
       study.exact.contacts.points(), report::number(drawn), report::number(*least), report::number(*most)));
 }
 
-/// Errors of the force of all pairs, over that of Fourier:Fourier.
+/// Errors of the force of all pairs, over Fourier:Fourier's.
 struct RelativeErrors {
   std::vector<double> rms, mean;
 };

@@ -1,4 +1,4 @@
-// What an error costs in each pair of bases, beside Fourier:Fourier: which basis is worth its time.
+// Cost of an error in each pair of bases, compared with Fourier:Fourier: which basis is worth its time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Cheapest cheapest(const std::vector<app::SolvePoint>& points, const Stair& stair
   return found;
 }
 
-/// What one scene costs: for each stair and each error asked.
+/// Cost of one scene: for each stair and each requested error.
 struct Costs {
   std::string scene, title;
   bool rigid = false;
@@ -74,7 +74,7 @@ struct Costs {
   const Cheapest& at(bool of_force, std::size_t stair, int step) const {
     return by[of_force][stair][static_cast<std::size_t>(step)];
   }
-  /// Time over that of Fourier:Fourier; missing where either does not reach the error.
+  /// Time over Fourier:Fourier's; missing where either does not reach the error.
   double ratio(bool of_force, std::size_t stair, int step) const {
     const double own = at(of_force, stair, step).seconds, fourier = at(of_force, 0, step).seconds;
     return std::isfinite(own) && std::isfinite(fourier) ? own / fourier : solvers::missing;
@@ -136,7 +136,7 @@ Table costs_table(const std::vector<Costs>& all) {
   return table;
 }
 
-/// What the times take of both axes.
+/// Ranges of the times on both axes.
 struct Range {
   double least = beyond, most = 0.0;  ///< ms
   int last = per_decade;              ///< step of the smallest error
@@ -174,7 +174,7 @@ app::Panel panel_of(const Costs& costs, bool of_force, const Range& range) {
       x.push_back(error_asked(step));
       y.push_back(costs.milliseconds(of_force, i, step));
     }
-    // What reaches the largest error asked holds beyond it, so that a stair of one step is seen.
+    // The time for the largest error also holds beyond it, so that a stair of one step is seen.
     x.push_back(error_asked(-1));
     y.push_back(y.back());
     panel.add(report::styled({stair.label, x, y, app::SeriesStyle::steps}, stair.colour,
@@ -197,8 +197,7 @@ app::Figure drawn(const std::vector<Costs>& all) {
   return figure;
 }
 
-/// "DB10, 0.05": the cheapest and its time over that of Fourier:Fourier, by the displacement and by the
-/// force.
+/// "DB10, 0.05": the cheapest and its time over Fourier:Fourier's, by the displacement and by the force.
 Table choices_table(const std::vector<Costs>& all) {
   std::vector<std::string> columns{"Relative error"};
   for (const Costs& costs : all) columns.push_back(costs.title);

@@ -32,7 +32,7 @@ double mean_kinetic(int mode, double excess) {
   return rising * (2.0 * mode * period - (2.0 * mode + 1.0) * rising) / period;
 }
 
-// The energy over that of linear grazing, for V = amplitude * g0/L.
+// The energy over the energy of linear grazing, for V = amplitude * g0/L.
 double energy_ratio_of(int mode, double excess, double amplitude, EnergyMeasure measure) {
   const double linear = linear_omega(mode);
   const double scaled = amplitude / linear;

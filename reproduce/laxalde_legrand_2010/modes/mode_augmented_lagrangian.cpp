@@ -284,7 +284,7 @@ void LagrangianMode::measure(LagrangianPoint& point, const Eigen::VectorXd& x,
   const Eigen::VectorXd elastic = quotient.stiffness().apply(x), inertia = quotient.mass().apply(x);
   const double unit = model_.omega_squared[options_.mode - 1];
   const double m = x.dot(inertia), r = x.dot(elastic) / m;
-  double squared = r;  // omega^2 over that of the linear mode
+  double squared = r;  // omega^2 over its value in the linear mode
   const Eigen::MatrixXd gaps = (model_.gaps / gap_).replicate(1, options_.samples);
   const Eigen::Map<const RowMajor> lambda(multiplier.data(), model_.contacts(), options_.samples);
   if (options_.formulation == ModeFormulation::consistent)

@@ -1,4 +1,4 @@
-// CLI11 is included here alone: it takes longer to compile than the rest of the report.
+// Only this file includes CLI11, which compiles longer than the rest of the report.
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>

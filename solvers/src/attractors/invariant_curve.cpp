@@ -115,7 +115,7 @@ class SectionFit {
     }
   }
 
-  // Of the curve over the turns.
+  // Residual of the curve over the turns.
   static Eigen::MatrixXd slope_of(const Eigen::MatrixXd& coefficients) {
     const Index harmonics = coefficients.rows() / 2;
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(coefficients.rows(), coefficients.cols());
@@ -131,7 +131,7 @@ class SectionFit {
     for (Index n = 0; n < basis.rows(); ++n) basis.row(n) = basis_at(rotation * centred(n), harmonics);
     return basis;
   }
-  // About the middle of the first half the rotation is told apart from the phase.
+  // Around the middle of the first half, rotation and phase are independent.
   double centred(Index n) const { return double(n) - 0.5 * double(half_); }
 
   Eigen::MatrixXd points_;  // points x rows

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-// That of the slowest pole that is not at rest, in which motions are integrated until their own is known.
+// The period of the slowest moving pole, the unit of integration until the period of the motion is known.
 double slowest_period(const ContactDynamics& dynamics) {
   double slowest = 0.0;
   for (const bool rings : {true, false}) {
@@ -215,7 +215,7 @@ class CycleSearch {
 
   End end_of_flow() const { return ended_ == FlowStatus::grows ? End::grows : End::lost; }
 
-  // What the motion does from here on.
+  // Continuation of the motion.
   End watched() {
     constexpr double resting = 1e-7, near = 0.02;
     if (cancelled()) return End::goes_on;

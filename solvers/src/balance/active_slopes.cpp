@@ -104,8 +104,8 @@ std::vector<ActiveSlopes::ContactForces> ActiveSlopes::forces_of(int contact, co
   return forces;
 }
 
-// K is invariant under shifts by the shift period. The column of a point is that of the point modulo the
-// period, with the samples of each contact shifted by the remaining points.
+// K is invariant under shifts by the shift period. The column of a point equals the column of the point
+// modulo the period, with the samples of each contact shifted by the remaining points.
 void ActiveSlopes::fill(int points, int period, const Eigen::MatrixXd& columns, const Eigen::MatrixXd& rates,
                         Eigen::MatrixXd& matrix) const {
   std::vector<int> point(samples_.size()), start(samples_.size());

@@ -13,12 +13,12 @@
 namespace wavebalance::solvers {
 namespace {
 
-// epsilon over the stiffness of the contact, which is the inverse of contact_compliance(). Results with 10 to
-// 30 differ by less than the discretisation error, and 30 takes the fewest Newton iterations with some sixty
-// functions. Many functions resolve briefer forces, to which the contact is stiffer. A larger epsilon then
-// lets Newton's method converge over longer steps of a curve, ten times as long with 1023 functions.
+// epsilon over the stiffness of the contact, which is the inverse of contact_compliance(). Results with 10
+// to 30 differ by less than the discretisation error, and 30 needs the fewest Newton iterations with some
+// sixty functions. Many functions resolve briefer forces, to which the contact is stiffer. A larger epsilon
+// then lets Newton's method converge over longer steps of a curve, ten times as long with 1023 functions.
 constexpr double relative_epsilon = 30.0;
-// The automatic choice takes the force form where a law is more than this many times as stiff as its contact.
+// The automatic choice is the force form if a law is more than this many times as stiff as its contact.
 constexpr double stiff = 1e4;
 
 // The slope of a law at the penetration that the linear response causes through a spring as flexible as
@@ -36,8 +36,8 @@ Eigen::VectorXd free_of(const CondensedProblem& problem, int contact) {
   return problem.linear_response().segment(contact * problem.points(), problem.points());
 }
 
-// Friction is exact where the springs are those that the structure itself has there at high frequencies, with
-// its masses held: K - E P / epsilon then decays with the frequency. Tangents of one contact take their mean.
+// Friction is exact if the springs equal the stiffness of the structure there at high frequencies, with its
+// masses held: K - E P / epsilon then decays with the frequency. Tangents of one contact use their mean.
 void set_flexibility_of_friction(const CondensedProblem& problem, const ContactLaws& laws,
                                  Eigen::VectorXd& flexibility) {
   const Eigen::VectorXd held = compliance_beside_masses(problem.structure());

@@ -34,7 +34,7 @@ std::optional<LinearStructure> held_at_rest(const LinearStructure& structure, do
 
 namespace {
 
-// Modes are exact to rounding beside a resonance, where an LU of the dynamic stiffness loses as many digits
+// Modes are exact to rounding near a resonance, where an LU of the dynamic stiffness loses as many digits
 // as its condition has.
 Condensation condensation_of(const LinearStructure& structure) {
   constexpr int largest_dense = 200;

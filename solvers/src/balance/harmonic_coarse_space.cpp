@@ -47,7 +47,7 @@ class Directions {
   Eigen::Index count_ = 0;
 };
 
-// Adds directions, each time that of the harmonic with the largest remainder, until there are enough.
+// Adds directions, each time of the harmonic with the largest remainder, until there are enough.
 void grow(std::vector<Directions>& all, const CoarseSize& wanted) {
   std::priority_queue<std::pair<double, int>> open;  // the remainder of D K, and minus the harmonic
   const auto add = [&](int n) {

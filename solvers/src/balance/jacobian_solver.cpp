@@ -19,7 +19,7 @@ constexpr int most_failures = 3;
 // The largest LU, also as a fallback of GMRES.
 constexpr Eigen::Index largest_dense = 4096;
 
-// Up to this many coefficients an LU of them bounds the time of laws with memory, where GMRES may take many
+// Up to this many coefficients an LU of them bounds the time of laws with memory, where GMRES may need many
 // iterations or fail.
 constexpr Eigen::Index few_functions = 1000;
 

@@ -36,7 +36,8 @@ CoarseSize coarse_size(int contacts, const PeriodSlopes& slopes, double frequenc
 
 }  // namespace
 
-// Operations of a preconditioner over those of an iteration, whose products with K wait for memory.
+// Operations of a preconditioner over the operations of an iteration, whose products with K wait for
+// memory.
 double KrylovBlock::iterations_of_renewal(const ContactOperator& contact) const {
   constexpr double of_kernel = 24.0, of_samples = 400.0;
   const CondensedProblem& problem = contact.problem();
@@ -48,9 +49,9 @@ double KrylovBlock::iterations_of_renewal(const ContactOperator& contact) const 
 }
 
 bool KrylovBlock::may_be_kept(const ContactOperator& contact) const {
-  constexpr int many_contacts = 50;  // fewer take little for a new one
+  constexpr int many_contacts = 50;  // for fewer a new one is cheap
   if (contact.problem().contacts() <= many_contacts) return false;
-  constexpr double least_worth = 4.0, share = 0.5;  // of a renewal, that more iterations may take
+  constexpr double least_worth = 4.0, share = 0.5;  // of a renewal, allowed for more iterations
   constexpr double most = 2.0;                      // by which slopes may have grown or fallen
   const double slopes = active_->scale().norm();
   if (!(slopes <= most * made_slopes_) || !(most * slopes >= made_slopes_)) return false;
@@ -81,8 +82,8 @@ bool KrylovBlock::renew() {
   return made_;
 }
 
-// To choose the directions of many contacts takes as long as to solve with them. They are chosen anew at each
-// frequency, however near, since the sign of the preconditioner's determinant is taken for that of J.
+// Choosing the directions of many contacts costs as much as solving with them. They are chosen again at
+// each frequency, because the sign of the preconditioner's determinant is used as the sign of det J.
 void KrylovBlock::set_coarse(ContactOperator& contact, const PeriodSlopes& slopes) {
   const double frequency = contact.problem().frequency();
   const CoarseSize wanted = coarse_size(contact.problem().contacts(), slopes, frequency);
@@ -122,7 +123,7 @@ Eigen::VectorXd KrylovBlock::border_row() {
   return row;
 }
 
-// Of the state before all stays but the last row, which holds exactly: a change of rank one of its LU.
+// Only the last row of the previous state is replaced: a rank-one change of its LU.
 bool KrylovBlock::keep() {
   kept_ = true;
   if (!border_.exists()) return true;
@@ -174,7 +175,8 @@ void KrylovBlock::multiply(ContactOperator& contact, const Unknown& unknown, Eig
 }
 
 // P contains the last row of the bordered system exactly, so that after P^-1 (r, s) only the others have a
-// residual. At a fold of a curve r - b y vanishes for the tangent, whose size is then that of the terms.
+// residual. At a fold of a curve r - b y vanishes for the tangent, whose size is then the size of the
+// terms.
 double KrylovBlock::size_of_terms(double right, const Eigen::VectorXd& z) const {
   return border_.exists() ? std::max(right, z.norm()) : right;
 }
@@ -208,8 +210,8 @@ KrylovBlock::Outcome KrylovBlock::solve_active(ContactOperator& contact, const E
   return outcome;
 }
 
-// B x = B (r - K S z) differs from z by the residual. Where B takes samples x = z is used there, because K D
-// would magnify the residual.
+// B x = B (r - K S z) differs from z by the residual. If B selects samples, x = z is used there, because K
+// D would magnify the residual.
 void KrylovBlock::complete(ContactOperator& contact, const Eigen::VectorXd& r, double reduction,
                            const Eigen::VectorXd& z, Eigen::VectorXd& x, Outcome& outcome) {
   active_->write(z, weighted_);

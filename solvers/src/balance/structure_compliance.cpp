@@ -72,7 +72,7 @@ void StructureCompliance::set_factors(double frequency) {
     if (of_stiffness->size() > 0) of_stiffness->segment(1, damped) *= std::complex<double>(1.0, loss_factor_);
 }
 
-// Of G and K_s beyond what the matrices have of them.
+// Parts of G and K_s that the matrices do not contain.
 void StructureCompliance::set_turning_factors(double frequency) {
   const int solved = pair_.solved_size();
   const double speed = speed_by_frequency_ * frequency, beyond = speed - base_speed_;

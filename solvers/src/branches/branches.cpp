@@ -86,7 +86,7 @@ class Branches {
     return problem;
   }
 
-  // What does not vary along the curves keeps its value.
+  // Other parameters keep their values along the curves.
   void hold(CondensedProblem& problem, const SpecialPoint& at) const {
     const bool scaled = main_->parameter == SweepParameter::load_scale;
     problem.set_load_scale(scaled ? at.load_scale : main_->points.front().load_scale);
@@ -180,9 +180,9 @@ class Branches {
     add_ends(parent, problem, branch);
   }
 
-  // Beside a period doubling a multiplier of the doubled motion is near 1. Where it passes 1 there, the
-  // discretisation has the doubling of the curve and that of the multiplier at slightly different places:
-  // neither a fold nor a branch point, and the count is that of the points beyond.
+  // Near a period doubling a multiplier of the doubled motion is near 1. If it passes 1 there, the
+  // discretisation has the doubling of the curve and of the multiplier at slightly different places. This
+  // is neither a fold nor a branch point, and the count of the points beyond applies.
   static void leave_out_parent(int contacts, Branch& branch) {
     constexpr double beside = 0.03, beside_unlocated = 0.06;
     const auto content = [&](const auto& point) { return alternating_share(point.unknown, contacts); };
@@ -203,7 +203,7 @@ class Branches {
   }
 
   // The bifurcation and grazing points at which a branch begins and ends are points of it, with the counts
-  // beside them.
+  // of their neighbours.
   void add_ends(const Parent& parent, CondensedProblem& problem, Branch& branch) {
     ContactSystem system(problem, laws_, parent.curve->series_flexibility);
     TrialEvaluator evaluator(problem.pair().trial(), options_.sweep.output_points * branch.periods, 0);

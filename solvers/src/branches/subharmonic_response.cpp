@@ -34,7 +34,7 @@ class Search {
     const AttractorMotion motion = settle(problem_, laws_, how);
     attractor = motion.attractor_periods;
     cancelled = motion.cancelled;
-    // What it does not converge to after this number of periods may be any motion.
+    // After this number of periods without convergence the motion may be anything.
     if (attractor != wanted_ || cancelled) return std::nullopt;
     const double start = motion.start - problem_.pair().first_sample();
     return near(resample(motion.last.displacement, problem_.points(), start),

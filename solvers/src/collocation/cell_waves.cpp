@@ -13,8 +13,8 @@ using Complex = std::complex<double>;
 
 namespace {
 
-// The polynomials of a far pole grow with their degree by exp(q^2 / (2 |z|)), but are of the size 1 / |z|, so
-// that what their rounding errors add to the motion is that of the others.
+// The polynomials of a far pole grow with their degree by exp(q^2 / (2 |z|)), but are of the size 1 / |z|,
+// so that their rounding errors in the motion are as small as the others.
 bool is_far(Complex z, Index count) {
   const double size = std::abs(z);
   return follows_upwards(z, count) ||

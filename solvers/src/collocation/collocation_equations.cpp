@@ -56,7 +56,7 @@ EndRow end_row(const LegendreNodes& nodes, bool at_end) {
   return {nodes.coefficients.transpose() * value.matrix(), nodes.coefficients.transpose() * slope.matrix()};
 }
 
-// By its law, which is that of the panel less the spring that holds the structure.
+// By its law: the law of the panel less the holding spring.
 double force_at_release(const Evaluation& now, const LegendreNodes& nodes, const Release& release,
                         double displacement) {
   return end_row(nodes, release.at_end)

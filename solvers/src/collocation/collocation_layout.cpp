@@ -199,7 +199,7 @@ void append_exact(Layout& layout, int contact, const LawSegments& law, std::vect
 
 constexpr double together = 1e-12;  // periods: instants nearer to each other are one
 
-// Those of different contacts that pass together are one boundary.
+// Simultaneous passages of different contacts are one boundary.
 std::vector<double> boundaries_among(std::vector<double> times) {
   for (double& time : times) time -= std::floor(time);
   std::sort(times.begin(), times.end());

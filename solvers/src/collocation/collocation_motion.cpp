@@ -163,7 +163,7 @@ class Search {
     return true;
   }
 
-  // Of many contacts that act together one panel for a phase at first takes far fewer unknowns than one for
+  // With many active contacts one initial panel per contact interval needs far fewer unknowns than one for
   // each part between their passages.
   Layout layout_of(const ContactMotion& motion) {
     Layout layout =
@@ -201,8 +201,8 @@ class Search {
   }
 
   // Layers of fast modes and laws that are not analytic where contact begins have errors that their
-  // coefficients do not show; beside a fold estimates are too large. What the estimate before was wrong by,
-  // measured by the motion after it, multiplies it. Kinks within panels hide, too.
+  // coefficients do not show; near a fold estimates are too large. The error of the previous estimate,
+  // measured by the next motion, corrects it. Kinks within panels are hidden, too.
   void refine(Found& found, ExactSolution& result) {
     constexpr double part = 0.05, rounding = 1e-14, safety = 3.0, least = 0.1, of_kinks = 10.0;
     bool tight = false, compared = false, by_panels = false;
@@ -221,7 +221,7 @@ class Search {
       if (finest && (tight || error.residual <= part * options_.tolerance)) return;
       Found better = solved(std::move(finer), std::max(rounding, part * options_.tolerance), result);
       if (!better.agrees()) {
-        nodes_ = nodes;  // those of the motion that stays
+        nodes_ = nodes;  // of the remaining motion
         if (finest || by_panels) return;
         by_panels = true;  // long panels of many nodes may lose their digits
         continue;
@@ -263,7 +263,7 @@ class Search {
   Eigen::VectorXd times_;  // l / N
   ContactMotion free_;     // without contact, there
   LegendreNodes nodes_{options_.nodes};
-  Observer observer_;  // that of the options, which is not called after it has returned false
+  Observer observer_;  // the observer of the options, which is not called after it has returned false
   bool cancelled_ = false, exhausted_ = false;
   double least_ = 0.0, shortest_ = 1.0;  // intervals between passages of the next start, and of the last one
 };

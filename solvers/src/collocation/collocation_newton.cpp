@@ -24,8 +24,8 @@ double rms_at_nodes(const Eigen::VectorXd& displacements, Index nodes) {
   return nodes > 0 ? displacements.head(nodes).norm() / std::sqrt(double(nodes)) : 0.0;
 }
 
-// What the unknowns that answer a residual do to displacements at nodes and passages, towards their
-// obstacles' other side.
+// Effect of the Newton correction on displacements at nodes and passages, towards the other side of their
+// obstacles.
 Eigen::VectorXd displacements_of(const CollocationIterate& at, const Evaluation& now,
                                  const LegendreNodes& nodes, const Influence& influence,
                                  const Eigen::VectorXd& unknowns) {
@@ -93,9 +93,9 @@ void set_errors(CollocationResult& result, const Evaluation& now, const Legendre
   result.resolution_error = rms_at_nodes(last + displacements_of(at, now, nodes, influence, answered), n);
 }
 
-// A residual is that of the motion by the forces, which takes far less than their influence. This is computed
-// where a step is taken, unless the matrix of the step before has proved good; of a motion that a step has
-// led to, that before the step gives its errors.
+// A residual needs only the motion by the forces, far less work than their influence. The influence is
+// computed for a step unless the previous matrix is still good. The influence before a step gives the
+// errors of its result.
 CollocationResult solve_phases(const CollocationModel& model, CollocationIterate start,
                                const LegendreNodes& nodes, const NewtonLimits& limits, KnownPeriod known) {
   CollocationResult result;

@@ -16,7 +16,7 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 // Cells that follow each other, with their panels and marks by their numbers in the grid of the period, and
-// as a grid of its own, whose last cell is the rest of the period.
+// as a separate grid, whose last cell is the rest of the period.
 struct Window {
   CellGrid grid;
   std::vector<std::size_t> panels, marks;
@@ -31,7 +31,7 @@ struct Window {
   }
 };
 
-// Of each boundary, whether nothing but the states of the poles lasts over it: no panel, no passage at which
+// For each boundary, whether only the states of the poles continue over it: no panel, no passage at which
 // the force of a panel vanishes that ends there, and none at which such a panel acts at once.
 std::vector<bool> divisible(const Evaluation& now, const PoleResponse& response) {
   const CellGrid& grid = now.grid;
@@ -99,7 +99,7 @@ std::vector<Window> windows_of(const CellGrid& grid, const std::vector<bool>& di
   return windows;
 }
 
-// What of an evaluation belongs to a window with these unknowns.
+// Part of an evaluation that belongs to a window with these unknowns.
 Evaluation part_of(const Evaluation& now, const Window& window, const std::vector<Index>& unknowns) {
   const Index own_marks = Index(window.marks.size());
   const std::vector<Index> nodes(unknowns.begin(), unknowns.end() - own_marks);
@@ -149,7 +149,7 @@ bool is_alike(const CellGrid& a, const CellGrid& b) {
   });
 }
 
-// What a window does: its unknowns and what it leaves.
+// Result of a window: its unknowns and its final states.
 struct Passed {
   std::vector<Index> unknowns;
   Eigen::MatrixXd by_start;    // unknowns x s, by the states at the begin of the period

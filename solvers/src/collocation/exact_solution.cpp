@@ -83,7 +83,7 @@ Eigen::MatrixXd ExactSolution::velocity(const Eigen::VectorXd& times) const {
 Eigen::MatrixXd ExactSolution::force(const Eigen::VectorXd& times) const {
   Eigen::MatrixXd forces = detail::force_at(parts->iterate.forces, parts->model, times);
   if (parts->model.holding == 0.0) return forces;
-  // What holds a structure that is free to move is taken off; of open contacts rounding would be left.
+  // Holding springs of a free structure are subtracted; at open contacts rounding would remain.
   forces += parts->model.holding * displacement(times);
   for (Index c = 0; c < forces.rows(); ++c)
     for (Index k = 0; k < times.size(); ++k)

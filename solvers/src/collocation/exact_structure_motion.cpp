@@ -107,9 +107,9 @@ class Harmonics {
 
 }  // namespace
 
-// Panel by panel, since exp(-2 pi i n t) with t = begin + (x + 1) length / 2 has as its integrals over
-// Legendre's polynomials those of ExponentialIntegrals at x = 1, with the other sign of the exponent and x
-// from the end on.
+// Panel by panel, since exp(-2 pi i n t) with t = begin + (x + 1) length / 2 has the integrals over
+// Legendre polynomials of ExponentialIntegrals at x = 1, with the other sign of the exponent and x from the
+// end on.
 Eigen::MatrixXcd ExactSolution::force_harmonics(int count) const {
   if (parts == nullptr) throw std::invalid_argument("ExactSolution::force_harmonics: there is no motion");
   detail::require_at_least("ExactSolution::force_harmonics", "count", count, 1);
@@ -119,7 +119,7 @@ Eigen::MatrixXcd ExactSolution::force_harmonics(int count) const {
   detail::ExponentialIntegrals<std::complex<double>> integrals(Eigen::VectorXd::Ones(1), coefficients.rows());
   const auto& panels = forces.panels();
   for (std::size_t p = 0, next = 0; p < panels.size(); p = next) {
-    const detail::Panel& panel = panels[p];  // and those of other contacts over the same time
+    const detail::Panel& panel = panels[p];  // and panels of other contacts over the same time
     while (next < panels.size() && panels[next].begin == panel.begin && panels[next].end == panel.end) ++next;
     const Eigen::MatrixXd force = coefficients.middleCols(Eigen::Index(p), Eigen::Index(next - p));
     for (int n = 0; n < count; ++n) {

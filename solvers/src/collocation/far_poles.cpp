@@ -130,7 +130,7 @@ Eigen::MatrixXd FarPoles::polynomials(const Eigen::VectorXcd& weights) const {
   return result;
 }
 
-// The coefficients of p' are (2 k + 1) times the sums of those of p above k that are odd numbers apart.
+// The coefficients of p' are (2 k + 1) times the sums of coefficients of p at k + 1, k + 3, ...
 FarPoles::Series FarPoles::solve(const Eigen::MatrixXd& real, const Eigen::MatrixXd& imag) const {
   const Index poles = real.rows(), count = real.cols();
   Series result{Eigen::MatrixXd(poles, count), Eigen::MatrixXd(poles, count), Eigen::VectorXcd(poles)};

@@ -32,8 +32,8 @@ std::vector<PoleBlock> blocks_of(const Eigen::MatrixXd& free) {
   return blocks;
 }
 
-// det(I + V (mu - D)^-1 U) on the unit circle, mu = exp(i nu). What has decayed within the period acts by
-// 1 / mu alone.
+// det(I + V (mu - D)^-1 U) on the unit circle, mu = exp(i nu). Parts that decay within the period act only
+// by 1 / mu.
 class UnknownsDeterminant {
  public:
   explicit UnknownsDeterminant(const PeriodMap& map) {

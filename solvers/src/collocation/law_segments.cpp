@@ -57,7 +57,7 @@ bool LawSegments::vanishes(int piece, double displacement, double velocity) cons
   return may_vanish() && exerts(piece) && is_none(law_.at(inside(piece, displacement), velocity));
 }
 
-// By a force that is linear in the velocity, as those of the catalogue are.
+// By a force that is linear in the velocity, as in the catalogue.
 ForceSlopes LawSegments::continued(double displacement, double velocity) const {
   const ForceSlopes rest = law_.at(displacement, 0.0), back = law_.at(displacement, -velocity);
   return {2.0 * rest.force - back.force, 2.0 * rest.tangent - back.tangent,

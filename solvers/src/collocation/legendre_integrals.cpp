@@ -34,8 +34,8 @@ struct Ranges {
 bool is_near_real_axis(Complex z) { return std::abs(z.real()) > 0.3 * std::abs(z.imag()); }
 
 // Near the negative real axis a solution grows by exp(k^2 / (2 |z|)) upwards from k = 0, near the imaginary
-// axis none does below |z|. Beyond |z| the elimination from above has pivots of at least k + 1. What the zero
-// beyond the last one is wrong by falls to rounding as the solution that grows does, downwards.
+// axis none does below |z|. Beyond |z| the elimination from above has pivots of at least k + 1. The error
+// of the zero beyond the last one decays downwards to rounding, like the growing solution.
 Ranges ranges_of(Complex z, Index count) {
   constexpr Index padding = 16;
   constexpr double digits = 40.0;  // e-folds
@@ -157,7 +157,7 @@ Index exponential_series(Complex z, Eigen::Ref<Eigen::VectorXd> real, Eigen::Ref
 // The recurrence is stable at and below the diagonal; above it the columns follow by symmetry.
 Eigen::MatrixXd convolution(const Eigen::VectorXd& kernel, Index count) {
   const Index last = kernel.size(), rows = last + count;
-  // Entry k + 1 of these belongs to P_k; those beside the ends are zero.
+  // Entry k + 1 of these belongs to P_k; the entries next to the ends are zero.
   Eigen::VectorXd over(rows + 2), scaled = Eigen::VectorXd::Zero(rows + 2);
   for (Index k = -1; k <= rows; ++k) over[k + 1] = 1.0 / double(2 * k + 1);
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(rows, count);

@@ -117,7 +117,7 @@ ContactMotion PoleResponse::free_flight(const Eigen::VectorXcd& state, const Eig
 }
 
 // The same within a cell with forces, of which these are the Legendre coefficients, at points in [-1, 1].
-// What the slow poles make is a polynomial. Velocities only where they are asked for.
+// The response of slow poles is a polynomial. Velocities only if requested.
 ContactMotion PoleResponse::forced_flight(const PeriodCells& period, std::size_t number,
                                           const Eigen::VectorXcd& state, const Eigen::MatrixXd& coefficients,
                                           const Eigen::VectorXd& points, bool velocity,
@@ -183,7 +183,7 @@ FarPoles::Series PoleResponse::far_motion(const CellGrid& grid, const Cell& cell
   return cell.waves->far_poles().solve(left.real() * forces.transpose(), left.imag() * forces.transpose());
 }
 
-// With many contacts all poles one by one take far less than a series for each pair of contacts.
+// With many contacts all poles one by one need far less than a series for each pair of contacts.
 ContactMotion PoleResponse::by_poles(const CellGrid& grid, const Cell& cell, const Eigen::VectorXcd& state,
                                      const Eigen::MatrixXd& forces, const Eigen::VectorXd& points,
                                      bool velocity) const {
@@ -207,8 +207,8 @@ ContactMotion PoleResponse::by_poles(const CellGrid& grid, const Cell& cell, con
   return result;
 }
 
-// What some poles make there, one by one: `states` gives those of one at the points, by its number in `poles`
-// and the Legendre coefficients of the force on it.
+// Responses of some poles there, one by one: `states` gives the states of one at the points, by its number
+// in `poles` and the Legendre coefficients of the force on it.
 template <class States>
 void PoleResponse::add_poles(const CellGrid& grid, const Cell& cell, const std::vector<Index>& poles,
                              const Eigen::MatrixXd& forces, const States& states,

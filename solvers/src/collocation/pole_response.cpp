@@ -56,7 +56,7 @@ Eigen::VectorXcd PoleResponse::weights(int displaced, int forced) const {
   return shapes_.row(displaced).cwiseProduct(left_.row(forced)).transpose();
 }
 
-// Of the cell that begins at a time of the panel.
+// For the cell that begins at a time of the panel.
 PoleResponse::Part PoleResponse::part_of(const CellGrid& grid, std::size_t number, double begin,
                                          double length, bool last, const LegendreNodes& nodes) {
   const Panel& panel = grid.panels[number];
@@ -202,7 +202,7 @@ std::vector<PoleResponse::Sources> PoleResponse::sources_of(const PeriodCells& p
   return sources;
 }
 
-// What one panel does to the nodes of another in a cell of both.
+// Effect of one panel on the nodes of another in a common cell.
 void PoleResponse::add_between(const PeriodCells& period, const Cell& cell, const WavesAtNodes& waves,
                                const Part& from, const Part& to, bool velocity, Eigen::MatrixXd& all) const {
   const CellGrid& grid = period.grid;
@@ -264,8 +264,8 @@ void PoleResponse::add_by_poles(const PeriodCells& period, const Cell& cell, con
   }
 }
 
-// What acts within the cell of an equation: up to each node, and at once. Of many pairs of panels each pole
-// once takes far less than a series for each pair.
+// Contributions within the cell of an equation: up to each node, and immediate. For many pairs of panels,
+// each pole once needs far less than a series for each pair.
 void PoleResponse::add_within_cells(const PeriodCells& period, bool velocity, Eigen::MatrixXd& all) const {
   constexpr std::size_t few_pairs = 16;
   const auto& [grid, nodes, cells, waves] = period;
@@ -294,8 +294,8 @@ void PoleResponse::add_within_cells(const PeriodCells& period, bool velocity, Ei
   }
 }
 
-// What each source leaves at the end of the period gives the periodic states at its begin, with which the
-// states go around once.
+// The states of each source at the end of the period give the periodic states at its beginning, from which
+// the states are propagated once.
 Influence PoleResponse::influence(const PeriodCells& period, bool velocity) const {
   const auto& grid = period.grid;
   const auto& cells = period.cells;

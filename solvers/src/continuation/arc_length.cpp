@@ -112,8 +112,8 @@ void detail::ResponseEquations::set_scales(const Eigen::VectorXd& displacement) 
   if (!system.laws().act_over_period()) scales = scales.cwiseMin(options.displacement_scale);
 }
 
-// Long steps of few samples are halved soon: grazing events are then followed. Those of many samples contain
-// many events and need a correction for every few of them.
+// Long steps of few samples are halved soon: grazing events are then followed. Steps with many samples
+// contain many events and need a correction for every few of them.
 int detail::ResponseEquations::max_corrections(bool in_piece) const {
   if (in_piece) return options.max_corrections;
   return many_samples ? 2 * options.max_corrections : (options.max_corrections + 1) / 2;
@@ -189,10 +189,9 @@ bool ArcLength::is_beyond_corner(const CurvePoint& candidate) const {
   return length <= longest_chord * step_ && inner(point_, way) > 0.0 && inner(candidate, way) > 0.0;
 }
 
-// A point of the curve from a corner on that lies straight along its tangent, and not straight back, where
-// the displacement turns, too: with the orientation of point_, or else `other`, ahead of it. A tangent is
-// that of a piece which begins at the corner where a point along it lies in this piece, which a few
-// substitutions find.
+// A point of the curve after a corner along its tangent, and not backwards, where the displacement also
+// turns: with the orientation of point_, or else `other`, ahead of it. A tangent belongs to a segment that
+// begins at the corner if a point along it is in this segment; a few substitutions find it.
 std::optional<CurvePoint> ArcLength::point_from_corner(double length, bool backwards,
                                                        std::optional<CurvePoint>& other) {
   constexpr int substitutions = 6;

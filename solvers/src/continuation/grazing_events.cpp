@@ -122,7 +122,7 @@ bool ArcLength::tangent_through(int sample, bool inwards, CurvePoint& event) {
   return true;
 }
 
-// The samples `together` are at kinks and take the slope of the side given by `beyond`. Finds the tangent
+// The samples `together` are at kinks and have the slope of the side given by `beyond`. Finds the tangent
 // along which each of them moves to that side. False if there is none.
 bool ArcLength::grazing_tangent(int sample, const std::vector<Crossing>& together,
                                 const std::vector<bool>& beyond, CurvePoint& event) {

@@ -22,8 +22,8 @@ class ResidualParameter final : public CurveParameter {
   Eigen::VectorXd start_residual_;
 };
 
-// The operations of a point grow at least in proportion to the samples. Those of very many are limited to a
-// few seconds.
+// The operations of a point grow at least in proportion to the samples. For very many samples they are
+// limited to a few seconds.
 double limit_of_operations(ContactSystem& system, const ResidualHomotopyOptions& options) {
   constexpr double few_samples = 1536.0, most = 2.5;
   return options.max_operations * std::clamp(system.problem().samples() / few_samples, 1.0, most);

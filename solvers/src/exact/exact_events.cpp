@@ -48,7 +48,7 @@ void append_real(std::vector<PlacedEvent>& found, const Step& step, const Eigen:
   found.push_back({type, at, at->value, multiplier});
 }
 
-// Multipliers that pass the circle at a place, and those outside beside them.
+// Multipliers that pass the circle at a place, and the numbers outside it on both sides.
 struct Passing {
   int beside = 0, near = 0;
 };
@@ -128,7 +128,7 @@ bool is_explained(const std::vector<PlacedEvent>& found, const Eigen::VectorXcd&
   return count < 0 || last < 0 || count == last;
 }
 
-// Of the multipliers from a place on the unit circle.
+// Distance of the multipliers from a place on the unit circle.
 double distance_from(const Eigen::VectorXcd& multipliers, double place) {
   return (multipliers.array() - place).abs().minCoeff();
 }

@@ -57,8 +57,8 @@ Index Held::number(Index forces, Index passages) const {
   return kind == Kind::passage ? forces + index : index;
 }
 
-// A matrix serves as long as the residual falls by it as Newton's method would have it fall, since it takes
-// far longer than a residual. The last one is that of the solution.
+// A matrix serves as long as the residual falls by it as Newton's method would have it fall, because it
+// needs far longer than a residual. The last one belongs to the solution.
 HeldSolution solve_held(const ProblemFamily& family, double length, double value, CollocationIterate start,
                         const LegendreNodes& nodes, const Held& held, const NewtonLimits& limits) {
   constexpr double enough = 1e-2;  // of a step, to go on with its matrix
@@ -68,7 +68,7 @@ HeldSolution solve_held(const ProblemFamily& family, double length, double value
   double before = std::numeric_limits<double>::infinity();
   Influence influence;
   std::optional<HeldMatrix> matrix;
-  bool own = false;  // whether the last step was by a matrix of its own iterate
+  bool own = false;  // whether the last step used the matrix of its iterate
   const auto goes_on = [&] {
     return solvers::goes_on(limits.observer,
                             {"exact curve", result.newton.iterations, result.newton.residual});
@@ -89,7 +89,7 @@ HeldSolution solve_held(const ProblemFamily& family, double length, double value
       if (!goes_on()) return HeldSolution{};
       const bool by_parameter = result.newton.converged || held.kind != Held::Kind::parameter;
       influence = model.response.influence(*now.period, model.velocity);
-      if (!goes_on()) return HeldSolution{};  // each of the three may take seconds
+      if (!goes_on()) return HeldSolution{};  // each of the three may need seconds
       const Eigen::VectorXd slope =
           by_parameter ? slope_by_parameter(family, length, result.value, at, now, nodes) : Eigen::VectorXd();
       Eigen::MatrixXd slopes = jacobian(now, impulses_of(at.layout, now, nodes), nodes, influence);

@@ -61,7 +61,7 @@ class ImpactCurvePath : public CurvePath {
   std::unique_ptr<ImpactPath> now;
 };
 
-// What differs between both halves of the period.
+// Difference between both halves of the period.
 Eigen::VectorXd difference_of_halves(const ImpactPoint& at) {
   const Index half = at.displacement.size() / 4;
   Eigen::VectorXd difference(2 * half);
@@ -144,8 +144,8 @@ class ImpactTracer : public CurveTracer {
     return contacts_of(a.motion.impacts) == contacts_of(b.motion.impacts);
   }
 
-  // Whether motions of an even number of periods meet those of half as many, behind which they are the same a
-  // half later.
+  // Whether motions of an even number of periods meet motions of half as many; beyond, they are shifted
+  // copies.
   bool meets_half(const ImpactPoint& from, const ImpactPoint& to) const {
     return path_.scales.periods % 2 == 0 && from.displacement.size() % 4 == 0 &&
            difference_of_halves(from).dot(difference_of_halves(to)) < 0.0;
@@ -176,7 +176,7 @@ std::vector<Impact> twice(const std::vector<Impact>& impacts) {
   return all;
 }
 
-// The periods of the load that a motion at a value takes; 0 where it is not one of the family there.
+// The forcing periods of a motion at a value; 0 if it does not belong to the family there.
 int periods_of(const ProblemFamily& family, const ExactSolution& motion, double value) {
   constexpr double rounding = 1e-9;
   const double ratio = family.at(value).frequency / motion.frequency(), periods = std::round(ratio);

@@ -79,7 +79,7 @@ struct Contact {
   double time = 0.0;
 };
 
-// The number of the impact before which a touch comes, with its instant counted from that of the first.
+// The number of the impact before which a touch comes, with its instant relative to the first.
 std::pair<Index, double> place_of_touch(const Eigen::VectorXd& unknowns, double time) {
   const Index count = unknowns.size() / 2;
   if (count == 0) return {0, time};
@@ -89,8 +89,8 @@ std::pair<Index, double> place_of_touch(const Eigen::VectorXd& unknowns, double 
   return {place, time};
 }
 
-// The contacts that touch their obstacles without an impulse in a motion, but for its impacts and one known
-// touch: equal contacts graze together. Those of highest points that reach the gap.
+// The contacts that touch their obstacles without an impulse, except impacts and one known touch: their
+// highest points reach the gap. Equal contacts graze together.
 std::vector<Contact> touches_beside(const ImpactSolution& motion, const Contact& known) {
   constexpr int instants = 1024;
   constexpr double same = 1e-4, rounding = 1e-8;  // periods, of the motion

@@ -11,8 +11,8 @@ namespace wavebalance::solvers::detail {
 namespace {
 
 // Periods. The length of a new interval grows like the root of the distance from grazing, so that intervals
-// of this length lie very near to it. That of a stiff contact is soon shorter than without its force: it is
-// sought with a quarter of the length, and so on.
+// of this length are very near to it. The interval of a stiff contact is soon shorter than without its
+// force: a quarter of the length is tried, and so on.
 constexpr double short_interval = 1e-2, shortest_interval = 1e-5, vanishing_interval = 6e-3;
 
 // The phase of a contact at a time, if it has one.
@@ -106,8 +106,8 @@ bool has_about_the_length(const PathPoint& found, const Interval& interval, doub
 }
 
 // Points with the interval from one of them towards grazing, each with half of its length, until slope and
-// stability are those of grazing. The parameter differs by the square of the length, so that what is not
-// found then is one with grazing to ten digits. Where the contact is so stiff that rounding stops Newton's
+// stability are those of grazing. The parameter differs by the square of the length, so that if none is
+// found then, it equals grazing to ten digits. Where the contact is so stiff that rounding stops Newton's
 // method before, it is one to six; nothing where it stops earlier.
 std::optional<std::vector<PathPoint>> towards(const PathModel& model, const PathPoint& grazing,
                                               const WithInterval& from) {
@@ -134,7 +134,7 @@ std::optional<std::vector<PathPoint>> towards(const PathModel& model, const Path
   return points;
 }
 
-// The solution with the phases of its own motion, of which the end of the new interval is held.
+// The solution with the contact intervals of its motion; the end of the new interval is fixed.
 std::optional<WithInterval> with_new_interval(const PathModel& model, const PathPoint& beyond,
                                               double wanted) {
   CollocationIterate start = along_own_motion(beyond);
@@ -167,7 +167,7 @@ std::optional<PathPoint> grazing_without(const PathModel& model, const PathPoint
     point = model.solve(now, iterate, held, 1.0);
     if (!point) return std::nullopt;
     const double passed = passed_by(point->motion, grazing);
-    // That of two points which are nearly one is rounding.
+    // For two nearly identical points it is rounding.
     if (i == 0 || std::abs(now - before) > apart * now) slope = (passed - passed_before) / (now - before);
     if (!std::isfinite(slope)) return std::nullopt;
     const double step = -passed / slope;

@@ -13,7 +13,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-/// What is expected at another place of the curve.
+/// Prediction at another place of the curve.
 struct Expected {
   MapStart start;
   Eigen::VectorXd displacement;
@@ -102,7 +102,7 @@ class MapTracer : public CurveTracer {
     return {(last().displacement - before.displacement) / arc, (last().value - before.value) / arc};
   }
 
-  // Another beginning of the period, where contacts change what they do at that of the last point.
+  // Another beginning of the period, if contacts change their state at the beginning of the last point.
   void retry() {
     constexpr int most = 4;
     if (pass_corner()) return;
@@ -166,7 +166,7 @@ class MapTracer : public CurveTracer {
     return fits(*next, off, arc, cosine(last(), *next)) ? next : nullptr;
   }
 
-  // Of the angle between the way from one point to another and the direction there.
+  // Cosine of the angle between the secant from one point to another and the tangent there.
   double cosine(const MapPoint& from, const MapPoint& to) const {
     const double scale = path_.arc_scale(from) * std::sqrt(double(from.displacement.size()));
     Eigen::VectorXd way(from.displacement.size() + 1), direction(way.size());
@@ -217,7 +217,7 @@ class MapTracer : public CurveTracer {
       value = found->first;
       (found->second == a.pattern ? low : high) = middle;
     }
-    // So near to it rounding may decide: the motions that are told lie on either side.
+    // At this distance rounding may decide: the reported motions are on either side.
     const auto nearest = [&](double share, double away, bool before) {
       std::shared_ptr<const MapPoint> point;
       do {

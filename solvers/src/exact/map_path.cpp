@@ -148,8 +148,8 @@ std::optional<MapPath::Step> MapPath::part_of(const Eigen::VectorXd& step, const
   return std::nullopt;
 }
 
-// One period later, by which a slider finds the place at which it rests. Where that does not settle it may be
-// done a few times.
+// One period later, by which a slider finds the place at which it rests. If that does not converge it is
+// repeated a few times.
 std::optional<MapPath::Step> MapPath::passed(const MapStart& start, const Period& now, double tolerance,
                                              int& unsettled) const {
   constexpr double settling = 0.9, small = 1e-8;
@@ -163,8 +163,8 @@ std::optional<MapPath::Step> MapPath::passed(const MapStart& start, const Period
   return Step{std::move(there), std::move(*next), true};
 }
 
-// Newton's method with a plane held. Its matrix takes what each step tells about it as long as a step leaves
-// a third at most; a step by a matrix of its own that leads farther away is halved.
+// Newton's method on a fixed plane. Each step updates its matrix as long as a step leaves at most a third;
+// a step by a new matrix that increases the residual is halved.
 std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const Eigen::VectorXd& held,
                                                            std::optional<MapSlopes> slopes,
                                                            double tolerance) const {
@@ -173,7 +173,7 @@ std::optional<MapPath::Closed> MapPath::closed_as_it_rests(MapStart start, const
   if (!now || !now->returns) return std::nullopt;
   int unsettled = 0, i = 0;
   for (bool stalls = false; now->distance >= rounding && !stalls; ++i) {
-    // Where a slider is about to slip, steps to either side take more than these.
+    // Where a slider is about to slip, steps to either side need more than these.
     if (i == options().phases.max_iterations) break;
     const bool own = !slopes;
     if (own) slopes = slopes_at(start, tolerance);
@@ -240,8 +240,8 @@ std::optional<MapPath::Along> MapPath::along(const MapPoint& point, const Eigen:
                (ahead->change - behind->change) / (2.0 * part)};
 }
 
-// Beside grazing a change of the parameter alone may touch elsewhere than motions of the curve do, so that
-// how these come back tells the change by the parameter better.
+// Near grazing a change of only the parameter may touch elsewhere than motions of the curve, so their
+// residual shows the change by the parameter better.
 bool MapPath::set_direction(MapPoint& point, const Eigen::VectorXd& held) const {
   constexpr double apart = 1e-4, comes_back = 1e-3;  // arc length; of a step
   constexpr int most = 4;
@@ -291,7 +291,7 @@ std::shared_ptr<MapPoint> MapPath::point_of(Closed found, const Eigen::VectorXd&
 std::shared_ptr<MapPoint> MapPath::solved(const MapStart& start, const Eigen::VectorXd& held,
                                           const std::optional<MapSlopes>& slopes) const {
   constexpr double finest = 1e-12, coarser = 100.0, safety = 3.0;
-  constexpr double known = 1e-6;  // beside a grazing impact each tolerance leads elsewhere
+  constexpr double known = 1e-6;  // near a grazing impact each tolerance leads elsewhere
   for (;; tolerance_ /= coarser) {
     auto found = closed(start, held, slopes, tolerance_);
     if (!found) return nullptr;

@@ -24,13 +24,13 @@ struct Period {
   bool returns() const { return contacts == last_contacts; }
 };
 
-// Of a state, and of the length of a period that is an unknown.
+// Scale of a state, and of the length of an unknown period.
 struct PeriodStep {
   Eigen::VectorXd state;
   double length = 0.0;
 };
 
-// By which displacements across the motion are told, over states.
+// Displacements perpendicular to the motion, by states.
 Eigen::VectorXd across_motion(const Eigen::VectorXd& rate, const Eigen::VectorXd& weights) {
   const Eigen::VectorXd moved = weights.cwiseProduct(rate);
   return weights.cwiseProduct(moved) / std::max(moved.norm(), 1e-300);
@@ -184,9 +184,9 @@ Eigen::MatrixXd without_moving(const Eigen::MatrixXd& held, const Eigen::MatrixX
   return map - product(held.transpose(), own.solve(product(held, map)));
 }
 
-// Of perturbations across a motion without load, on a plane with the normal `across`, by the map of its
-// period: those along it come back as they are. The plane has the other columns of the reflection that turns
-// the normal into the first axis.
+// Map of perturbations perpendicular to a motion without load, on a plane with the normal `across`, from
+// the map of its period: perturbations along the motion return unchanged. The plane has the other columns
+// of the reflection that turns the normal into the first axis.
 Eigen::MatrixXd return_map(const Eigen::MatrixXd& map, const Eigen::VectorXd& rate,
                            const Eigen::VectorXd& across) {
   const Index n = map.rows();
@@ -214,8 +214,8 @@ std::vector<Index> free_states(const Eigen::MatrixXd& map) {
 }
 
 double panel_operations(Index states, int rows, Index perturbations) {
-  // What forces make of the poles at the points of a panel, the forces, and what they do to perturbations,
-  // where these are carried along, by products of large matrices.
+  // States of the poles at the points of a panel, forces, and, if included, their effect on perturbations,
+  // by products of large matrices.
   constexpr double least = 2e5, of_waves = 2e3, of_products = 0.2;
   const double forces = double(rows * panel_nodes), columns = std::max(1.0, double(perturbations)),
                products =

@@ -25,7 +25,7 @@ int coarsest_level(const detail::ContactPoles& poles, int panels) {
   return level;
 }
 
-// Of the motion without contact about its mean, or a gap.
+// Size of the linear response about its mean, or a gap.
 double moving_length(const ExactProblem& problem) {
   const Eigen::MatrixXcd& free = problem.linear_motion;
   if (free.size() == 0) return std::max(problem.laws.largest_gap(), 1e-300);
@@ -93,7 +93,7 @@ const detail::PanelShape& ContactFlow::Engine::shape(int level) {
   return *kept;
 }
 
-// The smallest real states of the poles that give the contacts this motion beside that without contact.
+// The smallest real states of the poles that give the contacts this motion relative to the linear response.
 Eigen::VectorXd ContactFlow::Engine::least_states(const Eigen::VectorXd& displacement,
                                                   const Eigen::VectorXd& velocity) const {
   const Index rows = poles_.rows();
@@ -188,7 +188,7 @@ void ContactFlow::Engine::take_samples(const Solved& panel, double end, int poin
   const Eigen::VectorXd points_here = Eigen::Map<const Eigen::VectorXd>(at.data(), Index(at.size()));
   const detail::PoleWaves waves(poles_, nodes_, panel.shape->half(), points_here);
   detail::Signals signals = motion(*panel.shape).at(waves, panel.values);
-  // Less the forces of the holding springs that of an open contact would be rounding.
+  // Without the holding springs' forces, the force of an open contact would be rounding.
   for (std::size_t c = 0; c < machines_.size(); ++c)
     if (machines_[c].law->kind(now_.state[c]) == ContactState::open)
       signals[force_kind].middleRows(machines_[c].row, machines_[c].law->rows()).setZero();

@@ -72,7 +72,7 @@ const Eigen::MatrixXd& ContactPoles::feed(int level, int k) const {
   return k == level ? constant_ : moments_[std::size_t(level - 1 - k)];
 }
 
-// Amplitudes of all derivatives, real and imaginary parts beside each other.
+// Amplitudes of all derivatives, real and imaginary parts in adjacent columns.
 void ContactPoles::keep_harmonics(const Eigen::MatrixXcd& linear_motion) {
   const auto count = Index(harmonics_.size());
   for (std::size_t d = 0; d < levels; ++d) {

@@ -60,7 +60,7 @@ class CoupledMachine final : public LawMachine {
     for (std::size_t i = 0; i < now.displacement.size(); ++i) result[i] = now.displacement[i].value;
     return result;
   }
-  /// The slopes of a signal alone.
+  /// Only the slopes of a signal.
   static Dual change_of(Dual signal) {
     signal.value = 0.0;
     return signal;

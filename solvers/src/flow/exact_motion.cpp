@@ -59,7 +59,7 @@ void require_sizes(const ExactProblem& problem, const Eigen::MatrixXd& start,
 }
 
 // The least error of any solution, relative to the rms of the displacements: a large static deflection
-// without contact is rounded before contacts take it back.
+// without contact is rounded before contacts cancel it.
 double rounding_of(const ExactProblem& problem, const Eigen::MatrixXd& displacement) {
   const double size = displacement.norm() / std::sqrt(double(displacement.cols()));
   return std::numeric_limits<double>::epsilon() * problem.linear_motion.rowwise().norm().maxCoeff() / size;
@@ -173,7 +173,7 @@ class MotionSearch {
   ExactProblem problem_;  // from the time at which the flow begins
   const CollocationOptions& options_;
   Eigen::VectorXd times_;
-  // What was found.
+  // Result.
   std::optional<ContactFlow> flow_;
   ClosedPeriod found_;
   ExactSolution motion_;

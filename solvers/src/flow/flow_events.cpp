@@ -138,8 +138,8 @@ std::optional<double> ContactFlow::Engine::hit_of(const Solved& panel, const det
   const auto is_clear = [&](std::size_t k) { return std::abs(g[k]) > samples.clear; };
   std::size_t k = 0;
   while (k < g.size() && !is_clear(k)) ++k;
-  // What an event before has left slightly below zero, and does not fall, is as zero; so is a velocity in
-  // which a contact stuck, to which a perturbation or rounding leads.
+  // A value slightly below zero after an event that does not fall counts as zero; so does the velocity of a
+  // contact that stuck, which a perturbation or rounding causes.
   const bool from_stick = !events_.empty() && events_.back().contact == int(guard.contact) &&
                           events_.back().time == time_ &&
                           contacts_.law(guard.contact).kind(events_.back().from) == ContactState::stick;

@@ -21,7 +21,7 @@ struct Stay {
 
 double within_period(double time) { return time - std::floor(time); }
 
-// Of one contact, in the order of time from the beginning of the flow.
+// Intervals of one contact, in the order of time from the beginning of the flow.
 std::vector<Stay> stays_of(const ContactFlow& flow, std::size_t contact, double begin) {
   std::vector<Stay> stays;
   for (const FlowPanel& panel : flow.panels()) {
@@ -50,7 +50,7 @@ double sign_of_slip(ContactState kind, int state) {
   return state == 2 ? 1.0 : -1.0;
 }
 
-// Of stick the sign is that of the slip before; slip in a plane has none.
+// Stick has the sign of the slip before; slip in a plane has none.
 FrictionAlong friction_along(const ContactMachine& machine, const FrictionConstants& constants,
                              const std::vector<Stay>& stays) {
   FrictionAlong along{machine.row, constants, {}};

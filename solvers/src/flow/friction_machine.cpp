@@ -178,7 +178,7 @@ class FrictionMachine final : public LawMachine {
   double normal_at(std::span<const double> displacement) const {
     return c_.normal_load + (has_normal() ? c_.normal_stiffness * displacement[0] : 0.0);
   }
-  /// N, of the normal spring alone.
+  /// N, only of the normal spring.
   Dual spring(const LocalSignals& now) const {
     return has_normal() ? Dual(c_.normal_load) + c_.normal_stiffness * now.displacement[0]
                         : Dual(c_.normal_load);

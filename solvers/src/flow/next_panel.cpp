@@ -11,8 +11,8 @@
 
 namespace wavebalance::solvers {
 
-// Forces that move no contact by a thousandth of its length in a period need few digits of their own. The
-// first ones of a power law, which rise as d^1.5 where it is touched, have none on any panel.
+// Forces that move no contact by a thousandth of its length in a period need few digits. The first ones of
+// a power law, which rise as d^1.5 where it is touched, have none on any panel.
 void ContactFlow::Engine::set_small_force(const ExactProblem& problem) {
   constexpr double share = 1e-3;
   const double rate = 2.0 * std::numbers::pi * problem.frequency;
@@ -35,9 +35,9 @@ ContactFlow::Engine::Moving ContactFlow::Engine::moving() const {
   return result;
 }
 
-// Whether the nodes of a panel resolve forces and perturbations. These may move faster than the motion does:
-// at most one radian a node. Sliders that move do so on any panel beside the instants at which the force that
-// turns them vanishes: there counts the impulse on perturbations that is not resolved.
+// Whether the nodes of a panel resolve forces and perturbations. These may move faster than the motion
+// does: at most one radian a node. Perturbations of moving sliders are fast on any panel near instants at
+// which the force that turns them vanishes: there the unresolved impulse on perturbations counts.
 ContactFlow::Engine::Fit ContactFlow::Engine::fit_of(const detail::PanelShape& panel,
                                                      const detail::SolvedPanel& found) const {
   // The coefficients of forces by sliders that move fall slowly where these turn sharply: the last ones say

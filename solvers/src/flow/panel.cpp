@@ -17,7 +17,7 @@ Eigen::VectorXd nodes_end_and(const Eigen::VectorXd& nodes, const Eigen::VectorX
   return points;
 }
 
-// Takes Legendre coefficients to those of the derivative by x.
+// Maps Legendre coefficients to coefficients of the derivative by x.
 Eigen::MatrixXd differentiation(Index count) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, count);
   for (Index n = 1; n < count; ++n)

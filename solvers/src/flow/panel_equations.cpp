@@ -73,7 +73,7 @@ FreeForces::FreeForces(const Contacts& contacts, const std::vector<int>& states,
 
 namespace {
 
-// Of the memories that move: rates less those of the law.
+// Residual of moving memories: rates less the rates of the law.
 void add_rates(const Contacts& contacts, const ContactStates& now, const FreeForces& free,
                const Signals& signals, Index nodes, std::vector<std::vector<Dual>>& equations) {
   for (std::size_t k = 0; k < free.moving.size();) {
@@ -177,7 +177,7 @@ Eigen::MatrixXd equations_by_forces(const Contacts& contacts, const FreeForces& 
   return result;
 }
 
-// Columns of all forces at q nodes put together to those of free ones.
+// Columns of all forces at q nodes combined to columns of free forces.
 Eigen::MatrixXd by_free_forces(const Eigen::MatrixXd& by_all, const FreeForces& free, Index q) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(by_all.rows(), free.combine.cols() * q);
   for (Index k = 0; k < free.combine.cols(); ++k)

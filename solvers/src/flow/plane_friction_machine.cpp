@@ -7,13 +7,13 @@
 namespace wavebalance::solvers {
 namespace {
 
-/// Elastic Coulomb friction along two tangents. The force f = k (u - w) is that of a spring between the
+/// Elastic Coulomb friction along two tangents. The force f = k (u - w) belongs to a spring between the
 /// contact and a slider at w in the plane. In stick the slider rests while |f| < L, the limit of the normal
-/// force. In slip it moves along the force so that |f| = L: w' = n (n.u' - L'/k), n = f / L, while that rate
-/// is positive.
+/// force. In slip it moves along the force so that |f| = L: w' = n (n.u' - L'/k), n = f / L, while that
+/// rate is positive.
 class PlaneFrictionMachine final : public LawMachine {
  public:
-  /// rate, 1/s: at which a force beside its limit comes back to it.
+  /// rate, 1/s: at which a force near its limit returns to it.
   PlaneFrictionMachine(AnyContactLaw law, double rate)
       : law_(std::move(law)), c_(*law_.friction()), first_(std::size_t(c_.normal_rows)), rate_(rate) {}
   enum : int { open, stick, slip };
@@ -139,8 +139,8 @@ class PlaneFrictionMachine final : public LawMachine {
     const Dual size = norm(elastic(now, 0), elastic(now, 1));
     return limit_of(now).value < 0.0 ? -size : size;
   }
-  /// Times the stiffness. As a contact closes and opens the force has no direction: it is that of the
-  /// velocity, to which slip turns it.
+  /// Times the stiffness. As a contact closes and opens the force has no direction: slip turns it to the
+  /// direction of the velocity.
   Dual slip_rate(const LocalSignals& now) const {
     constexpr double rounding = 1e-8;
     const double k = c_.tangential_stiffness, of_displacement = std::abs(now.displacement[first_].value) +

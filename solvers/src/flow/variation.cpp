@@ -7,13 +7,13 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// Of a row of the structure at point k: the change of its d-th derivative by the states.
+// For a row of the structure at point k: the change of its d-th derivative by the states.
 Eigen::RowVectorXd by_states(const ContactPoles& poles, const PoleWaves& waves, Index k, int level,
                              Index row) {
   return poles.row_of(poles.outputs(level).row(row).cwiseProduct(waves.decay.col(k).transpose()));
 }
 
-// What free forces at q nodes make of the states up to point k, states x free q.
+// Effect of free forces at q nodes on the states up to point k, states x free q.
 Eigen::MatrixXd states_by_forces(const ContactPoles& poles, const FreeForces& free, const PoleWaves& waves,
                                  Index k, Index q) {
   const Eigen::MatrixXcd inputs = poles.inputs() * free.combine.cast<std::complex<double>>();

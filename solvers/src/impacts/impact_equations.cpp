@@ -10,7 +10,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// Rounding errors that the sums of an equation may have, over those of their largest partial sums.
+// Rounding errors of the sums of an equation, over the errors of their largest partial sums.
 constexpr double rounding_of_sums = 16.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

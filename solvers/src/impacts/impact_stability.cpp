@@ -9,8 +9,8 @@
 namespace wavebalance::solvers {
 namespace {
 
-// What an impact does to perturbations: alpha b + beta A b is taken from the states, alpha = velocity_gain v
-// + alpha_gain u and beta = beta_gain u, with displacement u and velocity v of the contact.
+// Effect of an impact on perturbations: alpha b + beta A b is subtracted from the states, alpha =
+// velocity_gain v + alpha_gain u and beta = beta_gain u, with displacement u and velocity v of the contact.
 struct ImpactSlopes {
   double velocity_gain, alpha_gain, beta_gain;
 };
@@ -44,7 +44,7 @@ LongestFlight longest_flight(const detail::ImpactSolution& motion) {
   return longest;
 }
 
-// Of the states that are left, from right before the impact at the end of the longest flight on.
+// Map of the remaining states, from right before the impact at the end of the longest flight on.
 Eigen::MatrixXd monodromy_of(const detail::ImpactSolution& motion) {
   const PoleStates poles(motion.model->problem().dynamics, motion.model->period());
   const Eigen::MatrixXd impulse = poles.after_impulse(0.0),

@@ -47,7 +47,7 @@ Eigen::VectorXcd map_multipliers(Eigen::MatrixXd map) {
   const double vanishing = 1e-40 * map.cwiseAbs().maxCoeff();
   map = (map.array().abs() > vanishing).select(map, 0.0);
   Eigen::VectorXcd values = eigenvalues(map);
-  // Conditions take three times as long.
+  // Condition numbers need three times as long.
   if (((values.array().abs() - 1.0).abs() < near).any()) {
     const KnownEigenvalues known = with_errors(std::move(map), map_error);
     values = known.values;

@@ -12,7 +12,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// What GSL calls: no exception passes through it.
+// Called by GSL: no exception passes through it.
 struct Called {
   const std::function<double(double)>* function;
   std::exception_ptr thrown;

@@ -184,8 +184,8 @@ std::vector<DampedMotions::Block> DampedMotions::force_slopes() const {
   return blocks;
 }
 
-// Adds factor psi(k) of the block's contact to the residuals `row` and `row` + 1, real and imaginary; of the
-// mean there is the first alone.
+// Adds factor psi(k) of the block's contact to the residuals `row` and `row` + 1, real and imaginary; the
+// mean has only the first.
 void DampedMotions::add_row(Eigen::MatrixXd& matrix, int row, int k, Complex factor,
                             const Block& block) const {
   const int rows = problem_.rows(), first = problem_.transform.pair.real_rows[static_cast<std::size_t>(k)];

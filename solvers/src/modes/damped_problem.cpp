@@ -28,7 +28,7 @@ void require_damped_mode(const LinearStructure& structure, const TimePair& pair,
     throw std::invalid_argument("DampedMode: mass or stiffness is not symmetric; both must be");
 }
 
-/// What the contacts do at rest.
+/// State of the contacts at rest.
 struct ContactsAtRest {
   Eigen::VectorXd force;
   Eigen::MatrixXd slope;

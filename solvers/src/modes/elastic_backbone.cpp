@@ -12,8 +12,8 @@ namespace {
 
 // Amplitude over that at grazing at which a curve without a linear branch starts: an energy ratio of 1e-4.
 constexpr double first_amplitude = 0.01;
-// Beyond an internal resonance the energy is at most this multiple of the largest before; else it is that of
-// another curve.
+// Beyond an internal resonance the energy is at most this multiple of the largest before; else it belongs
+// to another curve.
 constexpr double most_energy_jump = 2.0;
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-// Of the velocities over omega, means over the period, modes x (K + 1), kg m^2.
+// Products of the velocities over omega, means over the period, modes x (K + 1), kg m^2.
 Eigen::MatrixXd kinetic_of(const ModeProblem& problem, const Eigen::MatrixXd& modes) {
   const PairTransform& transform = problem.transform;
   Eigen::MatrixXd kinetic = Eigen::MatrixXd::Zero(modes.cols(), transform.highest() + 1);

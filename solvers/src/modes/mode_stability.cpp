@@ -18,8 +18,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The velocity of a motion at t = 0 in the states of the monodromy: of each mode a = q' + i omega_j q, here
-// its rate a' = i omega_j a - s_j^T f. Of the first modes.
+// The velocity of a motion at t = 0 in the states of the monodromy: for each of the first modes a = q' + i
+// omega_j q, here its rate a' = i omega_j a - s_j^T f.
 Eigen::VectorXcd rate_of_states(const ModalModel& model, const ModePoint& point, Index modes) {
   const Eigen::VectorXcd& mean = point.amplitudes.col(0);
   Eigen::VectorXcd displacement = mean.real().cast<Complex>(), velocity = Eigen::VectorXcd::Zero(mean.size());
@@ -52,7 +52,7 @@ Eigen::MatrixXd turned(const Eigen::MatrixXd& x) {
   return result;
 }
 
-// K map, K = (I - A/2)^-1 (I + A/2) with the least A = J S, S symmetric, for which K takes map x to x.
+// K map, K = (I - A/2)^-1 (I + A/2) with the least A = J S, S symmetric, for which K maps map x to x.
 Eigen::MatrixXd closed(const Eigen::MatrixXd& map, const Eigen::VectorXd& x) {
   const Eigen::VectorXd image = map * x, middle = 0.5 * (x + image), wanted = -turned(x - image);
   const double square = middle.squaredNorm();
@@ -80,7 +80,7 @@ Eigen::MatrixXd beginning_with(const Eigen::VectorXcd& x) {
   return result;
 }
 
-// The map beside phase and energy, and the relative error of its closure.
+// The map without phase and energy, and the relative error of its closure.
 std::pair<Eigen::MatrixXd, double> reduced(const Eigen::MatrixXd& map, const ModalModel& model,
                                            const ModePoint& point) {
   const Index modes = map.rows() / 2;
@@ -98,7 +98,7 @@ std::pair<Eigen::MatrixXd, double> reduced(const Eigen::MatrixXd& map, const Mod
   return {inner.bottomRightCorner(rest, rest), closure};
 }
 
-// Those of the other modes, of the first `modes`, without contact.
+// Multipliers of the other modes, among the first `modes`, without contact.
 Eigen::VectorXcd linear_multipliers(const ModalModel& model, double omega, int own, int modes) {
   Eigen::VectorXcd values(2 * (modes - 1));
   Index place = 0;
@@ -123,7 +123,7 @@ void hold_without_mass(const ModalModel& model, PeriodicStiffness& stiffness) {
 
 // Modes up to the highest harmonic of a motion, and at least the one continued.
 int dynamic_modes(const ElasticMode& mode, double omega) {
-  const double highest = mode.harmonics() * omega;  // far below those of springs
+  const double highest = mode.harmonics() * omega;  // far below multipliers of springs
   const auto below = (mode.model().omega_squared.array() <= highest * highest).count();
   return std::max(mode.options().mode, static_cast<int>(below));
 }
@@ -234,7 +234,7 @@ class BackboneTracker {
     ModeStability stability;
   };
 
-  // Halves the curve between two points until they differ in the count alone, `width` times the distance of
+  // Halves the curve between two points until they differ only in the count, `width` times the distance of
   // two points of the backbone.
   void examine(const Sample& a, const Sample& b, double width) {
     const int before = a.stability.unstable, after = b.stability.unstable;

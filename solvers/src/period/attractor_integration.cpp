@@ -16,14 +16,14 @@
 namespace wavebalance::solvers {
 namespace {
 
-/// What an integration of one accuracy ended with.
+/// Result of an integration with one accuracy.
 struct Verdict {
   Repetition found;   // of the states at the starts of periods of the load
   bool known = true;  // false where the operations ran out or the motion grew without bound
   bool cancelled = false;
 
   bool agrees(const Verdict& other) const {
-    // States that come nearer to each other are those of a spiral towards a motion of fewer periods.
+    // States that approach each other belong to a spiral towards a motion of fewer periods.
     constexpr double steady = 1e-2;
     return known && other.known && found.periods == other.found.periods &&
            (found.periods <= 1 || std::abs(found.apart - other.found.apart) <= steady * found.apart);
@@ -40,7 +40,7 @@ void place(const Motion& period, int block, Motion& whole) {
 
 class AttractorIntegration {
  public:
-  // `load_periods` are those of the problem, which begins `start` periods before the map.
+  // `load_periods` belong to the problem, which begins `start` periods before the map.
   AttractorIntegration(ModalMap& map, PeriodState begin, int load_periods, double start, bool has_memory,
                        const AttractorOptions& options)
       : options_(options),
@@ -97,7 +97,7 @@ class AttractorIntegration {
     return {};
   }
 
-  // Of the motion that begins. Where it begins at rest, errors relative to rest would take all operations.
+  // Size of the initial motion. From rest, errors relative to rest would use all operations.
   double size_after_even_steps() {
     const Period period = map_.advance(states_.front(), {even_steps, options_.max_operations});
     return period.complete ? map_.size(period.state) : 0.0;
@@ -202,8 +202,8 @@ class AttractorIntegration {
     return std::nullopt;
   }
 
-  // Laws with memory have more state than the motion, and many differences of it take longer than to solve
-  // the balance from the return itself.
+  // Laws with memory have more state than the motion, and many differences of it need longer than solving
+  // the balance from the return.
   PeriodState periodic_or_near(const PeriodState& state) {
     return has_memory_ ? state : periodic_near(state).value_or(state);
   }

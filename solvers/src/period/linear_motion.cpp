@@ -35,7 +35,7 @@ Eigen::VectorXd accelerating(const LinearStructure& structure, const Eigen::Vect
   return structure.mass * (structure.rigid_modes * rigid);
 }
 
-// Of a structure that is free to move, under a load that balances.
+// For a free structure under a load that balances.
 Eigen::VectorXcd static_response(const LinearStructure& structure, const Eigen::VectorXcd& load,
                                  double frequency) {
   const HeldStructure held = hold(structure);

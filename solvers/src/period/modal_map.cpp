@@ -13,7 +13,7 @@ namespace {
 // How often a step is halved at most. A contact that opens or closes is then known to 1e-9 periods.
 constexpr int deepest_level = 20;
 
-// Whether a contact has a force at one of two times alone.
+// Whether a contact has a force at only one of two times.
 bool opens_or_closes(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
   return ((one.array() == 0.0) != (other.array() == 0.0)).any();
 }
@@ -97,7 +97,7 @@ bool ModalMap::is_clear(const Eigen::VectorXd& displacement) const {
 ModalMap::Step ModalMap::single(const PeriodState& begin, Ticks end, int level) {
   const ModalFlow& flow = this->flow(level);
   const auto states = double(flow.states()), contacts = double(clear_below_.size());
-  constexpr double around = 1250.0;  // operations of which the rest of a step takes the time
+  constexpr double around = 1250.0;  // operations with the time of the rest of a step
   constexpr double of_law = 1000.0;  // and the resolvent of a law
   operations_ += 2.0 * states * (states + 2.0 * contacts) + around + of_law * contacts;
   Step step;

@@ -45,8 +45,8 @@ std::span<const double> rows_of(const Eigen::VectorXd& values, Eigen::Index firs
   return {values.data() + first, static_cast<std::size_t>(rows)};
 }
 
-// Forces at the end of a step with what they take from displacements and velocities there, which a change of
-// one contact's force brings up to date.
+// Forces at the end of a step and their reduction of displacements and velocities there, updated for each
+// change of one contact's force.
 class Forces {
  public:
   Forces(const StepEnd& end, const Eigen::VectorXd& begin)

@@ -21,7 +21,7 @@ namespace {
 
 using detail::MotionSamples, detail::points_of_period;
 
-// What is told of a motion by its integration.
+// A motion as reported from its integration.
 UnsolvedMotion unsolved_of(const AttractorMotion& settled, int periods, ExactStatus status) {
   return {status, periods, settled.last.displacement.maxCoeff(), settled.last.force.maxCoeff(), 0};
 }
@@ -75,7 +75,7 @@ class MotionsSearch {
     return !cancelled_;
   }
 
-  // What a step of one of the starts says of the whole.
+  // Overall progress from a step of one of the starts.
   Observer observer(int start) {
     return [this, start](Progress progress) {
       progress.done = double(start) / (options_.random_starts + 2);
@@ -110,7 +110,7 @@ class MotionsSearch {
     found.stability = over(periods).stability(frequency_, *near);
     found.max_displacement = samples.contacts.displacement.maxCoeff();
     found.max_force = samples.contacts.force.maxCoeff();
-    // A structure that converges to an unstable motion began beside it.
+    // A structure that converges to an unstable motion began near it.
     found.found_by =
         found.stability.unstable > 0 && source == MotionSource::random ? MotionSource::newton : source;
     result_.motions.push_back(std::move(found));
@@ -167,8 +167,8 @@ class MotionsSearch {
     return {{last.reshaped(points, settled.last.displacement.rows()).transpose(), {}, {}}, periods};
   }
 
-  // The stable motion, solved for before, from which an integration that repeats differs by its own errors:
-  // to solve for it once more would take far longer than that.
+  // The stable motion, solved for before, from which an integration that repeats differs by its integration
+  // errors: solving for it again would need far longer.
   std::optional<std::size_t> come_to(const AttractorMotion& settled, int periods) const {
     constexpr double same = 1e-4;  // of what vibrates
     const auto known = find_near(samples_, samples_of(settled, periods), same);
@@ -282,7 +282,7 @@ class MotionsSearch {
     if (!cancelled_) near_boundary(middle, periods);
   }
 
-  // The unstable motion has the period of the load, or that of the motions on both sides.
+  // The unstable motion has the period of the load, or the period of the motions on both sides.
   void near_boundary(const detail::StructureState& state, int periods) {
     constexpr int longest_stay = 60;  // periods of the load
     std::vector<double> changes;      // of each period from the one before
@@ -326,7 +326,7 @@ class MotionsSearch {
   std::map<std::size_t, detail::StructureState> starts_;  // that converge to them, the first of each
   CoexistingMotions result_;
   std::vector<UnsolvedMotion> given_up_;    // near which no motion was found
-  UnsolvedMotion* unsolved_ = nullptr;      // of the result, where the last start settled to it
+  UnsolvedMotion* unsolved_ = nullptr;      // of the result, if the last start converged to it
   bool cancelled_ = false, grows_ = false;  // the search, and the motion integrated last
 };
 

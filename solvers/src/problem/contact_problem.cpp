@@ -57,7 +57,7 @@ ContactProblem::ContactProblem(CondensedProblem problem, ContactLaws laws,
 
 void ContactProblem::require_well_posed() const {
   laws_.require(contacts());
-  for (int row = 0; row < contacts(); row += laws_[row].rows())  // friction without mass may be beside it
+  for (int row = 0; row < contacts(); row += laws_[row].rows())  // friction without mass may be added
     if (laws_[row].is_rigid() && !laws_[row].friction() && !laws_[row].restitution())
       return require_massless_rigid_contacts(structure(), laws_);
 }
@@ -240,8 +240,8 @@ ExactSolution ContactProblem::motion_here(const ExactCurveOptions& options, cons
   const PeriodicResponse response = forced_response(condensed_, laws_, how, start.displacement, start.force);
   if (response.status == SolveStatus::cancelled) return {};
   if (response.converged()) {
-    // Where phases are not found from a balance they often are from what the structure converges to, and
-    // their curves are faster than those of the flow.
+    // If no exact solution is found from a balance, it often is from the attractor, and its curves are
+    // faster than curves of the flow.
     ExactNearResponse found = exact_near_response(condensed_, response, exact_problem_here(), options.phases,
                                                   laws_.act_over_period() ? flow_motion : collocation_motion);
     if (found.motion.parts != nullptr) return found.motion;
@@ -306,7 +306,7 @@ CurveStability ContactProblem::stability(const FrequencySweep& curve, int output
                                          const Observer& observer, bool special_points) {
   if (!dynamics() || curve.points.empty()) return {};
   CurveStabilityOptions options;
-  constexpr int most_states_with_friction = 120;  // beyond, a point takes seconds
+  constexpr int most_states_with_friction = 120;  // beyond, a point needs seconds
   options.stability = stability_options(condensed_);
   options.stability.max_states_with_friction = most_states_with_friction;
   options.special_points = special_points;

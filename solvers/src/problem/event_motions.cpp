@@ -119,8 +119,8 @@ class EventMotions {
       ++result_.none_by[one == nullptr ? found.motion.status : ExactStatus::not_settled];
   }
 
-  // What the structure converges to from a state, or from rest. Motions near the closest returns of impacts
-  // are kept for later.
+  // The attractor from a state, or from rest. Motions near the closest returns of impacts are kept for
+  // later.
   ImpactResponse settled(const Eigen::VectorXcd& state) {
     ImpactResponse found;
     settled_ = false;
@@ -202,7 +202,7 @@ class EventMotions {
   const ExactProblem& problem_;
   const MotionsOptions& options_;
   bool impacts_alone_;
-  bool settled_ = false;  // whether the structure settled to the last motion found
+  bool settled_ = false;  // whether the structure converged to the last motion found
   std::vector<ImpactResponse> near_;
   std::vector<MotionSamples> samples_;  // of the motions of the result
   CoexistingMotions result_;

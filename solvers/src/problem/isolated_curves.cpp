@@ -35,7 +35,7 @@ int repeats_of(const ContactProblem& problem) {
   return load_periods(problem.condensed()) * std::max(1, common);
 }
 
-// Whether two motions agree, the second also later by what the load takes to repeat.
+// Whether two motions agree, also with the second shifted by forcing periods.
 bool agree_at_some_period(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) {
   const double largest = same_response * std::max(vibrating(one).norm(), vibrating(other).norm());
   const Eigen::Index points = one.cols();
@@ -117,7 +117,7 @@ class IsolatedCurvesSearch {
     }
   }
 
-  // The motions near which a settled one says that there are some.
+  // The motions whose vicinity an attractor indicates.
   void take(double frequency, int start, const AttractorMotion& settled) {
     if (!settled.integrated()) return;
     const int periods = settled.attractor_periods;

@@ -15,7 +15,7 @@ Eigen::MatrixXd columns_from(const Eigen::MatrixXd& values, Index first, Index c
   return columns;
 }
 
-// Of `one` from `other` as it is `periods` periods of the load later.
+// Difference of `one` from `other` shifted by `periods` forcing periods.
 double distance_after(const MotionSamples& one, const MotionSamples& other, int periods) {
   const Eigen::MatrixXd& later = other.contacts.displacement;
   return (one.contacts.displacement - columns_from(later, periods * other.shift(), later.cols())).norm();

@@ -23,7 +23,7 @@ MotionStability stability_of(const UnstableMultipliers& count) {
   return result;
 }
 
-// All multipliers at once, or of many states their count alone.
+// All multipliers at once, or for many states only their count.
 MotionStability by_phases(const ExactSolution& motion, const ContactDynamics& dynamics, double frequency) {
   const Eigen::VectorXcd all = motion.multipliers();
   MotionStability result;

@@ -16,7 +16,7 @@
 namespace wavebalance::solvers::detail {
 namespace {
 
-// The displacements of all degrees of freedom under the static loads alone, with the contacts that they
+// The displacements of all degrees of freedom under the static loads only, with the contacts that they
 // close; at rest where that is not found.
 Eigen::VectorXd standing(ContactProblem& problem) {
   CondensedProblem& condensed = problem.condensed();
@@ -34,8 +34,7 @@ Motion vibration_of(Motion motion) {
   return motion;
 }
 
-// By what a vibration is to be multiplied so that its displacements reach a gap from where the structure
-// stands.
+// Factor of a vibration so that its displacements reach a gap from the static deflection.
 double factor_to_gap(const ContactProblem& problem, const Eigen::VectorXd& stands, const Motion& vibration) {
   const Eigen::SparseMatrix<double>& directions = problem.structure().contact_directions;
   const Eigen::VectorXd gaps = problem.laws().gaps(problem.contacts()) - directions * stands;
@@ -46,8 +45,8 @@ double factor_to_gap(const ContactProblem& problem, const Eigen::VectorXd& stand
   return std::isfinite(factor) ? std::max(1.0, factor) : 1.0;
 }
 
-// What the contacts add to the square of the frequency of a mode, or to the stiffness of a shape, while it
-// vibrates about where the structure stands: their force in its first harmonic, over the amplitude.
+// Contribution of the contacts to the squared frequency of a mode, or to the stiffness of a shape, in
+// vibration about the static deflection: their force in its first harmonic, over the amplitude.
 double added_stiffness(const ContactProblem& problem, const Eigen::VectorXd& contacts_stand,
                        const Eigen::VectorXd& shape, double amplitude) {
   constexpr int points = 64;
@@ -121,8 +120,8 @@ void add_resonances(const ContactProblem& problem, const Eigen::VectorXd& contac
   }
 }
 
-// The modes that vibrate, and how the structure would with each contact as the spring that makes the
-// frequency of the harmonic one of its own: stiff contacts make shapes that no mode has.
+// The modes, and the shapes with each contact as a spring tuned to the harmonic: stiff contacts cause
+// shapes that no mode has.
 std::vector<Eigen::VectorXd> resonant_shapes(const ModalVibration& vibration) {
   constexpr double least_part = 1e-3;
   const Eigen::Index modes = vibration.squares.size();
@@ -140,8 +139,8 @@ std::vector<Eigen::VectorXd> resonant_shapes(const ModalVibration& vibration) {
   return shapes;
 }
 
-// The load follows from the vibration without contact, and with it the largest vibration of a shape at the
-// same frequency: that of which the damping takes the work of the load.
+// The load follows from the linear response, and with it the largest vibration of a shape at the same
+// frequency, whose damping dissipates the work of the load.
 void include_resonances(const ContactProblem& problem, const Eigen::VectorXd& stands, const Motion& free,
                         double factor, StateBox& box) {
   constexpr int harmonics = 3;

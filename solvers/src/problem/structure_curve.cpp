@@ -28,8 +28,8 @@ struct SegmentStart {
 // How a curve has a motion between two of its points, to first order.
 enum class Passing { never, along, against };
 
-// How it has that of a start: along or against its direction, which beside a fold is that of one branch. A
-// static deflection does not make motions more alike.
+// Its correlation with the direction of a start, which near a fold selects one branch. A static deflection
+// does not make motions more alike.
 Passing passing(const ExactCurve& curve, const SegmentStart& start) {
   constexpr double near = 0.1;
   if (!start.exists()) return Passing::never;
@@ -89,7 +89,7 @@ void add_events(std::vector<ExactEvent> more, bool from_behind, std::vector<Exac
   std::move(more.begin(), more.end(), std::back_inserter(events));
 }
 
-// What following the curve of the structure along one stretch takes.
+// Options for following the exact curve along one segment.
 struct StructureCurve {
   ContactProblem& problem;
   const FrequencySweep& curve;
@@ -97,10 +97,10 @@ struct StructureCurve {
   CurveEffort effort;
   const Observer& observer;
 
-  // The motion near the first point of the curve from an end of the stretch outwards that has one: near a
-  // fold several points lie beyond that of the structure.
+  // The motion near the first point of the curve from an end of the segment outwards that has one: near a
+  // fold several points are beyond the exact fold.
   SegmentStart start_of(const CurveSegment& stretch, bool forwards) const {
-    constexpr double clear = 0.02;  // of a step beside zigzags of the samples
+    constexpr double clear = 0.02;  // of a step near zigzags of the samples
     ExactAlongOptions near;
     near.phases = options.phases;
     near.max_distance = options.max_distance;
@@ -112,7 +112,7 @@ struct StructureCurve {
       start.direction = direction_from(curve, at, forwards, clear * unit_of_parameter(options));
       const PeriodicResponse response = problem.response(curve, start.value, curve.points[at].unknown);
       start.motion = exact_near(problem, response, near).value().motion;
-      if (start.motion.status != ExactStatus::not_found) break;  // elsewhere it takes as much
+      if (start.motion.status != ExactStatus::not_found) break;  // elsewhere it needs as much
     }
     return start;
   }
@@ -138,7 +138,7 @@ struct StructureCurve {
     return exact_curve({problem.condensed(), problem.laws(), dynamics, curve.parameter}, start.motion, how);
   }
 
-  // A little wider than the stretch, since the structure's folds lie beside those of the balance.
+  // A little wider than the segment, because exact folds are shifted against the balance's.
   ValueRange wider(const CurveSegment& stretch) const {
     const auto [low, high] = values_on(curve, stretch.first, stretch.last);
     const double margin = std::max(high - low, unit_of_parameter(options));
@@ -149,8 +149,8 @@ struct StructureCurve {
 
 }  // namespace
 
-// Of the whole, what is followed from the first point alone is complete where it leaves the interval.
-// Otherwise it has to come past the other end.
+// A curve followed only from the first point is complete if it leaves the interval. Otherwise it has to
+// pass the other end.
 OnSegment structure_along(ContactProblem& problem, const FrequencySweep& curve, const CurveSegment& stretch,
                           bool whole, const StructurePointsOptions& options, CurveEffort effort,
                           const Observer& observer) {

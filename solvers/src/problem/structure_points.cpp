@@ -17,7 +17,8 @@ namespace {
 
 using detail::OnSegment, detail::CurveSegment;
 
-// The events of all stretches, each once, and beside them the bifurcation and grazing points of the balance.
+// The events of all segments, each once, and the corresponding bifurcation and grazing points of the
+// balance.
 class Assembly {
  public:
   Assembly(const std::vector<SpecialPoint>& points, const detail::CurveDistance& distance)
@@ -25,7 +26,7 @@ class Assembly {
     result_.of_balance.resize(points.size());
   }
 
-  /// Points farther apart than `farthest` are not the same. Of a part of a stretch only what is found counts.
+  /// Points farther apart than `farthest` are not the same. In a part of a segment only found points count.
   void add(const CurveSegment& stretch, OnSegment found, double farthest, bool part = false) {
     std::vector<std::size_t> numbers;
     for (ExactEvent& event : found.events) {
@@ -207,7 +208,7 @@ StructurePoints structure_points(const ProblemMaker& make, const FrequencySweep&
   if (along.complete) {
     result = of_whole(problem, curve, all, std::move(along), std::move(assembly), options);
   } else {
-    const bool grazings = !along.exhausted;  // else they would take more than the curve of the balance
+    const bool grazings = !along.exhausted;  // else they would cost more than the curve of the balance
     if (along.exhausted) assembly.add(all, std::move(along), options.reach, true);
     result = of_stretches(
         make, curve,

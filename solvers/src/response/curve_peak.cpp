@@ -62,7 +62,7 @@ Maximum maximum_between(const std::function<double(double)>& function, double le
     // Beside a middle that is the vertex, so that both ends come near to it.
     if (std::abs(place - now.middle) < least) place = now.middle + (to_right ? least : -least);
     double value = function(place);
-    // Nearer to the middle where there is none: beside kinks not every place has a solution.
+    // Nearer to the middle if there is none: near kinks not every place has a solution.
     for (int k = 0; k < most_retries && !std::isfinite(value); ++k) {
       place = 0.5 * (place + now.middle);
       value = function(place);

@@ -117,8 +117,8 @@ class Crossings {
     return solved(found.displacement, after.displacement - before.displacement);
   }
 
-  // A point of the curve between two on one side of the wanted parameter that lies on the other side: that of
-  // a fold between them. By golden section of the chord.
+  // A point of the curve between two on one side of the requested parameter that is on the other side: a
+  // fold between them. By golden section of the chord.
   std::optional<CurvePoint> beyond(const CurvePoint& before, const CurvePoint& after) {
     constexpr int most_points = 24;
     const double ratio = 0.5 * (std::sqrt(5.0) - 1.0), side = before.parameter < wanted_ ? 1.0 : -1.0;
@@ -137,8 +137,8 @@ class Crossings {
   }
 
  private:
-  // From a start near by. A solution farther from it than the two points are from each other, `apart`, is
-  // that of another crossing.
+  // From a nearby start. A solution farther from it than the distance `apart` of the two points belongs to
+  // another crossing.
   PeriodicResponse solved(const Eigen::VectorXd& start, const Eigen::VectorXd& apart) {
     parameter_.set(system_, wanted_);
     Eigen::VectorXd unknown = start;

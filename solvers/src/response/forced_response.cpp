@@ -183,13 +183,13 @@ Candidate try_gap(const Task& task, const Eigen::VectorXd& series_flexibility) {
   return try_homotopy(task, series_flexibility, free.array() - above * height, Strategy::gap_continuation);
 }
 
-/// Continuation in the load, from rest without load. The residual there is that of the whole load.
+/// Continuation in the load, from rest without load. The residual there belongs to the whole load.
 Candidate try_load(const Task& task, const Eigen::VectorXd& series_flexibility) {
   return try_homotopy(task, series_flexibility, Eigen::VectorXd::Zero(task.problem.samples()),
                       Strategy::load_continuation);
 }
 
-/// The forms in which gaps or load are continued: that of the options and, where it is left open, the force
+/// The forms in which gaps or load are continued: the form of the options and, if automatic, the force
 /// form.
 std::vector<Eigen::VectorXd> forms_of(const Task& task) {
   std::vector<Eigen::VectorXd> forms{contact_series_flexibility(task.problem, task.laws, task.options.form)};
@@ -210,13 +210,13 @@ Start start_of(const Task& task, const Motion& period, double start) {
   return {resample(period.displacement, points, start), resample(period.force, points, start)};
 }
 
-/// Newton's method from the attractor, or from states that nearly recur in it. The
-/// result is the better of that and `best`, the outcome of earlier attempts. Sets `settled`.
+/// Newton's method from the attractor, or from states that nearly recur in it. The result is the better of
+/// this one and `best`, the outcome of earlier attempts. Sets `settled`.
 Candidate solve_attractor(const Task& task, const Eigen::VectorXd& form, const Start& first, Candidate best,
                           AttractorMotion& settled) {
   AttractorOptions settling = task.options.settling;
   settling.observer = task.options.observer;
-  // Returns may be many. Only those of friction are known to need more for each.
+  // Returns may be many. Only returns with friction are known to need more for each.
   const bool friction = task.laws.act_over_period();
   Task bounded = task;
   if (!friction) bounded.fallback_operations = task.options.max_fallback_operations;
@@ -243,43 +243,42 @@ Candidate solve_attractor(const Task& task, const Eigen::VectorXd& form, const S
   return better(std::move(best), try_residual(task, form, last));
 }
 
-/// The displacement at rest under the static load; empty where none is found.
-Eigen::VectorXd displacement_at_rest(const Task& task, const Eigen::VectorXd& form) {
-  CondensedProblem& problem = task.problem;
-  const double whole = problem.load_scale();
-  problem.set_load_scale(0.0);
-  const Start start{problem.linear_response(), {}};
-  const Candidate rest = try_newton(task, form, start, Strategy::load_continuation);
-  ContactSystem system = task.system(form);
-  const Eigen::VectorXd displacement =
-      rest.converged() ? response_at(system, rest.unknown).displacement : Eigen::VectorXd();
-  problem.set_load_scale(whole);
-  return displacement;
+/// The motion at rest under the static load.
+Candidate rest_of(const Task& task, const Eigen::VectorXd& form) {
+  const double whole = task.problem.load_scale();
+  task.problem.set_load_scale(0.0);
+  const Start start{task.problem.linear_response(), {}};
+  Candidate rest = try_newton(task, form, start, Strategy::load_continuation);
+  if (rest.converged()) {
+    ContactSystem system = task.system(form);
+    rest.unknown = response_at(system, std::move(rest.unknown)).displacement;
+  }
+  task.problem.set_load_scale(whole);
+  return rest;
 }
 
 /// With the contacts that are closed at rest as springs of the structure. They may stay closed where the
 /// motion without contact would open all of them, as springs and dimples that press against each other.
 Candidate solve_from_rest(const Task& task, const Eigen::VectorXd& form, AttractorMotion& settled) {
-  Candidate none = no_solution(SolveStatus::stalled, form, {});
-  const Eigen::VectorXd rest = displacement_at_rest(task, form);
-  if (rest.size() == 0) return none;
-  auto moved = detail::springs_at_rest(task.problem, task.laws, rest);
-  if (!moved) return none;
+  const Candidate rest = rest_of(task, form);
+  if (!rest.converged()) return no_solution(rest.newton.status, form, {});
+  auto moved = detail::springs_at_rest(task.problem, task.laws, rest.unknown);
+  if (!moved) return no_solution(SolveStatus::stalled, form, {});
   const Task beside{moved->problem, moved->laws, task.options, task.fallback_operations};
   const Start linear{moved->problem.linear_response(), {}};
   Candidate found = try_newton(beside, {}, linear, Strategy::load_continuation);
   if (!found.ended())
-    found = better(std::move(found), try_homotopy(beside, {}, rest, Strategy::load_continuation));
+    found = better(std::move(found), try_homotopy(beside, {}, rest.unknown, Strategy::load_continuation));
   if (!found.ended()) found = solve_attractor(beside, {}, linear, std::move(found), settled);
   settled.last.force = task.laws.force(settled.last.displacement);
-  if (!found.converged()) return none;
+  if (!found.converged()) return no_solution(found.newton.status, form, {});
   ContactSystem system = task.system({});
   system.evaluate(found.unknown);
   return try_newton(task, form, {found.unknown, system.force()}, found.strategy);
 }
 
-/// With what a problem needs for some iterations, where that is more: one of a hundred contacts takes half of
-/// the usual limit.
+/// With the cost of some iterations if that is more: one with a hundred contacts needs half of the usual
+/// limit.
 Task with_room_for_iterations(Task task, const Candidate& first) {
   constexpr double iterations = 20.0;
   task.fallback_operations =

@@ -217,7 +217,7 @@ class Sweep {
   }
 
   // The least displacement from `least` on, by doubling, at which a law of one instant without a gap has a
-  // force that matters beside the stiffness of its contact; `least` where there is none.
+  // force that matters compared with the stiffness of its contact; `least` where there is none.
   double length_of_springs(double least) const {
     constexpr double share = 0.3;
     constexpr int doublings = 20;
@@ -266,7 +266,8 @@ class Sweep {
 
   void note_turning_point(ArcLength& curve) {
     if (curve.previous().parameter_tangent * curve.point().parameter_tangent >= 0.0) return;
-    // At a grazing event the sign changes at the point itself, since its tangent is that of the next piece.
+    // At a grazing event the sign changes at the point itself, because its tangent belongs to the next
+    // segment.
     CurvePoint turning = curve.point();
     if (!turning.grazing) {
       if (!curve.locate_turning_point(turning)) turning = curve.point();
@@ -299,7 +300,7 @@ class Sweep {
   const ContactLaws& laws_;
   ContactSystem system_;
   const FrequencySweepOptions& options_;
-  const SweepStart* start_;  // null: the first response is sought at `from`
+  const SweepStart* start_;  // null: the first response is computed at `from`
   SweepParameter parameter_;
   TrialEvaluator evaluator_;
   FrequencySweep result_;

@@ -340,7 +340,7 @@ class Refinement {
   Size size_;
   bool odd_;
   RefinementResult result_;
-  std::optional<RefinementLevel> solved_;  // the last with a response, which is that of result_
+  std::optional<RefinementLevel> solved_;  // the last with a response, the one of result_
   double quadrature_error_ = 0.0;          // estimated error of the sums over its points
   bool found_ = false;                     // whether the level just solved has a response
   int failures_ = 0;                       // levels without a response since `solved_`

@@ -26,7 +26,7 @@ Eigen::VectorXd without_rounding(const Eigen::VectorXd& values) {
   return (values.array().abs() > least).select(values, 0.0);
 }
 
-// What the modes contribute to the compliance of the contacts.
+// Contribution of the modes to the compliance of the contacts.
 struct Parts {
   Eigen::MatrixXd constant;
   std::vector<ContactPole> poles;
@@ -34,8 +34,8 @@ struct Parts {
 };
 
 // Modes of the quadratic eigenvalue problem with Im exponent >= 0: exponents lambda, x in the columns of
-// `shapes` and, without symmetry, y in those of `left`, such that (s^2 M + s C + K)^-1 is the sum of x y^T /
-// (s
+// `shapes` and, without symmetry, y in the columns of `left`, such that (s^2 M + s C + K)^-1 is the sum of
+// x y^T / (s
 // - lambda) and of its conjugate where Im lambda > 0.
 struct ComplexModes {
   Eigen::VectorXcd exponents;
@@ -73,8 +73,8 @@ FirstOrderForm first_order_form(const LinearStructure& structure) {
   return form;
 }
 
-// The columns y, by the rows w of the inverse of all eigenvectors: y^T is the part of w^T that belongs to the
-// accelerations times M^-1 or, of the inverse form, that of the first rows times -K^-1.
+// The columns y, by the rows w of the inverse of all eigenvectors: y^T is the part of w^T that belongs to
+// the accelerations times M^-1 or, for the inverse form, the part of the first rows times -K^-1.
 Eigen::MatrixXcd left_modes(const FirstOrderForm& form, const Eigen::MatrixXcd& vectors) {
   const Index n = vectors.rows() / 2;
   const Eigen::MatrixXcd identity = Eigen::MatrixXcd::Identity(2 * n, 2 * n);
@@ -100,7 +100,7 @@ ComplexModes complex_modes(const LinearStructure& structure) {
   const FirstOrderForm form = first_order_form(structure);
   const auto eigen = detail::general_eigen(form.matrix);
   if (!eigen) throw std::invalid_argument("ContactDynamics: no modes found; matrices must be finite");
-  // Of each pair the exponent in the upper half plane. Zeros of the inverse form are infinite exponents.
+  // The exponent of each pair in the upper half plane. Zeros of the inverse form are infinite exponents.
   std::vector<Index> kept;
   const double least = form.inverse ? 1e-13 * eigen->values.cwiseAbs().maxCoeff() : -1.0;
   for (Index i = 0; i < 2 * n; ++i) {
@@ -193,8 +193,8 @@ Parts complex_parts(const LinearStructure& structure) {
 
 namespace {
 
-// The squared frequency that the springs give to a rigid body: a hundredth of that of the first elastic mode,
-// or where nothing is elastic the squared rate of the dampers.
+// The squared frequency that the springs give to a rigid body: a hundredth of the first elastic mode's, or
+// where nothing is elastic the squared rate of the dampers.
 double square_of_springs(const LinearStructure& whole, bool small) {
   const LinearStructure structure = without_massless(whole).structure;
   const double largest =
@@ -356,7 +356,7 @@ ContactDynamics::Values ContactDynamics::compliance(double real, const Eigen::Ve
 
 std::shared_ptr<const ContactDynamics> DynamicsAlong::at(const LinearStructure& structure) {
   if (!structure.turns()) return given_;
-  constexpr std::size_t most = 4;  // an iterate, two beside it, and the first point
+  constexpr std::size_t most = 4;  // an iterate, two neighbours, and the first point
   const double speed = structure.turning.speed;
   for (const AtSpeed& one : last_)
     if (one.speed == speed) return one.dynamics;

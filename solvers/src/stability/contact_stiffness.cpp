@@ -93,7 +93,7 @@ SampledIntervals intervals_of_action(const Along& along, const ContactCurve& cur
       [&](Index l) { return change_of_action(along, curve, l); }, passes);
 }
 
-// The levels of the curve at displacements, in the force form those of v = u + flexibility f.
+// The levels of the curve at displacements, in the force form levels of v = u + flexibility f.
 std::vector<double> levels(const ContactAlong& along, std::vector<double> displacements) {
   if (along.flexibility > 0.0)
     for (double& level : displacements) level += along.flexibility * along.law.force(level);

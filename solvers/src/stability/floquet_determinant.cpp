@@ -308,10 +308,10 @@ double median(Eigen::VectorXd values) {
   return values[values.size() / 2];
 }
 
-// How far the contacts matter beyond the harmonics H: |G(i n omega) - g| D / (1 + g D), g the compliance at
-// once, times the cycles that the contact's stiffness goes through on the mass beside it in the longest
-// contact, since errors of its frequency add up. The median over H < n <= 2 H leaves out resonances of single
-// harmonics; it is reduced to n = H as for a mass, but not where high modes yield like springs.
+// Effect of the contacts beyond the harmonics H: |G(i n omega) - g| D / (1 + g D), g the compliance at
+// once, times the cycles of the neighbouring mass on the contact's stiffness in the longest contact, since
+// errors of its frequency add up. The median over H < n <= 2 H leaves out resonances of single harmonics;
+// it is reduced to n = H as for a mass, but not where high modes yield like springs.
 double omitted(const Contacts& contacts, const Eigen::MatrixXcd& beyond, const Eigen::VectorXd& at_once,
                const Eigen::VectorXd& constant, int harmonics) {
   const Index count = contacts.stiffness.size();

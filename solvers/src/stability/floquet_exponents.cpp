@@ -91,8 +91,8 @@ std::optional<Complex> newton_exponent(const CharacteristicPolynomial& character
   return std::nullopt;
 }
 
-// Multipliers near those of the determinant, of each conjugate pair the upper one: as the map at 0 has them,
-// then those of modes above all harmonics and as the map at omega / 2 has them.
+// Multipliers near the determinant's, the upper one of each conjugate pair: from the map at 0, then of
+// modes above all harmonics and from the map at omega / 2.
 std::vector<Complex> approximate_multipliers(const FloquetDeterminant& determinant) {
   constexpr double least = 1e-2;
   const HarmonicMaps maps = harmonic_maps(determinant);
@@ -108,8 +108,8 @@ std::vector<Complex> approximate_multipliers(const FloquetDeterminant& determina
   return multipliers;
 }
 
-// Into found(). Without starts of the caller's the approximate multipliers are not in the order of the exact
-// ones, so that twice as many are sought as are asked for.
+// Into found(). Without starts of the caller's the approximate multipliers are not in the order of the
+// exact ones, so that twice the requested number is computed.
 void find_exponents(CharacteristicPolynomial& characteristic, const FloquetOptions& options) {
   const double period = characteristic.period();
   std::vector<Complex> starts = options.starts;

@@ -66,7 +66,7 @@ double root_between(double low, double high, const std::function<double(double)>
       .value_or(std::abs(at_low) < std::abs(at_high) ? low : high);
 }
 
-// The instant between two samples at which one state gives way to another. `slider` is that of a stick.
+// The instant between two samples at which the state changes. `slider`: of a stick.
 double transition(const FrictionCurve& curve, const SampleState& from, const SampleState& to, double slider,
                   double low, double high) {
   if (from.state == State::open || to.state == State::open)

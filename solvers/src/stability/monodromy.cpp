@@ -68,8 +68,8 @@ class Propagator {
     }
   }
 
-  // What all parts of one length share. Rows and columns are those of the closed contacts at the nodes, node
-  // after node.
+  // Common data of all parts of one length. Rows and columns belong to the closed contacts at the nodes,
+  // node after node.
   struct PartMaps {
     Eigen::MatrixXd memory;                  // displacements from the forces in the part, m/N
     Eigen::MatrixXd free;                    // displacements from the states at its begin
@@ -203,7 +203,7 @@ bool hold(const PoleStates& states, const std::vector<int>& closed, double lengt
   const Eigen::MatrixXd struck = states.after_impulse(0.0)(Eigen::all, closed);
   const Eigen::MatrixXd jump = detail::product(displaced, struck);
   const detail::Lu<double> h0(jump);
-  // A mass beside the contact makes h0 the rounding of a sum of its terms.
+  // With a mass at the contact h0 is the rounding of a sum of its terms.
   const Eigen::MatrixXd terms = detail::product(displaced.cwiseAbs(), struck.cwiseAbs());
   if (!(jump.diagonal().array() > 1e-9 * terms.diagonal().array()).all() || h0.is_singular(1e-9))
     return false;
@@ -279,7 +279,7 @@ double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiff
   const PoleStates all(dynamics, 1.0 / frequency);
   const auto states = double(all.size()),
              left = double(all.left_after(begin_with_free_flight(*resolving)).size());
-  // Eigenvalues take 25 n^3 [Golub & Van Loan]; of powers about eight are taken, by products, which are
+  // Eigenvalues need 25 n^3 [Golub & Van Loan]; about eight powers are computed, by products, which are
   // faster.
   double operations = (eigenvalues ? 25.0 : 8.0) * left * left * left;
   for (const Piece& piece : *resolving) {
@@ -289,7 +289,7 @@ double monodromy_operations(const ContactDynamics& dynamics, const PeriodicStiff
   return operations;
 }
 
-// What a free flight leaves nothing of has columns of zeros.
+// States that decay in a free flight have columns of zeros.
 std::optional<Eigen::MatrixXd> lasting_map(const ContactDynamics& dynamics,
                                            const PeriodicStiffness& of_contacts, double frequency,
                                            const MonodromyOptions& options) {

@@ -16,8 +16,8 @@ double largest_exponent(const ContactDynamics& dynamics) {
   return largest;
 }
 
-// The largest rate, 1/s, of the contact's stiffness on the mass or the damping beside it, which are those of
-// h(t) at t = 0.
+// The largest rate, 1/s, of the contact's stiffness on the neighbouring mass or damping, from h(t) at t =
+// 0.
 double contact_rate(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                     const std::vector<ContactInterval>& intervals) {
   const int contacts = dynamics.contacts();

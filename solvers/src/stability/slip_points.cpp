@@ -10,7 +10,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-/// What a contact that sticks has left up to its limit at the worst instant, over the limit; negative beyond.
+/// Margin of a sticking contact to its limit at the worst instant, over the limit; negative beyond.
 class StickMargin {
  public:
   StickMargin(const CondensedProblem& problem, const ContactLaws& laws)
@@ -43,7 +43,7 @@ class StickMargin {
     return row_of(at.displacement, row)[0] - row_of(at.contact_force, row)[0] / friction.tangential_stiffness;
   }
 
-  // Its forces are those of springs from one position of the slider.
+  // Its forces are spring forces for one position of the slider.
   bool sticks(const PeriodicResponse& at, int contact, const FrictionConstants& friction) const {
     constexpr double rounding = 1e-9;
     for (int row = contact + friction.normal_rows, end = row + friction.tangents; row < end; ++row) {
@@ -113,7 +113,7 @@ class SlipFinder {
 
   void measure(Place& place) { place.margin = margin_(motions_.response(place.point)).value_or(-1.0); }
 
-  // By false position where both margins are those of sticking motions, else by halves.
+  // By false position if both margins belong to sticking motions, else by bisection.
   void locate(Place sticks, Place slips, std::size_t next) {
     constexpr int most = 200;
     constexpr double close = 1e-13;

@@ -212,8 +212,8 @@ class StopSearch {
     return false;
   }
 
-  // The next change of a stop, or at the end of the period one of stop -1; nothing where it takes too long to
-  // find. Steps end before a stop can pass its gap, so that none is missed.
+  // The next change of a stop, or at the end of the period one of stop -1; nothing if the search takes too
+  // long. Steps end before a stop can pass its gap, so that none is missed.
   std::optional<StopChange> next_change(const StopFlight& flight, const std::vector<int>& closed) const {
     constexpr int most = 200000;
     constexpr double shortest = 1e-13;

@@ -53,7 +53,7 @@ struct LocalLaw {
   }
 };
 
-// What a piece of the period makes of states and of the sliders that are stuck in it.
+// Map of a segment of the period for states and the sliders that are stuck in it.
 struct SegmentMap {
   Eigen::MatrixXd states, sliders;
 

@@ -80,8 +80,8 @@ std::optional<Eigen::VectorXcd> by_monodromy(const ContactDynamics& dynamics,
   return multipliers;
 }
 
-// Why a law that depends on the velocity, or of several rows, lets no multipliers be known. Those of a
-// contact that deflects at once would need the rate of its force.
+// Why multipliers with a law that depends on the velocity, or of several rows, are not available. A contact
+// that deflects at once would need the rate of its force.
 StabilityStatus status_of_damped(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness,
                                  const StabilityOptions& options) {
   if (dynamics.structurally_damped()) return StabilityStatus::structural_damping;
@@ -166,7 +166,7 @@ const HarmonicMaps& maps_of(Way& way) {
   return *way.maps;
 }
 
-// Of the leading multiplier more digits are asked than slow modes have.
+// The leading multiplier needs more digits than slow modes give.
 Way way_of_friction(const ContactDynamics& dynamics, const PeriodicStiffness& stiffness, double frequency,
                     const StabilityOptions& options) {
   constexpr int few_states = 40;
@@ -243,8 +243,8 @@ std::optional<UnstableMultipliers> counted_by_map(const Way& way, const ContactD
   return result;
 }
 
-// Whether each multiplier of one map lies farther from the circle than three times its distance to those of
-// the other, as many of which lie outside.
+// Whether each multiplier of one map is farther from the circle than three times its distance to the other
+// map's, and both have the same number outside.
 bool are_decided(const HarmonicMaps& maps, const Eigen::VectorXcd& multipliers) {
   constexpr double least_margin = 1e-5;
   const Eigen::VectorXcd others = detail::map_multipliers(maps.at_half.map);

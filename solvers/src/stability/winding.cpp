@@ -13,7 +13,7 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-// nu and the argument up to 2 pi, with its derivative by nu, and the modulus of that of the logarithm.
+// nu and the argument up to 2 pi, with its derivative by nu, and the modulus of the logarithm's derivative.
 struct Sample {
   double nu, argument, slope, rate;
 };
@@ -47,7 +47,7 @@ class Follower {
     const double change = std::remainder(to.argument - from.argument, 2.0 * pi);
     const double expected = 0.5 * (from.slope + to.slope) * (to.nu - from.nu);
     // A zero within the step has a rate of at least 2 / step at one of the ends, even where the argument
-    // turns by nearly 2 pi between them, as it does at two equal multipliers beside the circle.
+    // turns by nearly 2 pi between them, as at two equal multipliers near the circle.
     const bool smooth = std::max(from.rate, to.rate) * (to.nu - from.nu) < 2.0;
     if (smooth && std::abs(change) <= pi / 3.0 && std::abs(change - expected) <= 0.6) {
       turned += change;
@@ -63,7 +63,7 @@ class Follower {
   int left_;  // evaluations
 };
 
-// Where the argument may turn quickly: beside each natural frequency, folded into [0, omega / 2], at
+// Points where the argument may turn quickly: near each natural frequency, folded into [0, omega / 2], at
 // distances of its damping rate.
 std::vector<double> first_points(const FloquetDeterminant& determinant) {
   const double omega = determinant.angular_frequency(), half = 0.5 * omega;
@@ -114,7 +114,7 @@ class MultiplierPolynomial {
   }
 
   int own() const { return own_; }
-  // Takes `count` + 1 points on the upper half, those of count / 2 included.
+  // Evaluates `count` + 1 points on the upper half, including the points of count / 2.
   void refine(int count) {
     std::vector<Complex> logs(static_cast<std::size_t>(count) + 1);
     const bool nested = logs_.size() == static_cast<std::size_t>(count / 2) + 1;
@@ -137,7 +137,7 @@ class MultiplierPolynomial {
       value = value * x + coefficients_[m >= 0 ? m : m + coefficients_.size()];
     }
     least_ = std::min(least_, std::abs(value));
-    const double lowest = double(negative());  // the sum is that of powers from 0, shifted
+    const double lowest = double(negative());  // the sum over powers from 0, shifted
     return {std::log(value) + Complex(0.0, lowest * nu * period_), period_ * (lowest - x * slope / value)};
   }
 

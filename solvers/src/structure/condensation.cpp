@@ -243,8 +243,8 @@ void Condensation::condense_by_method(const StiffnessSpectrum& factors, const St
 
 namespace {
 
-// Rows of results from `first` on. Of many contacts several are written together, since each number of a row
-// lies in another line of the cache.
+// Rows of results from `first` on. For many contacts several are written together, since each number of a
+// row lies in another line of the cache.
 void write_rows(const std::vector<CondensedPoint>& points, Index first, CondensedSpectrum& result) {
   const auto write = [&](auto member, auto& rows) {
     for (Index i = 0; i < rows.cols(); ++i)

@@ -117,7 +117,7 @@ class TridiagonalMethod final : public Condensation::Method {
   }
 
   // L D L^T without pivoting, as for a definite matrix. False when a pivot nearly vanishes: the matrix is
-  // singular, or the part of the structure before that row is at a natural frequency of its own.
+  // singular, or the part of the structure before that row is at a natural frequency.
   bool factorize(const ImpedanceCoefficients& s) {
     const int n = size();
     const std::array<double, 3> sizes{std::abs(s[0]), std::abs(s[1]), std::abs(s[2])};
@@ -157,7 +157,7 @@ class TridiagonalMethod final : public Condensation::Method {
 
   static Eigen::VectorXd magnitudes(const Eigen::VectorXcd& values) { return values.cwiseAbs2().cwiseSqrt(); }
 
-  // Response to load l, with its slope and error; units_ and the factors are those of the point.
+  // Response to load l, with its slope and error; units_ and the factors belong to the point.
   void set_load(Index l, const ImpedanceCoefficients& derivatives, CondensedPoint& point) {
     loaded_ = loads_.col(l).cast<Complex>();
     solve(loaded_);

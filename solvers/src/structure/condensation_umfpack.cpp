@@ -44,7 +44,7 @@ class UmfpackMethod final : public DirectMethod {
  public:
   explicit UmfpackMethod(const LinearStructure& structure) : DirectMethod(structure) {
     umfpack_zi_defaults(control_.data());
-    control_[UMFPACK_IRSTEP] = 0;  // solves are as exact as those of the other methods
+    control_[UMFPACK_IRSTEP] = 0;  // solves are as exact as with the other methods
     const SparseComplex pattern = combine({1.0, 1.0, 1.0});
     check(umfpack_zi_symbolic(size(), size(), pattern.outerIndexPtr(), pattern.innerIndexPtr(), nullptr,
                               nullptr, &symbolic_.pointer, control_.data(), nullptr));

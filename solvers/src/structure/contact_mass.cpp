@@ -32,7 +32,7 @@ TouchedPart touched_part(const LinearStructure& structure, const std::vector<int
   return part;
 }
 
-// The rank of `rows`, whose entries are small beside `size` where they are rounding.
+// The rank of `rows`, whose entries are small compared with `size` where they are rounding.
 Index rank_of(const Eigen::MatrixXd& rows, double size) {
   constexpr double negligible = 1e-12;
   const auto gram = detail::symmetric_eigen(detail::product_transposed(rows, rows));

@@ -71,7 +71,7 @@ LinearStructure without_drift(const LinearStructure& structure) {
   if (drifting.cols() == 0 ||
       !((structure.damping * drifting).norm() <= rounding * structure.damping.norm() * drifting.norm()))
     return structure;
-  // What is perpendicular to the momenta of the drift has eigenvalues 0.
+  // Vectors perpendicular to the momenta of the drift have eigenvalues 0.
   const Eigen::MatrixXd momenta = structure.mass * drifting;
   const auto parts = detail::symmetric_eigen(detail::product_transposed(momenta, momenta));
   if (!parts) return structure;

@@ -21,7 +21,7 @@ double diagonal_error(const Eigen::MatrixXd& shapes, const Eigen::SparseMatrix<d
   return (form - diagonal.asDiagonal() * signs).norm() / std::sqrt(double(samples));
 }
 
-// L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its own entry.
+// L L^T of a matrix that is positive definite to working precision: no pivot is rounding of its entry.
 std::optional<Eigen::MatrixXd> definite_factor(const Eigen::MatrixXd& matrix) {
   auto factor = detail::cholesky(matrix);
   if (!factor) return std::nullopt;

@@ -55,8 +55,8 @@ void PivotRecursion::eliminate(const Row& row, Chunk& chunk) {
         twice_off_rate.re * w.re - twice_off_rate.im * w.im + square.re * slope.re - square.im * slope.im;
     rate.im -=
         twice_off_rate.re * w.im + twice_off_rate.im * w.re + square.re * slope.im + square.im * slope.re;
-    // An error of z_ii changes d_i as much, and one of d_{i-1} by |w|^2. Those of off and of the pivot itself
-    // are of the same sizes, since off^2 is at most the product of two diagonal entries.
+    // An error of z_ii changes d_i as much, and one of d_{i-1} by |w|^2. Errors of off and of the pivot are
+    // of the same sizes, since off^2 is at most the product of two diagonal entries.
     chunk.error = error * (w.re.square() + w.im.square()) + scale;
   } else {
     chunk.error = scale;

@@ -41,7 +41,7 @@ void AliasMap::replicate(const Eigen::VectorXcd& factor, const Eigen::Ref<const 
   }
 }
 
-// Harmonic n > 0 of a real period stands for -n, too, unless it is its own conjugate.
+// Harmonic n > 0 of a real period also represents -n, unless it is its own conjugate.
 void AliasMap::fold(const Eigen::VectorXcd& factor, const Eigen::VectorXcd& samples,
                     Eigen::VectorXcd& out) const {
   const int size = points / 2 + 1, stored = functions / 2 + 1;

@@ -139,7 +139,7 @@ RC_GTEST_PROP(ForcedResponseProperty, ShiftedLoadShiftsTheResponse, ()) {
   second.set_frequency(0.04);
   const testing::ExponentialLaw law{0.5, 0.3, 0.5 * first.linear_response().maxCoeff()};
   ForcedResponseOptions options;
-  options.form = ContactForm::displacement;  // that of the system below
+  options.form = ContactForm::displacement;  // of the system below
   const PeriodicResponse response = forced_response(first, law, options);
   RC_PRE(response.converged());
   RC_ASSERT(response.contact_force.maxCoeff() > 0.0);

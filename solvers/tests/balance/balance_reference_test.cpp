@@ -17,8 +17,8 @@ const Motion& stepped(const Jl14Case& one) {
   return one.frequency_hz == jl14_case_1.frequency_hz ? first : second;
 }
 
-// The published figures have seven digits; the force ratio and the contact fraction four, and the latter was
-// counted on a grid of its own.
+// The published figures have seven digits; the force ratio and the contact fraction four, and the latter
+// was counted on a separate grid.
 TEST(BarInContact, TimeSteppingGivesTheReferenceFigures) {
   for (const Jl14Case& scene : {jl14_case_1, jl14_case_2}) {
     const Eigen::MatrixXd &u = stepped(scene).displacement, &force = stepped(scene).force;
@@ -30,7 +30,7 @@ TEST(BarInContact, TimeSteppingGivesTheReferenceFigures) {
   }
 }
 
-// Of the relative rms of the displacement, two per cent and what its printed digits leave open.
+// Two per cent of the relative rms of the displacement, and the rounding of its printed digits.
 TEST(HarmonicBalanceError, IsThatOfAnIndependentComputation) {
   struct ErrorCase {
     const Jl14Case& scene;

@@ -157,7 +157,7 @@ TEST(RigidContact, IsRefusedAtContactsWithMass) {
   EXPECT_NE(refusal.find("rigid: 0"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("without a law of impact"), std::string::npos) << refusal;
   EXPECT_EQ(refusal_of_rigid(row_of_masses({1, 1, 0}, last), Rigid{0.1}), "nothing was thrown");
-  // Elastic stops beside it may have mass.
+  // Additional elastic stops may have mass.
   const Eigen::MatrixXd two{{1, 0, 0}, {0, 0, 1}};
   const std::vector<AnyContactLaw> mixed{testing::LinearContact{10.0, 0.1}, Rigid{0.1}};
   EXPECT_EQ(refusal_of_rigid(row_of_masses({1, 1, 0}, two), mixed), "nothing was thrown");
@@ -226,7 +226,7 @@ TEST(TwoSidedContact, ConvergedMotionsFeelBothSides) {
   for (const AnyContactLaw& law : laws)
     for (const double frequency : {10.0, 20.0, 30.0}) solve(law, frequency);
   EXPECT_GE(solved, 13) << "of 15";
-  solve(TwoSided{1e6, -1e-3}, 30.0);  // no strategy converges, which takes them all and a second
+  solve(TwoSided{1e6, -1e-3}, 30.0);  // no strategy converges; all of them need a second
 }
 
 }  // namespace

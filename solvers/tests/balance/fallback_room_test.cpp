@@ -55,7 +55,7 @@ FrictionScene random_chain_that_rubs(std::mt19937& generator) {
   return scene;
 }
 
-// An iteration of many contacts takes as much as several of these limits.
+// An iteration with many contacts costs as much as several of these limits.
 TEST(Fallbacks, HaveRoomForIterationsWhateverTheLimit) {
   std::mt19937 generator(44);
   const FrictionScene scene = random_chain_that_rubs(generator);

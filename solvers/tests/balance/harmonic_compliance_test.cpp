@@ -1,4 +1,5 @@
-// A balance sees its structure as a compliance at each harmonic, which may be given in place of matrices.
+// A balance uses only the compliance of its structure at each harmonic, which may be given instead of
+// matrices.
 
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"

@@ -237,7 +237,7 @@ struct Destabilising {
   double gap() const { return -std::numeric_limits<double>::infinity(); }
 };
 
-// It takes away the static stiffness, up to a rounding or a little more: the mean of the response is anything
+// It removes the static stiffness, up to a rounding or a little more: the mean of the response is anything
 // or nearly so. Whether a pivot vanishes in the first case is a matter of rounding.
 TEST(LinearSolver, ConditionSaysThatTheNewtonMatrixIsNearlySingular) {
   const LinearStructure bar = testing::jl14_bar(1, 1e-4);

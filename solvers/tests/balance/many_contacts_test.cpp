@@ -7,7 +7,7 @@
 #include "wavebalance/solvers/response/response_motion.hpp"
 #include "wavebalance/solvers/time/motion_evaluator.hpp"
 
-// What holds of several contacts by their coupling and its symmetries; tests/pairs holds them to the
+// Properties of several contacts from their coupling and its symmetries; tests/pairs compares them with the
 // assembled system.
 namespace wavebalance::solvers {
 namespace {
@@ -118,7 +118,7 @@ TEST(ManyContactsSolver, SolvesWithThePreconditionerOfAStateBeforeAsLuDoes) {
 
 INSTANTIATE_TEST_SUITE_P(PairKinds, ManyContacts, ::testing::Range(0, testing::pair_kind_count));
 
-// Two oscillators that nothing couples, in one structure and each alone; the contact of `first` comes first.
+// Two uncoupled oscillators, in one structure and separately; the contact of `first` comes first.
 struct Uncoupled {
   testing::Oscillator first, second;
   LinearStructure both;
@@ -169,7 +169,8 @@ TEST(ManyContactsResponse, DoesNotDependOnTheOrderOfContacts) {
             1e-9 * u.norm());
 }
 
-// Over a period the load's work is what dampers and contacts take, the products exact with these points.
+// Over a period the load's work equals the dissipation of dampers and contacts; the products are exact with
+// these points.
 TEST(ManyContactsResponse, BalancesTheWorkOfLoadDampersAndContacts) {
   const LinearStructure structure = chain(3);
   auto problem = make_problem(testing::fourier_pair(31, 64), structure);

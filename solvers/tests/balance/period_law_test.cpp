@@ -74,7 +74,7 @@ class PeriodLawSystem : public ::testing::TestWithParam<int> {
     return problem;
   }
   // A slider on the first row, a wedge on the other two: smooth near most motions. Samples of piecewise
-  // constant motions that slip lie where stick begins, so that these pairs take another wedge in its place.
+  // constant motions that slip are where stick begins, so these pairs use another wedge instead.
   ContactLaws laws(const CondensedProblem& problem) {
     if (problem.pair().trial().pointwise_derivatives() >= 1)
       return {{AnyContactLaw(Jenkins{2.0, 0.3}), AnyContactLaw(Wedge{})}};

@@ -15,7 +15,8 @@ using testing::Oscillator;
 
 constexpr int load_points = 256;
 
-// A static force of 20 N and a third harmonic of 30 N, 40 degrees ahead, beside the oscillator's cosine.
+// A static force of 20 N and a third harmonic of 30 N, 40 degrees ahead, in addition to the oscillator's
+// cosine.
 LinearStructure driven_oscillator(const Oscillator& oscillator) {
   LinearStructure structure = oscillator.structure();
   Eigen::VectorXcd series = Eigen::VectorXcd::Zero(4);

@@ -64,7 +64,7 @@ std::vector<TimePair> smooth_pairs() {
   return pairs;
 }
 
-// With the strong form the sums over points of the damping term are those of the contact force.
+// With the strong form damping term and contact force have the same sums over points.
 TEST(VelocityLaw, ADamperIsTheDampingOfTheStructure) {
   std::mt19937 generator(3);
   const LinearStructure plain = testing::random_chain(4, generator);

@@ -26,7 +26,7 @@ ExactSolution motion_of(const LinearStructure& structure, const ContactLaws& law
   return exact_near_response(problem, laws, response, dynamics, {.tolerance = 1e-11}).motion;
 }
 
-// The monodromy of the poles integrates the variational equations on nodes of its own.
+// The monodromy of the poles integrates the variational equations on separate nodes.
 TEST(CollocationMultipliers, AreThoseOfTheMonodromy) {
   std::mt19937 generator(11);
   int found = 0;
@@ -56,8 +56,8 @@ TEST(CollocationMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
   expect_same(monodromy(dynamics, contact_stiffness(motion), 0.2), expected, 2e-8);
 }
 
-// A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. On the
-// panels of the motion alone multipliers appeared that the structure does not have.
+// A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. The
+// panels of the motion alone gave spurious multipliers.
 TEST(CollocationMultipliers, OfAContactThatStaysClosedAreExponentialsHoweverFastItIs) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.1);
   for (const double damping : {0.0, 3.0, 30.0}) {
@@ -90,7 +90,7 @@ TEST(CollocationMultipliers, OfRigidContactAreThoseOfHeldContacts) {
   EXPECT_EQ(motion.count_unstable(), outside(multipliers));
 }
 
-// Without contact they are those of the structure.
+// Without contact they belong to the structure.
 TEST(CollocationMultipliers, OfAMotionWithoutContactAreExponentials) {
   std::mt19937 generator(3);
   const RandomCase random(generator, 2);
@@ -144,7 +144,7 @@ TEST(CollocationMultipliers, AreCountedAsOneByOne) {
   EXPECT_GE(found, 16);
 }
 
-// Panels that other contacts do not cut have kinks within, which take more nodes and panels.
+// Panels that other contacts do not cut have kinks within, which need more nodes and panels.
 TEST(CollocationMultipliers, AreTheSameWithPanelsThatOtherContactsDoNotCut) {
   std::mt19937 generator(23);
   int found = 0;

@@ -105,8 +105,8 @@ TEST(PhasesOfARigidContact, AreFoundThoughSamplesOpenForLessThanTheyResolve) {
   EXPECT_NEAR(motion.phases[0].end, other.phases[0].end, 1e-9);
 }
 
-// Of many panels within a cell each pole is taken once, of few a series for each pair: what one panel does to
-// itself is the same among many.
+// For many panels within a cell each pole is used once, for few a series for each pair: the effect of a
+// panel on itself is the same among many.
 class Influence : public ::testing::Test {
  protected:
   static constexpr int contacts = 6;

@@ -73,8 +73,8 @@ TEST(Collocation, ConvergeGeometricallyOverTheNodesOfAPanel) {
   }
 }
 
-// The layer of fast modes lies where contact begins alone: the panel that was cut for another one at its end
-// is joined with the one beside it, or there would be 83 unknowns.
+// The layer of fast modes is only where contact begins: the panel that was cut for another one at its end
+// is joined with its neighbour, or there would be 83 unknowns.
 TEST(Collocation, HaveNoPanelsForLayersThatAreNotThere) {
   const ExactSolution found = BarCase(testing::jl14_case_1).phases(1e-8, 32).motion;
   ASSERT_TRUE(found.converged());

@@ -68,7 +68,7 @@ void expect_list(const ExactCurve& curve, std::vector<std::pair<Type, double>> e
   }
 }
 
-/// What holds of every curve that runs through its interval.
+/// Properties of every curve that runs through its interval.
 void expect_curve(const ExactCurve& curve) {
   EXPECT_EQ(curve.status, SweepStatus::reached_end);
   int folds = 0;
@@ -90,7 +90,7 @@ TEST(ExactCurve, OfTheBarHasTheFoldsAndTheGrazingThatShootingHas) {
   Traced traced(bar.structure(), bar.law, bar.frequency_hz);
   const ExactCurve curve = traced.over_frequency(1250.0, 1400.0);
   expect_curve(curve);
-  // Of shooting in another language, to its ten digits. The lower fold is 0.002 Hz beside grazing.
+  // From shooting in another language, to its ten digits. The lower fold is 0.002 Hz from grazing.
   expect_list(curve, {{Type::fold, 1337.739426}, {Type::fold, 1315.015091}, {Type::grazing, 1315.017281}},
               1e-9);
 }

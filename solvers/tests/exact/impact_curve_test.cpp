@@ -12,7 +12,7 @@ namespace {
 using testing::cosine_load, testing::impact_oscillator, testing::ImpactScene,
     testing::two_masses_with_impacts;
 
-/// A structure with impacts, whose curves start where it settles.
+/// A structure with impacts, whose curves start at its attractor.
 class TracedImpacts {
  public:
   explicit TracedImpacts(ImpactScene scene)

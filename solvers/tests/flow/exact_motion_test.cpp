@@ -112,7 +112,7 @@ TEST(ExactMotion, AreRefusedWithTheReason) {
       cancelled);
 }
 
-// A panel of this chain takes 4e5 operations, and a period has 16 of them at least.
+// A panel of this chain needs 4e5 operations, and a period has 16 of them at least.
 TEST(ExactMotion, APeriodThatTakesMoreThanTheOperationsIsNotBegun) {
   int periods = 0;
   const CollocationOptions options{.max_operations = 5e6, .observer = [&periods](const Progress&) {

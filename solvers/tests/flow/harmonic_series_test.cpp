@@ -5,7 +5,7 @@
 namespace wavebalance::solvers {
 namespace {
 
-// Amplitudes that fall like those of a motion under a load with kinks.
+// Amplitudes that decay as in a motion under a load with kinks.
 Eigen::VectorXcd kinked(int harmonics) {
   std::mt19937 engine(20140817);
   std::normal_distribution<double> number;

@@ -1,4 +1,4 @@
-// What a scene does not show of integrations from event to event: the observer, options, laws without a
+// Parts of the integration from event to event that no scene reaches: the observer, options, laws without a
 // value.
 
 #include "wavebalance/solvers/flow/periodic_flow.hpp"

@@ -1,4 +1,4 @@
-// What motions with impacts refuse; a table of them is in tests/impacts/impact_table.py.
+// Refusals of motions with impacts; a table of motions is in tests/impacts/impact_table.py.
 #include "wavebalance/solvers/impacts/impact_motion.hpp"
 
 #include "impacts/impact_parts.hpp"

@@ -30,7 +30,7 @@ TEST(PowersOfAMatrix, DoNotVanishWhereOneLiesOnItOrOutside) {
   EXPECT_FALSE(powers_vanish(Eigen::MatrixXd::Constant(3, 3, std::nan(""))));
 }
 
-// exp(S D S^-1) = S exp(D) S^-1, with rates like those of a structure whose fast modes have decayed.
+// exp(S D S^-1) = S exp(D) S^-1, with rates as of a structure whose fast modes have decayed.
 TEST(Exponential, OfALargeMatrixIsThatOfItsEigenvalues) {
   constexpr Eigen::Index size = 60;
   Eigen::MatrixXd vectors = matrix_with(2.0, size);

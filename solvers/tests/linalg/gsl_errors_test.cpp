@@ -14,7 +14,7 @@ std::atomic<int> handled{0};  // errors that reached the handler of the program
 
 void count_errors(const char*, const char*, int, int) { ++handled; }
 
-/// The handler of this test, which counts in place of ending the program, for as long as a test runs.
+/// The handler of this test, which counts instead of ending the program, for as long as a test runs.
 class SilencedGsl : public ::testing::Test {
  protected:
   SilencedGsl() : previous_(gsl_set_error_handler(count_errors)) { handled = 0; }

@@ -1,5 +1,5 @@
 // Damped nonlinear modes against event-driven exact motions of the extended periodic motion concept, closed
-// forms of linear structures, and differences of their own Jacobian.
+// forms of linear structures, and finite differences of their Jacobian.
 #include "wavebalance/solvers/modes/damped_mode.hpp"
 
 #include "linalg/dense.hpp"
@@ -64,7 +64,7 @@ DampedPoint with_turning_point(const DampedBackbone& curve, double turn) {
   return between;
 }
 
-// Of event-driven half periods between turning points, exact to 1e-12.
+// From event-driven half periods between turning points, exact to 1e-12.
 TEST(DampedMode, FrequencyAndDampingOfASliderAreThoseOfItsExactMotion) {
   struct Exact {
     double turn, omega, xi;
@@ -92,7 +92,7 @@ TEST(DampedMode, FewHarmonicsHaveTheBalancesOfTheirHarmonics) {
     double omega, xi;
   };
   const FrictionScene scene = undamped_slider();
-  // With one harmonic friction takes 4 (A - 1) per period, and xi gives pi xi omega A^2.
+  // With one harmonic friction dissipates 4 (A - 1) per period, and xi gives pi xi omega A^2.
   const double amplitude = 2.000767809,
                one = 4.0 * (amplitude - 1.0) / (std::numbers::pi * 1.224645134 * amplitude * amplitude);
   for (const Row& row : {Row{3, 1024, 1.224645134, one},
@@ -199,7 +199,7 @@ TEST(DampedMode, PairsOfBasesAgree) {
   const DampedMode reference(scene.structure, testing::fourier_pair(63, 512), scene.contact_laws());
   const double amplitude = 4.0 * reference.linear_amplitude();
   const DampedPoint exact = at_amplitude(reference, amplitude);
-  EXPECT_GT(exact.xi, 0.36);  // that of the structure is 0.35
+  EXPECT_GT(exact.xi, 0.36);  // the structure's is 0.35
   const testing::CubicBasis cubic{64};
   const DampedMode splines(scene.structure, testing::make_pair(cubic, cubic, 512), scene.contact_laws());
   const DampedPoint point = at_amplitude(splines, amplitude);

@@ -204,8 +204,8 @@ TEST(ElasticMode, InternalResonanceBesideTheLinearFrequencyIsPassed) {
   EXPECT_GT(last.omega, 1.05 * mode.linear_omega());
 }
 
-// A chain of four masses with omega_2 = 2.086 omega_1. The frequency ratios are those of shooting on the
-// event-driven flow, a program of its own.
+// A chain of four masses with omega_2 = 2.086 omega_1. The frequency ratios come from shooting on the
+// event-driven flow, a separate program.
 TEST(ElasticMode, GoesAlongAnInternalResonanceThatNoMotionLiesBeyond) {
   Eigen::Matrix4d stiffness{{8327.56, -3352.706, 0.0, 0.0},
                             {-3352.706, 5609.372, -2256.666, 0.0},

@@ -1,5 +1,5 @@
-// Structures that settle against stops with brief impacts, with forces that jump and with contacts that stay
-// closed. The periods are compared with the integration of variable step.
+// Attractors with stops that have brief impacts, forces that jump, or contacts that stay closed. The
+// periods are compared with the integration of variable step.
 
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"
@@ -48,7 +48,7 @@ ImpactCase damped_stop_oscillator() {
   return {one.structure(), contact::KelvinVoigtLaw(86047.0, 106.823, 0.178528e-3), 3.37606};
 }
 
-// The motions of these two repeat after one period, which coarse steps take for six and five.
+// The motions of these two repeat after one period, which coarse steps report as six and five.
 ImpactCase five_masses_between_damped_stops() {
   Eigen::MatrixXd mass(5, 5), damping(5, 5), stiffness(5, 5), contacts(2, 5);
   mass << 3.5390196605174564, 0.7598622391738068, -0.0930833302846969, 0.2591291198889093, 0.9503855961940204,
@@ -96,7 +96,7 @@ TimeSteppingResult stepped(const ImpactCase& one) {
   return testing::stepped_motion(one.structure, one.laws, one.frequency, 1024);
 }
 
-/// Of exponential_oscillator().
+/// For exponential_oscillator().
 const TimeSteppingResult& stepped_exponential() {
   static const TimeSteppingResult result = stepped(exponential_oscillator());
   return result;
@@ -158,9 +158,9 @@ TEST(AttractorImpacts, AnExponentialStopThatStaysClosedIsSolvedWithAnyNumberOfFu
   }
 }
 
-// A mass in a clearance, whose motion of one period is unstable: Newton's method is led to it by the motion
-// that is settled to, which is aperiodic or of several periods.
-// Three stops of laws of the velocity, in contact for nearly the whole period.
+// A mass in a clearance, whose motion of one period is unstable: Newton's method finds it from the
+// attractor, which is aperiodic or of several periods. Three stops of laws of the velocity, in contact for
+// nearly the whole period.
 ImpactCase closed_damped_stops() {
   ImpactCase one;
   one.structure = testing::structure(

@@ -44,7 +44,7 @@ const CoexistingMotions& between_folds(double frequency) {
   return one->second;
 }
 
-// A static load moves the oscillator and its stop: all else is that of the one without.
+// A static load moves the oscillator and its stop: all else equals the one without.
 TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
   constexpr double deflection = 40.0;
   LinearStructure loaded = testing::unit_oscillator(0.05, 0.15);
@@ -63,7 +63,7 @@ TEST(CoexistingMotions, UnderAStaticLoadHaveTheSharesOfThoseWithoutIt) {
   }
 }
 
-// 600 periods take it to a ten-thousandth of its start.
+// 600 periods reduce it to a ten-thousandth of its start.
 TEST(CoexistingMotions, OfLightDampingCountTheStartsThatHaveNearlyArrived) {
   ContactProblem problem(testing::fourier_pair(63, 256), testing::unit_oscillator(0.008, 0.15),
                          LinearContact{4.0, 1.0});

@@ -1,4 +1,4 @@
-// Phases of contact along a curve: those of its responses, whatever the threads.
+// Exact solutions along a curve: the same for any number of threads.
 #include "wavebalance/solvers/problem/exact_along.hpp"
 
 #include "support/oscillator.hpp"

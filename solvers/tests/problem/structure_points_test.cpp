@@ -1,5 +1,4 @@
-// Bifurcation and grazing points of the structure near those of a balance: each once, as its exact curve has
-// them.
+// Exact bifurcation and grazing points near a balance's: each once, as on the exact curve.
 #include "wavebalance/solvers/problem/structure_points.hpp"
 
 #include "support/oscillator.hpp"

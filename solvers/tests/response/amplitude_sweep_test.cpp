@@ -43,7 +43,7 @@ TEST(AmplitudeSweep, PointsAndFoldsAreThoseOfTheClosedFormOfTheDuffingCurve) {
   }
 }
 
-// As in sweep_folds_test: in contact for |x| < b, with a mean beside the first harmonic.
+// As in sweep_folds_test: in contact for |x| < b, with a mean in addition to the first harmonic.
 TEST(AmplitudeSweep, FoldsAtAStopAreThoseOfTheClosedForm) {
   const double damping = 0.05, w = 1.15;
   const testing::LinearContact stop{.stiffness = 2.0, .start = 1.0};

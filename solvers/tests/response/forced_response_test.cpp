@@ -49,8 +49,8 @@ TEST(ForcedResponse, EveryRecordedFieldBelongsToTheSolution) {
   }
 }
 
-// A stiff law makes much of a residual that is small beside the motion: at a tolerance of 1e-4 the force that
-// makes the motion could be any other than the law's force at that motion.
+// A stiff law magnifies a residual that is small compared with the motion: at a tolerance of 1e-4 the force
+// that makes the motion could be any other than the law's force at that motion.
 TEST(ForcedResponse, TheForceOfAConvergedMotionIsThatOfItsLaw) {
   for (const double stiffening : {1.0, 1e2, 1e4}) {
     CondensedProblem problem = case_1(63, 256);

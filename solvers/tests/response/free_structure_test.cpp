@@ -15,7 +15,7 @@
 #include "wavebalance/solvers/stability/unstable_multipliers.hpp"
 #include "wavebalance/solvers/structure/rigid_modes.hpp"
 
-// Structures that are free to move: contact alone holds them, or nothing does.
+// Structures that are free to move: only contact holds them, or nothing does.
 namespace wavebalance::solvers {
 namespace {
 

@@ -49,8 +49,9 @@ TEST(FrequencySweep, ReversesWhereTheBarGrazes) {
     }
 }
 
-// A mass that its static load presses on a spring, 30 deep, and that vibrates by 0.005 beside its resonance
-// and by 1.8 in it. Measured by the gap of 10, one step would change the vibration to twice as much.
+// A mass that its static load presses on a spring, 30 deep, and that vibrates by 0.005 outside its
+// resonance and by 1.8 in it. Measured by the gap of 10, one step would change the vibration to twice as
+// much.
 TEST(FrequencySweep, StepsAreSharesOfAVibrationAboutALargeStaticDeflection) {
   constexpr double damping = 0.004, load = 0.01;
   LinearStructure structure = testing::unit_oscillator(damping, load);
@@ -91,7 +92,7 @@ class BarCurve : public ::testing::Test {
 
 // Else a curve with thousands of samples in contact would go on for minutes.
 TEST_F(BarCurve, EndsWhereItsOperationsAreUsedUp) {
-  options_.max_operations = 1e5;  // an LU of the 25 samples in contact takes 1e4
+  options_.max_operations = 1e5;  // an LU of the 25 samples in contact needs 1e4
   ArcLength curve(*system_, parameter_, options_);
   ASSERT_EQ(curve.start(first_, 1275.0, 1.0), ArcLength::Status::advanced);
   int points = 0;
@@ -102,7 +103,7 @@ TEST_F(BarCurve, EndsWhereItsOperationsAreUsedUp) {
   EXPECT_LT(system_->operations(), 2e5);
 }
 
-// Points, unit tangents and grazing events of the curve, each checked with a problem of its own.
+// Points, unit tangents and grazing events of the curve, each checked with a separate problem.
 TEST_F(BarCurve, SolvesItsFrequencyAtEveryPoint) {
   ArcLength curve(*system_, parameter_, options_);
   ASSERT_EQ(curve.start(first_, 1275.0, 1.0), ArcLength::Status::advanced);

@@ -31,7 +31,7 @@ TEST(BranchArrival, AFirstPointAlongTheCurveLiesOnIt) {
   EXPECT_TRUE(lies_on(curve, origin, at(2.95, 2.0, 9.95), {}));
 }
 
-// Each differs from the curve in one unknown or in the frequency alone.
+// Each differs from the curve only in one unknown or in the frequency.
 TEST(BranchArrival, AFirstPointThatLeavesTheCurveDoesNotLieOnIt) {
   const FrequencySweep curve = straight_curve();
   const CurvePoint origin = at(3.0, 2.0, 10.0);

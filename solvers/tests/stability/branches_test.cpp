@@ -74,7 +74,8 @@ void expect_motions_of_the_period(const Branch& branch, const BranchProblems& pr
 const LinearStructure impacting_oscillator = testing::unit_oscillator(0.1, 0.8);
 const testing::LinearContact elastic_stop{10.0, 0.1};
 
-// Subcritical at both ends: the motion of one period is stable between the doublings, that of two unstable.
+// Subcritical at both ends: the motion of one period is stable between the doublings, the motion of two
+// unstable.
 TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
   testing::ExponentialLaw law = testing::jl14_case_2.law;
@@ -95,8 +96,8 @@ TEST(Branches, OfTheBarWithASmallGapAreUnstableBetweenItsPeriodDoublings) {
 }
 
 // Far from its bifurcation or grazing point a branch has folds like any curve, also where the motion of two
-// periods is still small beside that at its end: where it turns at its lowest frequency a multiplier
-// passes 1.
+// periods is still small compared with its end: where it turns at its lowest frequency a multiplier passes
+// 1.
 TEST(Branches, OfTheBarHaveAFoldWhereTheyTurn) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
   testing::ExponentialLaw law = testing::jl14_case_2.law;

@@ -87,7 +87,7 @@ TEST(CurveStability, TellsAGrazingFromANeimarkSackerPointBesideItFromAnyStart) {
   }
 }
 
-/// Counts along a curve, where contact acts, beside those by the winding of the polynomial.
+/// Counts along a curve, where contact acts, compared with counts by the winding of the polynomial.
 struct Counts {
   std::vector<int> found, wound, evaluations;
 };

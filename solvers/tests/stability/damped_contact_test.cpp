@@ -43,7 +43,7 @@ TEST(DampedContact, ASpringAndDamperThatAlwaysActHaveTheMultipliersOfTheDampedOs
   EXPECT_NEAR(std::abs(found.values[0].multiplier.imag()), std::abs(expected.imag()), 1e-10);
 }
 
-// Against those of the exact motion from event to event, whose equations the balance does not share.
+// Compared with the exact motion from event to event, whose equations the balance does not share.
 template <class Law>
 void expect_multipliers(const Law& law, double load, double frequency, double tolerance) {
   CondensedProblem problem = problem_at(testing::unit_oscillator(0.1, load), frequency);

@@ -1,4 +1,4 @@
-// Floquet multipliers of motions with elastic friction against those of event-driven exact motions.
+// Floquet multipliers of motions with elastic friction compared with event-driven exact motions.
 
 #include "stability/switching_monodromy.hpp"
 #include "support/friction_table.hpp"
@@ -39,7 +39,7 @@ struct Row {
   std::vector<std::complex<double>> multipliers;  // the largest, Im >= 0
 };
 
-// Of event-driven integrations with the saltation of their transitions.
+// From event-driven integrations with the saltation of their transitions.
 TEST(FrictionStability, HasTheMultipliersOfTheExactMotions) {
   using namespace testing;
   using C = std::complex<double>;

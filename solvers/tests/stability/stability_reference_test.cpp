@@ -69,7 +69,7 @@ TEST_P(PrescribedStiffnessOfTwoContacts, MultipliersAndCountsAreTheReference) {
     const auto unstable = unstable_multipliers(dynamics, stiffness, point.frequency, options.stability);
     EXPECT_EQ(unstable.count, point.unstable);
     EXPECT_EQ(unstable.harmonics, GetParam());
-    if (GetParam() != 31)  // the search from nothing would take most of the time of this suite
+    if (GetParam() != 31)  // the search from nothing would need most of the time of this suite
       options.starts = {std::log(point.multiplier) * point.frequency + Complex(1.0, 1.0)};
     const FloquetExponents exponents = floquet_exponents(dynamics, stiffness, point.frequency, options);
     ASSERT_EQ(exponents.status, StabilityStatus::converged);

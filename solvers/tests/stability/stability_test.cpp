@@ -132,7 +132,7 @@ TEST(UnstableMultipliers, AreAsManyAsThoseOfTheMonodromyOutsideTheCircle) {
   EXPECT_LE(near, 10);
 }
 
-// Two nearly equal oscillators: the argument turns by 2 pi beside the axis within a small part of the range.
+// Two nearly equal oscillators: the argument turns by 2 pi near the axis within a small part of the range.
 TEST(UnstableMultipliers, OfTwoEqualMultipliersBesideTheCircleAreNone) {
   const Eigen::Matrix2d springs{{1.0, -1e-4}, {-1e-4, 1.0}};
   LinearStructure structure = testing::structure(Eigen::Matrix2d::Identity(), 0.004 * springs, springs,

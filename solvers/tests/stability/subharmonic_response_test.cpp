@@ -39,8 +39,8 @@ TEST(LoadPeriods, AreTheCommonDivisorOfTheHarmonics) {
 }
 
 // Between its period doublings at 2.2062 and 2.9737 rad/s the motion of one period is unstable, and at 2.4
-// rad/s that of two is itself doubled. Near both doublings the motion of two periods is nearest to it. The
-// balance has an error of 2e-6 here.
+// rad/s the motion of two is itself doubled. Near both doublings the motion of two periods is nearest to
+// it. The balance has an error of 2e-6 here.
 TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheExactMotionOfThePeriodsThatItSettlesTo) {
   const ContactDynamics dynamics(driven_oscillator);
   for (const auto& [periods, omega] : {std::pair{2, 2.25}, {2, 2.9}, {4, 2.4}}) {
@@ -62,7 +62,7 @@ TEST(SubharmonicResponse, OfAnOscillatorWithAStopIsTheExactMotionOfThePeriodsTha
   }
 }
 
-// Nothing converges to an unstable motion. It is beside that of one period, along its perturbation.
+// Nothing converges to an unstable motion. It is near the motion of one period, along its perturbation.
 TEST(SubharmonicResponse, IsFoundFromAPerturbationWhereItIsUnstable) {
   const LinearStructure bar = testing::jl14_bar(25, 1.25e-6);
   testing::ExponentialLaw law = testing::jl14_case_2.law;

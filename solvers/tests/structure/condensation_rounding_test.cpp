@@ -28,8 +28,8 @@ LongMatrix by_long_double(const LinearStructure& s, const ImpedanceCoefficients&
   return directions * oracle::solve(stiffness, right);
 }
 
-// Equal oscillators of 10 kN/m and 1 kg; each is coupled to the next by a spring of that share. The load acts
-// on `loaded`, an obstacle on the first and the fourth. The frequency is near those of all of them.
+// Equal oscillators of 10 kN/m and 1 kg; each is coupled to the next by a spring of that share. The load
+// acts on `loaded`, an obstacle on the first and the fourth. The frequency is near all natural frequencies.
 LinearStructure weakly_coupled(int size, double share, int loaded, bool ring) {
   LinearStructure s;
   Eigen::MatrixXd stiffness = 1e4 * Eigen::MatrixXd::Identity(size, size);
@@ -84,8 +84,7 @@ struct TrueErrors {
   }
 };
 
-// The response decays by 1e-4 from one oscillator to the next: the modal terms are as large as that of the
-// load.
+// The response decays by 1e-4 from one oscillator to the next: the modal terms are as large as at the load.
 TEST(CondensationRounding, ModalSumLosesTheDigitsOfAResponseFarFromTheLoadAndEliminationsKeepThem) {
   for (const bool ring : {false, true}) {
     const LinearStructure chain = weakly_coupled(10, 1e-4, 5, ring);
@@ -142,8 +141,7 @@ TEST(CondensationRounding, HoldsForRelativeMotionsOfBodiesThatMoveAlike) {
   }
 }
 
-// Rows before the contact at a natural frequency of their own: pivots of the recursion lose up to eight
-// digits.
+// Rows before the contact at a natural frequency: pivots of the recursion lose up to eight digits.
 TEST(CondensationRounding, RecursionOfABarStatesAtLeastTheErrorThatItMakes) {
   LinearStructure bar = testing::jl14_bar(25, 1e-7);
   for (const double omega : {2.0, 5.0, 1e3, 8e3, 1e4, 3e4}) {
@@ -184,8 +182,8 @@ TEST(CondensationRounding, ReplacesTheModalSumWhereItLosesTheContactFreeResponse
             1e-13 * double(std::abs(exact(0, 1))));
 }
 
-// A clamped beam of short elements: the rounding of its stiffness is that of its first mode times the fourth
-// power of their number, to which an elimination adds its own.
+// A clamped beam of short elements: the rounding of its stiffness grows, relative to its first mode, with
+// the fourth power of their number, to which an elimination adds its own.
 LinearStructure finely_divided_beam(int elements) {
   const double length = 1.0 / elements;
   Eigen::Matrix4d bending, inertia;
@@ -222,7 +220,7 @@ TEST(CondensationRounding, KeepsTheModalSumWhereAnEliminationLosesMore) {
   EXPECT_EQ(result.load_response, expected.load_response);
 }
 
-// The modal sum also takes the coupling of the damping off its diagonal as zero, up to 1e-8.
+// The modal sum also neglects off-diagonal damping, up to 1e-8.
 TEST(CondensationRounding, ErrorsOfTheModalSumHoldTheDampingThatItLeavesOut) {
   LinearStructure chain = weakly_coupled(6, 1e-3, 0, true);
   chain.contact_directions = contact_rows({2}, chain.size());

@@ -195,7 +195,7 @@ TEST(Condensation, ModesNeedOnlyOneDefiniteMatrix) {
   }
 }
 
-// The load only at the contact takes a shorter way in the tridiagonal method.
+// A load only at the contact uses a shortcut of the tridiagonal method.
 TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
   const LinearStructure bar = testing::jl14_bar(25, 1e-4);
   const Complex rate(0.0, 2.0 * std::numbers::pi * 1275.0);
@@ -205,7 +205,7 @@ TEST(Condensation, LoadAtTheContactAloneGivesTheSame) {
                by_dense_lu(bar, factors, rates, 1.0, Eigen::VectorXcd::Zero(1)).point, 1e-9);
 }
 
-// A bar that is loaded and touches at its tip takes the recursion over all k, any other structure goes point
+// A bar that is loaded and touches at its tip uses the recursion over all k, any other structure goes point
 // by point.
 TEST(Condensation, SpectrumAtOnceEqualsPointByPoint) {
   std::mt19937 generator(4);

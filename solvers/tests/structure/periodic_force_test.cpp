@@ -46,7 +46,7 @@ TEST(PeriodicForce, OnesThatDoNotFitAreRefused) {
             "LinearStructure: forces[0] has the derivative -1; it must be at least 0");
 }
 
-// Each method must give for every load what it gives for that load alone.
+// Each method must give for every load the result of that load alone.
 TEST(Condensation, OfSeveralLoadsIsThatOfEachAlone) {
   std::mt19937 generator(7);
   const LinearStructure chain = testing::random_chain(9, generator);
@@ -78,7 +78,7 @@ TEST(Condensation, OfSeveralLoadsIsThatOfEachAlone) {
   }
 }
 
-// A bar that is loaded and touches at its last degree of freedom takes one recursion over k.
+// A bar with load and contact at its last degree of freedom uses one recursion over k.
 TEST(Condensation, OfSeveralLoadsAtTheTipIsThatOfEachAlone) {
   std::mt19937 generator(3);
   LinearStructure chain = testing::random_chain(6, generator);

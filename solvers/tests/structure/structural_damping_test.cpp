@@ -73,7 +73,7 @@ TEST(StructuralDamping, OfLocalFunctionsConvergesToTheClosedForm) {
 }
 
 // Forces and motion of a stop balance at every harmonic with the complex stiffness, and the frequency
-// derivative of the residual is that of differences.
+// derivative of the residual agrees with differences.
 TEST(StructuralDamping, OfAnOscillatorAgainstAStopBalancesAtEveryHarmonic) {
   const ContactLaws laws = AnyContactLaw(testing::LinearContact{4.0, 0.5});
   CondensedProblem problem = testing::fourier_problem(oscillator(), 31, 256, 0.9 / two_pi);

@@ -181,7 +181,7 @@ TEST(SampleOffset, OfHarmonicBalanceIsAShiftOfTheLoad) {
   }
 }
 
-// Cubics through the samples, and lines through those of Haar functions, begin where the samples do.
+// Cubics through the samples, and lines through samples of Haar functions, begin where the samples do.
 TEST(SampleOffset, IntervalsOfContactAreThoseOfTheTimesOfTheSamples) {
   const LinearStructure bar = testing::jl14_bar(25, 5e-6);
   const auto& law = testing::jl14_case_2.law;
@@ -202,7 +202,7 @@ TEST(SampleOffset, IntervalsOfContactAreThoseOfTheTimesOfTheSamples) {
   }
 }
 
-// The motions of a perturbation at the middles are what twice as many left ends have beside the left ends.
+// The motions of a perturbation at the middles are the additional ones of twice as many left ends.
 TEST(SampleOffset, PerturbationsAreThoseAtTheTimesOfTheSamples) {
   FloquetExponent exponent;
   exponent.multiplier = -1.0;

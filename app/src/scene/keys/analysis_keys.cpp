@@ -82,7 +82,7 @@ SceneValue contact_outputs_by_default(const Scene& scene) {
   return sweep && scene.contact.law != no_law && contacts > 1 && contacts <= most;
 }
 
-/// A number is that of a row or of a bar's node.
+/// A number is a row or a bar's node.
 void set_outputs(Scene& scene, const SceneValue& value) {
   scene.analysis.outputs.clear();
   const std::string noun = scene.structure.type == StructureType::bar ? "node " : "row ";
@@ -221,19 +221,20 @@ void add_mode(std::vector<SceneKey>& keys) {
   for (auto key = keys.end() - 2; key != keys.end(); ++key) key->laws = losing;
 }
 
-/// Whether counts and grazing points take a few times as long as the curve, or less.
+/// Whether counts and grazing points need a few times as long as the curve, or less.
 SceneValue stability_by_default(const Scene& scene) {
   const bool mode = scene.analysis.type == AnalysisType::nonlinear_mode;
   const bool sweep = is_sweep(scene.analysis.type);
   if (!sweep && !mode) return true;
   if (mode && (is_rigid(scene.contact.law) || takes_energy(scene.contact))) return true;  // not known
   constexpr int few = 6;
-  constexpr int most_unknowns = 400;  // contacts times functions; beyond, a count may take tens of points
+  constexpr int most_unknowns = 400;  // contacts times functions; beyond, a count may cost tens of points
   const int contacts = contact_count(scene);
   return contacts <= few || (!mode && contacts * scene.time.functions <= most_unknowns);
 }
 
-/// Of one response they cost little beside its stability; along a curve as much as the curve, or more.
+/// For one response they cost little compared with its stability; along a curve as much as the curve, or
+/// more.
 SceneValue exact_by_default(const Scene& scene) {
   return scene.analysis.type == AnalysisType::forced_response && !solves_exactly(scene) &&
          !solves_by_impacts(scene) && scene.contact.law != no_law;

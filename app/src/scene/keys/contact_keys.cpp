@@ -39,7 +39,7 @@ void add_law_keys(std::vector<SceneKey>& keys) {
   }
 }
 
-/// The keys of a pair's law, whose defaults are those of [contact].
+/// The keys of a pair's law, with the defaults of [contact].
 void add_law_keys_of_pair(std::vector<SceneKey>& keys, std::size_t index) {
   const auto part = [index](auto& scene) -> auto& { return scene.contact.pairs[index]; };
   for (const SharedParameter& parameter : law_parameters()) {

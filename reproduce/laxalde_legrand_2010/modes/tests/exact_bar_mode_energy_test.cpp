@@ -135,7 +135,7 @@ TEST(ExactBarMode, IsInTheUnitsOfTheBar) {
   EXPECT_NEAR(ExactBarMode::linear_frequency(bar, 1), speed / 4, 1e-10);
   EXPECT_NEAR(ExactBarMode::linear_frequency(bar, 1), 1297.186, 1e-3);  // 20 elements: 1297.5197
   EXPECT_NEAR(ExactBarMode::linear_frequency(bar, 3), 5 * speed / 4, 1e-9);
-  const RigidObstacleBar other{3.0, 12.0, 0.5, 2.0, 0.25};  // c = 1/2, a length takes 4 s
+  const RigidObstacleBar other{3.0, 12.0, 0.5, 2.0, 0.25};  // c = 1/2, a length needs 4 s
   for (int m = 1; m <= 3; ++m) {
     const ExactBarMode unit = mode_at({}, m, 0.4), mode = mode_at(other, m, 0.4);
     EXPECT_NEAR(mode.frequency(), mode.frequency_ratio() * ExactBarMode::linear_frequency(other, m),

@@ -73,7 +73,7 @@ std::vector<std::vector<std::string>> with_blanks(std::vector<std::vector<std::s
   return table;
 }
 
-/// The table of a record, folded if it is long, except on a page of its own.
+/// The table of a record, folded if it is long, except on a separate page.
 std::string table(const Record& record, const Place& place) {
   constexpr std::size_t long_table = 9;
   const std::string text = app::table_html(with_blanks(record.table));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_commands = 12;
 
-/// An argument as a shell takes it.
+/// An argument quoted for a shell.
 std::string argument(const std::string& text) {
   const auto plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) ||

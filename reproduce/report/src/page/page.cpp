@@ -68,7 +68,7 @@ std::string totals(const Section& section) {
   return fmt::format("{} {}, {:.1f} s of computing", count, count == 1 ? "result" : "results", seconds);
 }
 
-/// The citation; on a page of its own what it says behind the name, which is the heading of the page.
+/// The citation; on a separate page only its part after the name, which is the heading of the page.
 std::string heading_of(const Paper& paper) {
   const std::string name = paper.name + ": ";
   if (!paper.own_page || !paper.citation.starts_with(name)) return paper.citation;
@@ -90,7 +90,7 @@ std::string section_html(const Place& place) {
   return text;
 }
 
-/// What stands on a page of its own, and the link to it.
+/// Content of a separate page, and the link to it.
 std::string linked_section(const Section& section) {
   const Paper& paper = section.paper;
   return fmt::format("<h2 id=\"{0}\">{1}</h2>\n<p><a href=\"{0}/index.html\">{2}</a>: {3}.</p>\n",

@@ -33,7 +33,7 @@ std::string reading_table(const std::string& heading, const std::vector<Reading>
   return table_of({heading, "Found", "Verdict"}, rows);
 }
 
-/// What decides, what was found unless the card shows it, and the verdict under each interpretation, folded.
+/// Criterion, finding unless the card shows it, and the verdict under each interpretation, folded.
 std::string decided_html(const Statement& one) {
   const auto text = of_text(one.readings), beside = of_text(one.readings, false);
   return fmt::format(
