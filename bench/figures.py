@@ -1,11 +1,10 @@
 """The lines and sentences with figures that README.md and bench/README.md have of a run of `make bench`.
 
-    figures.py measure RESULTS        prints what the files of a run say: name, value
-    figures.py check MEASURED ROOT    fails where a line of a README is not that of these values
-    figures.py lines MEASURED         prints these lines
+    figures.py measure RESULTS prints what the files of a run say: name, value figures.py check MEASURED ROOT fails
+    where a line of a README differs from these values figures.py lines MEASURED prints these lines
 
-measured.csv beside this script holds those of the run that the READMEs tell of. After a new run write it anew by `measure`
-and put the lines that `check` names into the READMEs.
+measured.csv next to this script has the values of the run that the READMEs cite. After a new run write it again by
+`measure` and put the lines that `check` names into the READMEs.
 """
 
 from __future__ import annotations
@@ -75,7 +74,7 @@ def phases_lead_below(points: list[dict[str, str]], case: str) -> float:
 
 
 def work_values(points: list[dict[str, str]]) -> dict[str, float]:
-    """What the table "From one run" of bench/README.md says."""
+    """The table "From one run" of bench/README.md."""
     rigid = {"trial": "daubechies10", "weight": "daubechies10"}
     fourier = {"trial": "fourier", "weight": "fourier"}
     found = {
@@ -132,7 +131,7 @@ def in_points(results: pathlib.Path) -> dict[str, float]:
 
 
 def cheapest_text(row: dict[str, str]) -> str:
-    """Time of Fourier:Fourier over that of the cheapest pair, and this."""
+    """Time of Fourier:Fourier over the cheapest pair's, and this pair."""
     if not row["trial"]:
         return "none"
     names = [BASES.get(row[key], row[key].replace("daubechies", "DB")) for key in ("trial", "weight")]
@@ -262,7 +261,7 @@ def random_lines(v: dict[str, Any]) -> list[str]:
 
 
 def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
-    """The lines that stand in each README."""
+    """The lines of each README."""
     def both(name: str) -> str:
         return f"{time_text(v[f'{name}_1_ms'])} / {time_text(v[f'{name}_2_ms'])}"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Scenes with many contacts, and what they take.
+"""Scenes with many contacts, and their cost.
 
     many_contacts.py scene plate 200 DIR [--friction] [--sweep] [--functions 63 --points 256]
     many_contacts.py measure --command build/default/wavebalance [--contacts 10 24 50 100 200] [--table NAME.csv]

@@ -73,8 +73,8 @@ function(wavebalance_add_room room)
   set(headers ${headers} ${R_HEADERS} PARENT_SCOPE)
 endfunction()
 
-# wavebalance_precompile_headers(target): what nearly every source parses, compiled once for all modules. Eigen/Core alone
-# takes longer to parse than most sources take to compile.
+# wavebalance_precompile_headers(target): headers that nearly every source parses, compiled once for all modules.
+# Parsing Eigen/Core takes longer than compiling most sources.
 function(wavebalance_precompile_headers target)
   if(NOT TARGET wavebalance_headers)
     find_package(Eigen3 3.4 CONFIG REQUIRED)
@@ -91,8 +91,9 @@ function(wavebalance_precompile_headers target)
   target_precompile_headers(${target} REUSE_FROM wavebalance_headers)
 endfunction()
 
-# wavebalance_export_headers(target <headers>): a shared library exports what its public headers declare, and nothing else.
-# All of them stand in the precompiled header, between two pragmas, so that no header needs a macro at each function.
+# wavebalance_export_headers(target <headers>): a shared library exports what its public headers declare, and nothing
+# else. All of them are in the precompiled header, between two pragmas, so that no header needs a macro at each
+# function.
 function(wavebalance_export_headers target)
   list(TRANSFORM ARGN REPLACE "^include/(.*)$" "#include <\\1>" OUTPUT_VARIABLE lines)
   list(JOIN lines "\n" lines)
@@ -104,8 +105,8 @@ function(wavebalance_export_headers target)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-attributes>)
 endfunction()
 
-# wavebalance_use_private_parts(test <modules>): lets the test reach what shared libraries of these modules do not export.
-# It then has their objects beside the libraries.
+# wavebalance_use_private_parts(test <modules>): lets the test use parts that shared libraries of these modules do not
+# export. It then links their objects in addition to the libraries.
 function(wavebalance_use_private_parts test)
   if(NOT BUILD_SHARED_LIBS OR NOT TARGET ${test})
     return()

@@ -1,4 +1,4 @@
-# What is installed beside libraries and headers, the Debian package, and the target that builds all of it.
+# Installed parts in addition to libraries and headers, the Debian package, and the target that builds all of it.
 
 # wavebalance_install_licence(component): every component says under which licences it is.
 function(wavebalance_install_licence component)
@@ -128,8 +128,8 @@ function(wavebalance_install_pages)
     DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT doc)
 endfunction()
 
-# wavebalance_add_other_packages(): the target wavebalance_packages makes what stands beside the Debian package: a package of
-# the component mpi, and a wheel of the Python package.
+# wavebalance_add_other_packages(): the target wavebalance_packages makes the other packages: a package of the
+# component mpi, and a wheel of the Python package.
 function(wavebalance_add_other_packages)
   set(folder ${PROJECT_SOURCE_DIR}/build)
   add_custom_target(wavebalance_packages DEPENDS wavebalance_installed)
@@ -158,7 +158,7 @@ what mpirun -n K wavebalance study needs beside the package wavebalance.")
   endif()
 endfunction()
 
-# wavebalance_install_dev(<components>): the component dev stands for all of these.
+# wavebalance_install_dev(<components>): the component dev depends on all of these.
 function(wavebalance_install_dev)
   install(CODE "
     foreach(component ${ARGN})

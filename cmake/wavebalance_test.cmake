@@ -13,8 +13,8 @@ function(wavebalance_add_test_headers)
   target_precompile_headers(wavebalance_test_headers PRIVATE <Eigen/Core> <gtest/gtest.h> <rapidcheck.h>)
 endfunction()
 
-# What all test programs share, compiled once: their headers, the factorizations that they hold results against, and the
-# settings of their process.
+# Common parts of all test programs, compiled once: their headers, reference factorizations, and the settings of their
+# process.
 function(wavebalance_add_test_parts)
   if(TARGET wavebalance_dense_algebra)
     return()
@@ -41,10 +41,10 @@ endfunction()
 # wavebalance_add_test(program SOURCES <files> [LINK <targets>] LABEL <label> [CASES <number>] [UNIT <name>]
 #                      [PROPERTIES <name> <value> ..])
 # adds GoogleTest files to `program`, which the first call declares. CTest runs each of their test suites in one process
-# under the name of the suite, with the label: to start a process takes longer than most cases do, and the cases of a
-# suite can share what one of them has solved. CASES of each property are tried, 100 by default. A suite has one label
-# within a program. The files of one folder are compiled as one source, or, where that takes too much memory, those of
-# one UNIT. `make check` builds and runs the suites with the label unit.
+# under the name of the suite, with the label: starting a process takes longer than most cases, and the cases of a suite
+# can share solutions. CASES of each property are tried, 100 by default. A suite has one label within a program. The
+# files of one folder are compiled as one source, or, if that needs too much memory, the files of one UNIT. `make check`
+# builds and runs the suites with the label unit.
 function(wavebalance_add_test program)
   if(NOT WAVEBALANCE_BUILD_TESTS)
     return()
@@ -84,7 +84,7 @@ function(wavebalance_add_test program)
   foreach(suite IN LISTS suites)
     add_test(NAME ${suite} COMMAND ${program} "--gtest_filter=${suite}.*:*/${suite}.*:${suite}/*")
     # GoogleTest passes where a filter matches no case. A suite is skipped where all of its cases are. OpenBLAS, which
-    # computes with one thread in tests, starts no others then, beside which malloc would lock.
+    # computes with one thread in tests, then starts no others, which would make malloc lock.
     set_tests_properties(${suite} PROPERTIES LABELS "${T_LABEL};${room_of_${suite}}" TIMEOUT ${timeout}
       ENVIRONMENT "RC_PARAMS=${parameters};OPENBLAS_NUM_THREADS=1"
       FAIL_REGULAR_EXPRESSION "Running 0 tests from 0 test suites"

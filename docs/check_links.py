@@ -34,7 +34,7 @@ class Page(HTMLParser):
 
 
 def check_address(address, file, pages, folder, loaded):
-    """What is wrong with one address in the page `file`, or nothing."""
+    """The fault of one address in the page `file`, or nothing."""
     parts = urlsplit(address)
     if parts.scheme or parts.netloc:
         return f"loads {address} from elsewhere" if loaded and parts.scheme != "data" else None

@@ -1,5 +1,5 @@
-# Finds what the Python package needs and sets `build_python`. By default, with WAVEBALANCE_BUILD_PYTHON=AUTO, it is built
-# where all of that is there; else what is missing is said and the rest is built.
+# Finds what the Python package needs and sets `build_python`. By default, with WAVEBALANCE_BUILD_PYTHON=AUTO, it is
+# built if all of that is found; otherwise a message names the missing parts and the rest is built.
 function(wavebalance_has_scipy result program)
   execute_process(COMMAND ${program} -c "import numpy, scipy.sparse" RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
   if(failed)
@@ -10,8 +10,8 @@ endfunction()
 if(NOT WAVEBALANCE_BUILD_APP)
   set(missing "it needs WAVEBALANCE_BUILD_APP")
 else()
-  # A build by pip says which Python it is, whose packages it does not have while it builds. Otherwise the first python3
-  # of the PATH may be one without NumPy, beside the system's with it.
+  # A build by pip names its Python, without its packages during the build. Otherwise the first python3 of the PATH may
+  # lack NumPy while the system's has it.
   if(DEFINED SKBUILD AND DEFINED Python_EXECUTABLE)
     set(WAVEBALANCE_PYTHON ${Python_EXECUTABLE})
   endif()

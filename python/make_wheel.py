@@ -3,7 +3,7 @@
     make_wheel.py PACKAGE VERSION README FOLDER
 
 PACKAGE is the folder `wavebalance` with its compiled module, as the component `python` installs it. The wheel is for the
-interpreter that runs this script, on the system where it was built: shared libraries stay those of the system.
+interpreter that runs this script, on the system where it was built: it uses the shared libraries of the system.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ else()
   set(rooms_of_compare app/compare)
   set(rooms_of_laws app/scene)
   set(rooms_of_structures app/compose app/matrices)
-  # What a user sees, through the command and the package, without a compiler. Full campaigns of random structures take minutes.
+  # Tests through the command and the package, without a compiler. Full campaigns of random structures take minutes.
   foreach(topic scenes analyses command compare laws recipes structures impacts friction mixtures extremes tolerance)
     file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${topic}/*_test.py)
     foreach(test IN LISTS tests)
@@ -62,12 +62,12 @@ else()
       wavebalance_add_python_test(cases_of_others_${name} LABEL reference COMMAND -m pytest -q -p no:cacheprovider --rootdir ${folder} ${folder}/${name}.py)
     endforeach()
   endif()
-  # What every page shows in a browser; skipped where chromium is absent.
+  # Pages in a browser; skipped without chromium.
   file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/pages/*_test.py)
   foreach(test IN LISTS tests)
     get_filename_component(name ${test} NAME_WE)
     wavebalance_add_python_test(pages_${name} LABEL paper COMMAND -m pytest -q -p no:cacheprovider --rootdir ${PROJECT_SOURCE_DIR}/tests/pages ${test})
-    set_tests_properties(python.pages_${name} PROPERTIES TIMEOUT 600 RESOURCE_LOCK chromium)  # a minute alone, which takes both cores
+    set_tests_properties(python.pages_${name} PROPERTIES TIMEOUT 600 RESOURCE_LOCK chromium)  # a minute on both cores
   endforeach()
 endif()
 file(GLOB examples CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/examples/*.py)
@@ -82,7 +82,7 @@ foreach(notebook IN LISTS notebooks)
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/run_notebook.py ${notebook})
 endforeach()
 
-# The component alone is a whole package.
+# The component is a complete package.
 add_test(NAME python.installed_package_runs COMMAND ${CMAKE_COMMAND} -D build=${PROJECT_BINARY_DIR}
   -D stage=${CMAKE_CURRENT_BINARY_DIR}/stage -D folder=${WAVEBALANCE_PYTHON_DIR} -D python=${Python_EXECUTABLE}
   -D version=${PROJECT_VERSION} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/run_installed.cmake)

@@ -1,4 +1,4 @@
-"""What the tests of scenes share: the command as a user runs it, and small structures as files."""
+"""Common parts of the tests of scenes: the command as a user runs it, and small structures as files."""
 
 import json
 import os
@@ -14,12 +14,12 @@ SCENES = ROOT / "reproduce" / "scenes"
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("WAVEBALANCE_COMMAND", str(ROOT / "build" / "default" / "wavebalance"))
 os.environ.pop("LD_PRELOAD", None)  # of sanitizers, which this process has loaded and the command has built in
-if "PYTHONPATH" not in os.environ:  # CTest names the package of its own build
+if "PYTHONPATH" not in os.environ:  # CTest names the package of its build
     sys.path.insert(0, str(ROOT / "build" / "default" / "python"))
 
 
 class Record:
-    """What one call of the command left: its exit code, its texts and, where it wrote one, its results folder."""
+    """Result of one call of the command: its exit code, its texts and, where it wrote one, its results folder."""
 
     def __init__(self, ended, folder):
         self.code = ended.returncode

@@ -116,7 +116,7 @@ class NearMotion:
         return False
 
     def distance(self):
-        """Of the displacements along the contacts from those given, relative to the largest vibration."""
+        """Distance of the displacements along the contacts from the given ones, relative to the largest vibration."""
         flow, n = self.flow, self.flow.size
         spacing = flow.period / self.points
         first = int(np.ceil(self.begin / spacing))

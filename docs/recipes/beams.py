@@ -1,4 +1,4 @@
-"""Matrices of straight beams that bend: what the recipes have in place of a finite element program."""
+"""Matrices of straight beams in bending, instead of a finite element program."""
 import numpy as np
 from scipy.io import mmwrite
 from scipy.sparse import csc_matrix

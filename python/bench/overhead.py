@@ -1,4 +1,4 @@
-"""What a call from Python costs beside the work that it starts.
+"""Cost of a call from Python compared with the work that it starts.
 
     PYTHONPATH=build/default/python python3 python/bench/overhead.py
 

@@ -1,4 +1,4 @@
-"""Which basis, and how many functions? Measured on a scene, and on a structure of one's own."""
+"""Which basis, and how many functions? Measured on a scene, and on a structure in memory."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ found = wb.compare(structure.scene(stop, frequency=30.0), pairs=["fourier:fourie
 print(found.text)
 assert found.converged
 table = {name: np.asarray(values) for name, values in found.table.items()}
-assert set(np.unique(table["trial"])) == {"fourier", "daubechies6", "bspline", "phases"}  # contact phases beside the pairs
+assert set(np.unique(table["trial"])) == {"fourier", "daubechies6", "bspline", "phases"}  # with exact solutions
 
 # Errors of the displacement fall with the functions in each of them.
 reference = wb.forced_response(structure, stop, 30.0, wb.Pair("fourier", 2047, 8192)).motion(1024).displacement

@@ -14,7 +14,7 @@ shaft = 2e4  # N m/rad
 stiffness = shaft * np.array([[1, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]], dtype=float)
 teeth = np.array([[0.0, radius[0], -radius[1], 0.0]])  # m/rad: the line of action
 damping = 1e-5 * stiffness + 80.0 * teeth.T @ teeth  # N m s/rad; oil between the teeth
-torque = 20.0  # N m of the motor; the machine takes it at the other speed
+torque = 20.0  # N m of the motor; the machine's torque balances it
 mean = torque * np.array([1.0, 0.0, 0.0, -radius[1] / radius[0]])
 varying = np.array([40.0, 0.0, 0.0, 0.0])
 

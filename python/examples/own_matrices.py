@@ -1,4 +1,4 @@
-"""A structure of one's own: from SciPy's matrices to a curve with its stability, and the balance of its power."""
+"""Your own structure: from SciPy's matrices to a curve with its stability, and the balance of its power."""
 
 import numpy as np
 import scipy.sparse as sp
@@ -21,7 +21,7 @@ assert curve.converged and len(folds) == 2
 unstable = curve.frequency[curve.unstable > 0]
 assert min(folds) - 1e-3 < unstable.min() and unstable.max() < max(folds) + 1e-3
 
-# What the load does in a period, the damping dissipates: the stop is elastic.
+# The damping dissipates the work of the load: the stop is elastic.
 for point in (0, int(np.argmax(curve.max_displacement)), len(curve) // 2, len(curve) - 1):
     motion = curve.response(point).structure_motion(1024)
     velocity = motion.velocity

@@ -48,7 +48,7 @@ motion = response.motion(2048)
 np.testing.assert_allclose(motion.force[0], motion.force[1], atol=1e-6 * np.abs(motion.force).max())
 half = np.roll(motion.displacement[0], 1024)
 np.testing.assert_allclose(motion.displacement[0], -half, atol=1e-6 * np.abs(half).max())
-# What the flow does in a period, the damping dissipates.
+# The damping dissipates the work of the flow in a period.
 whole = response.structure_motion(2048)
 supplied = np.mean(np.cos(2 * np.pi * whole.time) * (load @ whole.velocity))
 dissipated = np.mean(np.sum(whole.velocity * (C @ whole.velocity), axis=0))

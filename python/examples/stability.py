@@ -27,7 +27,7 @@ def rate(time, state):
     return [state[1], force - damping * state[1] - state[0]]
 
 
-# Started beside each motion, the structure stays at the first and the third, and leaves the second.
+# Started near each motion, the structure stays at the first and the third, and leaves the second.
 for motion, stability in zip(motions, stabilities):
     at = motion.motion(1024)
     start = np.array([at.displacement[0, 0], at.velocity[0, 0]])

@@ -27,8 +27,8 @@ struct Structure : solvers::LinearStructure {
   Eigen::MatrixXd recovery = {};
 };
 
-/// A structure with its pair of bases, for any laws. Threads of Python may share it. Its user holds the
-/// mutex `alone`, without the lock of the interpreter.
+/// A structure with its pair of bases, for any laws. Threads of Python may share it. Its user locks the
+/// member `alone`, without the lock of the interpreter.
 class Problem {
  public:
   Problem(solvers::CondensedProblem problem, Eigen::MatrixXd recovery)

@@ -93,7 +93,7 @@ def test_the_default_pair_passes_samples_of_a_symmetric_law_that_graze_together(
 
 
 def test_a_curve_that_is_unstable_everywhere_says_so(oscillator):
-    # Beyond the lower fold the branch between both folds alone.
+    # Only the branch between both folds, beyond the lower fold.
     whole = wb.frequency_sweep(oscillator(load=0.3, damping=0.05), wb.Cubic(1.0), 0.1, 0.4, wb.Pair("fourier", 15, 64))
     assert not any("All motions" in text for text in whole.warnings)
 

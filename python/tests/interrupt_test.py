@@ -1,4 +1,4 @@
-"""Ctrl-C ends a solve, and other threads run beside one."""
+"""Ctrl-C ends a solve, and other threads run during one."""
 
 import signal
 import subprocess

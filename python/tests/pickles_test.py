@@ -1,4 +1,4 @@
-"""Structures, laws, responses and curves in pickles and copies, as pools of processes take them."""
+"""Structures, laws, responses and curves in pickles and copies, as pools of processes need them."""
 
 import copy
 import pickle

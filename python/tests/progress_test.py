@@ -1,4 +1,4 @@
-"""What long work does is shown while it lasts."""
+"""Progress of long work is shown."""
 
 import numpy as np
 import pytest

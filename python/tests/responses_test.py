@@ -1,4 +1,4 @@
-"""Responses of structures of one's own against other solutions."""
+"""Responses of structures in memory compared with other solutions."""
 
 import numpy as np
 import pytest
@@ -116,7 +116,7 @@ def test_a_rigid_obstacle_at_a_redistributed_mass_is_met_and_the_structure_is_re
     assert everywhere.displacement.shape == (3, 256)
     size = np.abs(everywhere.displacement).max()
     np.testing.assert_allclose(everywhere.displacement[2], response.motion(256).displacement[0], atol=1e-9 * size)
-    # The period mean is that of the static structure under the mean contact force.
+    # The period mean is the static deflection under the mean contact force.
     mean = np.linalg.solve(stiffness.toarray(), -response.contact_force.mean() * np.array([0.0, 0.0, 1.0]))
     np.testing.assert_allclose(everywhere.displacement.mean(axis=1), mean, atol=1e-9 * size)
 

@@ -1,4 +1,4 @@
-# Installs the component python of `build` alone below `stage` and solves a scene with it, far from the sources.
+# Installs only the component python of `build` below `stage` and solves a scene with it, far from the sources.
 file(REMOVE_RECURSE ${stage})
 file(MAKE_DIRECTORY ${stage}/elsewhere)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${build} --component python --prefix ${stage}

@@ -1,4 +1,4 @@
-"""Scenes from Python are those of the command."""
+"""Scenes from Python equal scenes of the command."""
 
 import csv
 import json

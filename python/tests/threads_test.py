@@ -1,4 +1,4 @@
-"""Threads of Python that solve beside each other."""
+"""Threads of Python that solve at the same time."""
 
 import threading
 

@@ -21,7 +21,7 @@ def squeeze_film(u, v):
 
 
 def stretched(u):
-    """Of a ring with friction, away from its center."""
+    """Force of a ring with friction, away from its center."""
     r = np.hypot(*u)
     w = 5e3 * np.maximum(1.0 - 1e-3 / np.maximum(r, 1e-12), 0.0)
     return w * np.array([u[0] - 0.2 * u[1], u[1] + 0.2 * u[0]])

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Computes a case of others: runs its scenes by the command, compares what they hold with what is known, and leaves picture,
-table and record for the page. A case is a TOML file beside this one; README.md of `reproduce` says what it holds."""
+"""Computes a case of others: runs its scenes by the command, compares the results with known values, and writes
+picture, table and record for the page. A case is a TOML file next to this one; README.md of `reproduce` describes
+it."""
 
 import argparse
 import cmath
@@ -56,11 +57,11 @@ class Run:
             return [{name: number_or_text(cell) for name, cell in row.items()} for row in csv.DictReader(stream)]
 
     def picture(self):
-        """The main picture: that of the curve or of the period."""
+        """The main picture: the curve or the period."""
         return next(name for name in ("sweep", "response", "backbone") if (self.folder / f"{name}.svg").exists())
 
     def names(self, file=None, row=None):
-        """What an expression may use: the summary, or a row of one of its tables, and columns of CSV files."""
+        """Names in an expression: the summary, or a row of one of its tables, and columns of CSV files."""
         def column(name, file=file or f"{self.picture()}.csv", **where):
             return [one[name] for one in self.rows(file) if all(one[key] == value for key, value in where.items())]
 
@@ -113,8 +114,8 @@ class Case:
         self.runs = {}
 
     def run(self, name="main", at=None, along=()):
-        """A run of `[runs]`; "main" is the scene as it stands. `at`: the forced response at a frequency in the case's unit;
-        `along`: with the motions of the curve at some."""
+        """A run of `[runs]`; "main" is the unchanged scene. `at`: the forced response at a frequency in the case's
+        unit; `along`: with the motions of the curve at some."""
         asked = self.text.get("runs", {}).get(name, {})
         scene, arguments = asked.get("scene", self.scene), list(asked.get("arguments", []))
         if along:
@@ -129,7 +130,7 @@ class Case:
         return self.runs[key]
 
     def value(self, asked, got, index, at):
-        """What a run has for an expression; `along` counts the motions of the curve at one frequency in its order."""
+        """Values of a run for an expression; `along` counts the motions of the curve at one frequency in its order."""
         name = asked.get("run", "main")
         if "along" not in asked:
             return evaluated(got, self.run(name, at).names())
@@ -236,7 +237,7 @@ def printed(rows):
 
 
 def notes_of(case, rows):
-    """Where the case is from, what was found beside it, and remarks."""
+    """Source of the case, further findings, and remarks."""
     notes = [case.text["source"], *case.text.get("notes", [])]
     others = [f"{row.quantity} {number(row.computed, row.digits)}" for row in rows if row.given is None]
     if others:

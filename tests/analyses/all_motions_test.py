@@ -19,7 +19,7 @@ import wavebalance
 
 # Two stable motions and an unstable one between the folds at 0.1699 and 0.1957 Hz.
 STIFF = {"contact.stiffness": 4.0, "forcing.amplitude": 0.15}
-# At 2.6 rad/s the motion of one period is unstable, and that of two is written over both of them.
+# At 2.6 rad/s the motion of one period is unstable, and the motion of two is written over both of them.
 DOUBLED = {"structure.stiffness_damping": 0.1, "contact.stiffness": 10.0, "contact.gap": 0.1, "forcing.amplitude": 0.8,
            "forcing.frequency": 0.4138028520389279}
 BY_BALANCE = {**STOP_MOTIONS, "time": {**FOURIER, "functions": 255, "quadrature_points": 4096},
@@ -93,7 +93,7 @@ def test_motions_of_two_periods_are_written_with_their_period():
     response = solved(BY_BALANCE, two, start_from=folder_of(record) / "motion_1.csv")
     assert response.converged, response.status
     assert response.summary["start_distance"] < 1e-3 and response.summary["period_of_motion"] == 2
-    # A motion of two periods starts none of one; that of one does.
+    # A motion of two periods is no start for one; a motion of one is.
     with pytest.raises(ValueError, match="motion_1.csv is a motion of 2 periods of the load"):
         wavebalance.run(BY_BALANCE, {**STIFF, **DOUBLED}, start_from=folder_of(record) / "motion_1.csv")
     assert solved(BY_BALANCE, {**STIFF, **DOUBLED}, start_from=folder_of(record) / "motion_2.csv").converged

@@ -39,7 +39,7 @@ def hammer(matrix):
 
 
 def test_periods_double_where_they_do_by_exact_flights(run, hammer):
-    """From right to left 1, 2, 4 periods and none; each section is that of the flights."""
+    """From right to left 1, 2, 4 periods and none; each section agrees with the flights."""
     record = run(STRUCTURE + DIAGRAM, set=["analysis.amplitude_from=38.0", "analysis.amplitude_to=28.0", "analysis.values=11",
                                            "analysis.both_ways=false", "analysis.exact_curve=false"])
     assert record.code == 0, record.errors

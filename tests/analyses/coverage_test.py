@@ -11,7 +11,7 @@ MESH = '[[contact.pairs]]\ndofs = [1]\nlaw = "periodic_stiffness"\nstiffness = 0
 PUSH = "[[forcing.terms]]\ndofs = [1]\namplitude = 0.3\n"
 TURNS = '[[forcing.terms]]\nkind = "unbalance"\ndofs = [1, 2]\namplitude = 0.3\n'
 SHAKES = '[[forcing.terms]]\nkind = "base_acceleration"\ndofs = [1]\nunit = "g"\namplitude = 0.03\n'
-# Of the structure, the contact, the load, and the outputs.
+# Changes of the structure, the contact, the load, and the outputs.
 FEATURES = {
     "unbalance": ("", STOP, TURNS, []),
     "gyroscopic": ('gyroscopic = "g.mtx"\n', STOP.replace("0.4", "0.2"), PUSH, []),
@@ -47,7 +47,7 @@ ANALYSES = {
 }
 WITHOUT_LOAD = {"nonlinear mode", "limit cycle"}
 OVER_AMPLITUDE = {"amplitude sweep", "exact amplitude sweep", "diagram over the amplitude"}
-# What is refused, and the key that the message names.
+# Refused combinations, and the key that the message names.
 REFUSED = {
     **{(one, name): key for one in OVER_AMPLITUDE for name, key in (
         ("table of a term", "forcing.terms[1].amplitude_table"), ("table of the force", "forcing.amplitude_table"),
@@ -132,7 +132,7 @@ def test_studies_and_comparisons_take_each(feature, tmp_path):
 
 
 def test_statistics_are_displacements_in_si_units_whatever_the_output(tmp_path):
-    """Of a motion that has not settled in the periods that it is given."""
+    """Record of a motion that has not converged in its periods."""
     keys = {"analysis.max_periods": 33, "analysis.recorded_periods": 64, "analysis.tolerance": 1e-12}
     tables = []
     for asked in ("row 2", "row 2 in mm", "velocity of row 2 in mm/s"):

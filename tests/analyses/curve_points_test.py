@@ -82,7 +82,7 @@ AT_ALL = {"frequency_sweep": (STOP, ["peak", "special", 0.18, 0.24]),
 
 @pytest.mark.parametrize("kind, unit, axis, names, tolerance", [
     ("frequency_sweep", "Hz", "frequency", ["0.18Hz_1", "0.18Hz_2", "0.18Hz_3", "0.24Hz"], {"abs": 1e-6}),
-    # Motions are those of the balance, turning points those of the structure.
+    # Motions belong to the balance, turning points to the exact curve.
     ("amplitude_sweep", "N", "amplitude", ["0.05N", "0.5N"], {"rel": 1e-4}),
 ])
 def test_motions_of_a_curve_are_those_of_the_peak_the_folds_and_the_places_given(kind, unit, axis, names, tolerance):
@@ -119,7 +119,7 @@ def test_motions_have_the_instants_of_contact_in_the_summary_and_in_their_pictur
     assert set(record.summary["motions"]["phases_status"]) == {"converged"}
 
 
-# STOP as the integration from event to event takes it.
+# STOP for the integration from event to event.
 MIXTURE = {"mass": np.eye(1), "damping": 0.05 * np.eye(1), "stiffness": np.eye(1), "omega": 2.0 * math.pi * 0.18,
            "load": np.array([0.2]), "contacts": [{"law": "stop", "direction": np.ones(1), "stiffness": 2.0, "gap": 1.0}]}
 

@@ -5,7 +5,7 @@ import pytest
 import wavebalance as wb
 from rods_and_bars import ROD, figure_of, labels_of
 
-STOP = 1e9  # N/m, five times that of the rod
+STOP = 1e9  # N/m, five times the rod's
 ELASTIC = {**ROD, "contact": {"law": "linear", "stiffness": STOP, "gap": 1e-3}}
 STOPPED = {**ROD, "contact": {"law": "linear", "stiffness": 5e8, "gap": 1e-3}}
 PLAIN = {"analysis.stability": False}
@@ -56,7 +56,7 @@ def frequency(trial, weight, functions):
 
 @pytest.fixture(scope="module")
 def fine_frequency():
-    """That of 127 Fourier functions."""
+    """Response with 127 Fourier functions."""
     return frequency("fourier", "fourier", 127)
 
 

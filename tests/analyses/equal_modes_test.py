@@ -11,7 +11,7 @@ TOWARDS = np.array([0.6, 0.8, 0.0])
 
 
 def round_mass(apart, **analysis):
-    """A mass of 2 kg on springs along x and y, equal but for `apart`, against a stop; and a third mass beside them."""
+    """A mass of 2 kg on springs along x and y, equal but for `apart`, against a stop; and a third mass."""
     return {
         "structure": {"type": "matrices", "mass": MASS, "stiffness": np.diag([1e6, 1e6 * (1.0 + apart), 9e6])},
         "contact": {"law": "linear", "stiffness": 1e7, "gap": 1e-4,
@@ -38,7 +38,7 @@ def test_equal_modes_are_one_towards_the_stop_and_one_that_never_touches(tmp_pat
     assert abs(TOWARDS @ shapes[:, 0]) == pytest.approx(np.sqrt(0.5), abs=1e-6)
     assert TOWARDS @ shapes[:, 1] == pytest.approx(0.0, abs=1e-6)
     assert shapes.T @ MASS @ shapes == pytest.approx(np.eye(2), abs=1e-10)
-    with pytest.raises(ValueError, match="mode 3 does not move any contact point"):  # that of the third mass
+    with pytest.raises(ValueError, match="mode 3 does not move any contact point"):  # of the third mass
         wb.run(round_mass(1e-8, mode=3, energy_ratio=0.25))
 
 

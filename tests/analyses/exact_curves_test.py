@@ -50,7 +50,7 @@ def test_an_exact_curve_refuses_by_name_what_it_does_not_do(key, value):
 
 
 def expect_points_of(structure, exact, axis):
-    """Every special point of the exact curve is among those of the structure that the ordinary one tells, once.
+    """Every bifurcation point of the exact curve is once among the exact points that the ordinary sweep reports.
 
     Those have motions by phases with an estimated error of at most 1e-6.
     """

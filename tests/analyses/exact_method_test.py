@@ -1,4 +1,4 @@
-"""time.method = "exact" beside time stepping and the balance."""
+"""time.method = "exact" compared with time stepping and the balance."""
 
 import numpy as np
 import pytest

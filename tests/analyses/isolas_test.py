@@ -1,4 +1,4 @@
-"""Curves beside the one that a sweep follows, analysis.isolas, of an oscillator with a stop."""
+"""Isolated branches of an oscillator with a stop, analysis.isolas."""
 
 import numpy as np
 import pytest

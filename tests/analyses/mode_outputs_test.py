@@ -69,7 +69,7 @@ def test_below_contact_outputs_are_those_of_the_linear_mode():
     linear = np.array(table["status"]) == "linear"
     expected = np.sqrt(table["energy_ratio"][linear]) * 1e-3
     for values, share in zip(vibrations(table), np.abs(shape)):
-        # The extremes are those of 1024 samples, of which some lie at the turns.
+        # The extremes are taken from 1024 samples, some of which are at the turns.
         assert values[linear] == pytest.approx(share * expected, rel=ROUNDING)
     assert summary["row_1_at_onset_m"] == pytest.approx(abs(shape[0]) * 1e-3, rel=ROUNDING)
     assert summary[TIP] == np.nanmax(table[TIP])

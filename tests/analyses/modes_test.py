@@ -98,7 +98,7 @@ def test_a_curve_below_its_energy_at_the_last_frequency_has_converged_and_says_s
     assert "last_frequency_ratio is reached" in record.status
 
 
-# Some points of the rod cycle with 40 samples for 15 harmonics, beside internal resonances.
+# Some points of the rod cycle with 40 samples for 15 harmonics, near internal resonances.
 def test_points_without_a_motion_are_a_warning_with_their_number_and_places():
     record = wb.run(ROD, {"analysis.harmonics": 15, "analysis.samples": 40, "analysis.points": 100})
     failed = sum(record.summary[f"points_{kind}"] for kind in ("cycling", "no_contact", "singular"))

@@ -63,7 +63,7 @@ class RigidTip:
         return state, closed
 
     def displacement(self, tolerance=1e-11, most_periods=1000):
-        """Of the tip, at uniform instants of the period; periods are run from rest until the state repeats."""
+        """Motion of the tip at uniform instants of the period; periods are run from rest until the state repeats."""
         state, closed, found = np.eye(2 * self.n + 3)[-2], 0, np.empty(self.points)
         for _ in range(most_periods):
             before = state

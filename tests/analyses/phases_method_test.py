@@ -1,4 +1,4 @@
-"""The motion of the structure itself in place of a balance: time.method = "exact", and small tolerances."""
+"""Exact solutions instead of a balance: time.method = "exact", and small tolerances."""
 
 import tomllib
 

@@ -1,4 +1,4 @@
-"""What the record of a curve says of the motions of the structure near its points."""
+"""Exact solutions near points of a curve in its record."""
 
 import numpy as np
 import pytest

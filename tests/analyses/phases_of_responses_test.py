@@ -34,7 +34,7 @@ def test_phases_have_the_stability_that_the_record_names():
 
 @pytest.fixture(scope="module")
 def two_masses():
-    """Records of two masses with short contacts: one motion is settled to, and the others start from it."""
+    """Records of two masses with short contacts: one motion is an attractor, and the others start from it."""
     settled = solved(TWO_MASSES, {"time.functions": 127})
     start = folder_of(settled) / "contacts.csv"
 
@@ -97,7 +97,7 @@ def test_phases_tell_the_error_up_to_their_own():
 
 
 def test_phases_of_many_contacts_are_found():
-    """What the panels of the phases do not resolve, the flow does."""
+    """Event-driven integration resolves motions that collocation panels do not."""
     record = solved(SCENES / "matrices" / "cantilevers.toml")
     assert record.converged, record.status
     assert record.summary["phases_status"] == "converged" and record.summary["stability_by"] == "phases"

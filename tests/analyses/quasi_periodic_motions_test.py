@@ -112,7 +112,7 @@ def test_a_diagram_has_second_frequency_and_envelope_of_each_value(run, flutter,
         assert float(row["contact_1_max_m"]) == pytest.approx(by_scipy[0].max(), rel=2e-3)
         assert float(row["row_2_min_m"]) == pytest.approx(by_scipy[1].min(), rel=2e-3)
         assert float(row["curve_residual"]) < 1e-3
-    # The flutter keeps its frequency as that of the load changes, so that both differ by a multiple of the load's.
+    # The flutter keeps its frequency as the forcing frequency changes, so that both differ by a multiple of the latter.
     flutters = [[abs(k * FREQUENCY * factor + sign * float(row["second_frequency_Hz"])) for k in (0, 1) for sign in (1, -1)]
                 for row, factor in ((rows[0], 1.0), (rows[1], 1.01))]
     assert min(abs(a - b) for a in flutters[0] for b in flutters[1]) < 1e-3

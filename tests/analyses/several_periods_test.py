@@ -26,7 +26,7 @@ SIXTY_THREE = {"time.trial": "fourier", "time.weight": "fourier", "time.function
 
 
 def test_a_motion_of_two_periods_of_the_load_is_one():
-    """At 2.7 rad/s. Of both halves of the time one load period is the other's but for the doubling."""
+    """At 2.7 rad/s. Both halves of the time, one forcing period each, are equal except for the doubling."""
     record = solved(OSCILLATOR, {"analysis.subharmonic": 2, "analysis.output_points": 2048})
     summary = record.summary
     assert record.converged, record.status
@@ -35,7 +35,7 @@ def test_a_motion_of_two_periods_of_the_load_is_one():
     assert summary["change_after_one_period"] > 1.0 and summary["stability"] == "stable"
     assert figure_of(record)["panels"][0]["x"]["label"] == "Time (fraction of 2 forcing periods)"
     u, v = record.response["displacement_m"], record.response["velocity_m_per_s"]
-    step = 2.0 * TWO_PI / 2.7 / 2048  # the velocity is that of the time column
+    step = 2.0 * TWO_PI / 2.7 / 2048  # the velocity follows the time column
     np.testing.assert_allclose((u[2::97] - u[:-2:97]) / (2.0 * step), v[1:-1:97], rtol=0.0, atol=1e-3)
 
 
@@ -184,7 +184,7 @@ def test_a_curve_warns_that_motions_become_quasi_periodic_at_neimark_sacker_poin
 
 
 def test_a_curve_warns_of_neimark_sacker_points_on_branches_too():
-    """That of two periods which begins just after contact does, at 2734.17 Hz."""
+    """Motion of two periods that begins just after contact, at 2734.17 Hz."""
     record = solved(JONES / "case2_sweep.toml", {**SIXTY_THREE, **BRANCHES, "time.quadrature_points": 512,
                                                  "contact.gap": 1e-4, "structure.stiffness_damping": 1.25e-6,
                                                  "analysis.frequency_from": 2550, "analysis.frequency_to": 3000})

@@ -34,7 +34,7 @@ STOP = {
     "time": {**FOURIER, "functions": 63, "quadrature_points": 1024},
     "analysis": {"type": "frequency_sweep", "frequency_from": 0.13, "frequency_to": 0.25},
 }
-# The same from 0.05 to 0.5 N at 0.18 Hz, at 0.18 Hz alone, and all its motions there.
+# The same from 0.05 to 0.5 N at 0.18 Hz, only at 0.18 Hz, and all its motions there.
 STOP_AMPLITUDE = {**STOP, "analysis": {"type": "amplitude_sweep", "amplitude_from": 0.05, "amplitude_to": 0.5}}
 STOP_RESPONSE = {**STOP, "analysis": {"type": "forced_response"}}
 STOP_MOTIONS = {**{key: STOP[key] for key in ("structure", "contact", "forcing")}, "analysis": {"type": "motions"}}
@@ -84,7 +84,7 @@ ZIGZAG = {
     "analysis": {"type": "frequency_sweep", "frequency_from": 3.506, "frequency_to": 14.32},
 }
 
-#: Of sweep.csv, of one contact.
+#: Columns of sweep.csv for one contact.
 COLUMNS_OF_A_CURVE = ["frequency_Hz", "max_displacement_m", "rms_displacement_m", "min_displacement_m",
                       "max_abs_displacement_m", "max_contact_force_N", "contact_fraction", "vibration_m",
                       "rms_vibration_m", "unstable", "contacts"]
@@ -150,7 +150,7 @@ def refusal(scene, overrides=None, unset=()):
 
 
 def figure_of(record, name=None):
-    """A picture of a record as its page holds it; by default that of its motion or curve."""
+    """A picture of a record as in its page; by default of its motion or curve."""
     (first,) = [name] if name else [one for one in ("response", "sweep") if getattr(record, one)]
     text = (folder_of(record) / f"{first}.figure.js").read_text()
     return json.loads(text[text.index("] = {") + 4 :].rstrip("; \n"))

@@ -26,8 +26,8 @@ def solved(contact, **analysis):
 
 
 def period_of(amplitude, potential, steps=200000):
-    """The period of u'' + u + f(u) = 0 of an amplitude by the energy, 4 int du / sqrt(2 (V(a) - V(u))), where
-    the substitution u = a sin(t) takes the end's singularity away."""
+    """The period of u'' + u + f(u) = 0 of an amplitude by the energy, 4 int du / sqrt(2 (V(a) - V(u))), where the
+    substitution u = a sin(t) removes the singularity at the end."""
     angle = 0.5 * np.pi * (np.arange(steps) + 0.5) / steps
     slowness = amplitude * np.cos(angle) / np.sqrt(2.0 * (potential(amplitude) - potential(amplitude * np.sin(angle))))
     return 2.0 * np.pi * slowness.mean()
@@ -38,7 +38,7 @@ def test_the_mode_has_the_frequency_of_duffings_oscillator_at_each_energy():
     energies, ratios = record.backbone["energy_ratio"], record.backbone["frequency_ratio"]
     assert len(energies) > 20 and energies[-1] > 3.9
     for energy, ratio in zip(energies[::5], ratios[::5]):
-        # Energy 1 is that of the linear mode of amplitude 1, 0.5 J: V(a) = a^2 / 2 + a^4 / 8.
+        # Energy 1 belongs to the linear mode of amplitude 1, 0.5 J: V(a) = a^2 / 2 + a^4 / 8.
         amplitude = np.sqrt(2.0 * (np.sqrt(1.0 + energy) - 1.0))
         period = period_of(amplitude, lambda u: 0.5 * u**2 + 0.125 * u**4)
         assert ratio == pytest.approx(2.0 * np.pi / period, abs=1e-7), energy
@@ -73,8 +73,9 @@ def test_a_length_is_needed_where_no_gap_is_one_and_no_other_is_taken(contact, a
 
 
 def test_the_mode_has_the_damping_that_a_stop_takes_over_the_amplitude():
-    """u'' + u + f = 0 with f = 3 (u - 1/2) + c u' beyond the stop: the work of the damper over a period is that of the
-    artificial damping, xi times the mean square of the velocity, so that the amplitude of a free motion decays so."""
+    """u'' + u + f = 0 with f = 3 (u - 1/2) + c u' beyond the stop: the work of the damper over a period equals the
+    work of the artificial damping, xi times the mean square of the velocity, which gives the decay of a free
+    motion."""
     fine = {"harmonics": 31, "samples": 2048}
     record = solved(DAMPED, **fine, largest_amplitude=6.0, points=40)
     assert "friction_work_J" not in record.backbone
@@ -83,7 +84,7 @@ def test_the_mode_has_the_damping_that_a_stop_takes_over_the_amplitude():
     assert damping[0] == pytest.approx(0.0, abs=1e-10)
     assert frequencies[0] == pytest.approx(1.0, abs=1e-9)
     assert ratios[-1] > 5.9 and damping[-1] > 0.003 and frequencies[-1] > 1.1
-    # One motion: what the damper takes is what the artificial damping gives.
+    # One motion: the damper dissipates the energy of the artificial damping.
     motion = solved(DAMPED, **fine, amplitude_ratio=3.0)
     force, velocity = motion.response["contact_force_N"], motion.response["velocity_m_per_s"]
     omega = 2.0 * np.pi * motion.summary["frequency_Hz"]

@@ -84,7 +84,7 @@ def test_a_sweep_lists_its_special_points_and_the_stability_of_each_point(solved
     assert len(figure_of(record, tmp_path, "sweep")["panels"][0]["series"]) == 6
 
 
-# With 256 points the lower fold, 0.002 Hz beside a grazing, is not among the folds found.
+# With 256 points the lower fold, 0.002 Hz from a grazing, is not among the folds found.
 def test_a_sweep_warns_where_its_turning_points_cannot_be_all(solved):
     record = solved("case2_sweep", time__quadrature_points=256)
     assert record.status == "reached_end"

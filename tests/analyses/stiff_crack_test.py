@@ -9,7 +9,8 @@ CLOSED, OPEN, DAMPING = 2e5, 4e3, 0.005  # N m, N m, modal damping ratio
 
 
 def beam():
-    """Mass and stiffness of 12 elements, with rotations of their own left and right of the crack; these two, and the tip."""
+    """Mass and stiffness of 12 elements, with separate rotations left and right of the crack; these two, and the
+    tip."""
     modulus, density, width, height, length, count, cracked = 2.1e11, 7850.0, 0.025, 0.01, 0.6, 12, 4
     inertia, area, h = width * height**3 / 12, width * height, length / count
     bent = np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h]])

@@ -63,7 +63,7 @@ def grid(amplitude):
 
 
 def unbalanced_forces(scene, motion):
-    """Of each row and harmonic of a motion at 128 instants, less its load; and those of the contacts."""
+    """Residual force of each row and harmonic of a motion at 128 instants, without its load; and the contact forces."""
     mass, stiffness = (scene["structure"][name] for name in ("mass", "stiffness"))
     squares, modes = scipy.linalg.eigh(stiffness, mass)
     damping = mass @ modes @ np.diag(0.02 * np.sqrt(squares)) @ modes.T @ mass  # modes without contact
@@ -93,7 +93,7 @@ def test_the_contacts_of_a_grid_are_reached_from_rest(amplitude, strategy, opens
     assert (np.abs(contact[:, 2:]).max() > 0.1) == opens
 
 
-# From rest this chain settles to a motion of the load's period, which 31 functions have no solution near.
+# From rest this chain converges to a motion with the forcing period, near which 31 functions have no solution.
 def test_a_balance_that_stalls_leaves_the_exact_motion_that_the_structure_settles_to(scenes):
     record = wb.run(scenes / CHAIN, {"contact.law": "exponential", "contact.constant": 1e5, "contact.exponent": 1e3,
                                      "contact.gap": -1e-3, "forcing.frequency": 45}, unset=["contact.stiffness"])

@@ -14,7 +14,7 @@ largest_step = 0.5"""
 
 @pytest.fixture
 def sweep(masses):
-    """The file of a sweep with a static load beside the harmonic one."""
+    """The file of a sweep with a static load in addition to the harmonic one."""
     masses.write_text(changed(CHAIN, ('type = "forced_response"', SWEEP),
                               ("[time]", "[[forcing.terms]]\nharmonic = 0\namplitude = 3.0\n[time]")))
     return masses

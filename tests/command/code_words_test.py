@@ -1,6 +1,9 @@
 """Names and comments of the code use the terms of the field; keys, statuses and columns keep their names."""
 
+import ast
+import io
 import re
+import tokenize
 from pathlib import Path
 
 import pytest
@@ -31,6 +34,35 @@ def test_types_have_names_of_the_field():
 def test_files_and_rooms_have_names_of_the_field():
     old = re.compile("phase|settl|stretch|contact_free|piece|tongue")
     assert [str(path) for path in PARTS if old.search(str(path))] == []
+
+
+def texts_of_script(path):
+    """Comments and docstrings of a Python file."""
+    text = path.read_text()
+    yield from (token.string for token in tokenize.generate_tokens(io.StringIO(text).readline) if token.type == tokenize.COMMENT)
+    yield from (ast.get_docstring(node) or "" for node in ast.walk(ast.parse(text))
+                if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)))
+
+
+ROOMS = [ROOT / room for room in ("app", "bench", "contact", "docs", "fem", "python", "reproduce", "solvers", "spectral",
+                                  "tests", "wavelets")]
+COMMENTS = [(path.relative_to(ROOT), parts(path)[1]) for room in ROOMS for path in sorted(room.rglob("*.[ch]pp"))]
+COMMENTS += [(path.relative_to(ROOT), "\n".join(texts_of_script(path)))
+             for room in ROOMS for path in sorted(room.rglob("*.py")) if path != Path(__file__)]
+
+
+@pytest.mark.parametrize("words", [
+    "[Tt]hat of", "[Tt]hose of", "stands? for", "side by side", "in place of", "sought", "what is said",
+    "(beside|alone)(?!`)", "held against", "of one's own"])
+def test_comments_of_all_files_use_plain_words(words):
+    pattern = re.compile(rf"\b{words}\b".replace(" ", r"(?:\s|//+|#)+"))
+    assert [str(path) for path, comments in COMMENTS if pattern.search(comments)] == []
+
+
+def test_no_comment_begins_with_of_or_what():
+    opening = re.compile(r'^(?:///?<? *)?(?:Of|What) ')
+    assert [str(path) for path, text in COMMENTS
+            if any(map(opening.match, re.split(r"\n(?!///? )", text)))] == []
 
 
 @pytest.mark.parametrize("words", ["contact-free", "contact phases", "held against", "leading contact", "of one's own",

@@ -14,7 +14,7 @@ VERSION = re.search(r"project\(wavebalance VERSION ([0-9.]+)", PROJECT).group(1)
 
 @pytest.fixture
 def check(command, tmp_path):
-    """What check says of the text of a scene that it accepts, with --set for each pair."""
+    """Output of check for the text of a valid scene, with --set for each pair."""
 
     def ask(text, *pairs):
         (tmp_path / "case.toml").write_text(text)

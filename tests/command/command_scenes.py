@@ -51,7 +51,7 @@ def changed(text, *pairs):
 
 
 def with_tolerance(tolerance):
-    """The bar with a tolerance in place of pair, functions and points."""
+    """The bar with a tolerance instead of pair, functions and points."""
     return BAR[:BAR.index("trial = ")] + f"tolerance = {tolerance}\n" + BAR[BAR.index("[analysis]"):]
 
 

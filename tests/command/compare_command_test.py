@@ -110,7 +110,7 @@ def test_no_file_that_no_record_lists_and_not_its_scene_is_replaced(command, tmp
     assert (tmp_path / "out" / "comparison.md").read_text() == "notes\n"
 
 
-# Small problems of sweeps take less than the time until the signal arrives, which may then be between two curves.
+# Small problems of sweeps end before the signal arrives, which may then be between two curves.
 @pytest.mark.parametrize("more, begun", [
     ((), " functions"),
     (("--threads", "2", *SWEEP), "[0-9]{3} functions: step [0-9][0-9]"),

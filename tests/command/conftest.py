@@ -1,4 +1,4 @@
-"""What the tests of the command share: it in any folder, with signals and with its errors on a terminal."""
+"""Common parts of tests of the command: it in any folder, with signals and with its errors on a terminal."""
 
 import os
 import pty
@@ -15,7 +15,8 @@ PROGRAM = os.environ["WAVEBALANCE_COMMAND"]
 
 
 class Running:
-    """A command that goes on beside the test, its errors in a file or on a terminal, where progress shows sooner."""
+    """A command that runs in parallel with the test, its errors in a file or on a terminal, where progress shows
+    sooner."""
 
     def __init__(self, folder, arguments, terminal):
         self.folder, self.seen, self.reader = folder, "", None

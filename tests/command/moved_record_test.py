@@ -10,7 +10,7 @@ from command_scenes import CHAIN, CHAIN_FILES, changed
 
 @pytest.fixture
 def project(tmp_path):
-    """A folder with a scene and its matrices in a folder of their own."""
+    """A folder with a scene and its matrices in a separate folder."""
     (tmp_path / "project" / "data").mkdir(parents=True)
     for name, text in CHAIN_FILES.items():
         (tmp_path / "project" / "data" / name).write_text(text)

@@ -1,4 +1,4 @@
-"""The page of a pipe on supports, whose commands are run as they stand there."""
+"""The page of a pipe on supports, whose commands are run unchanged."""
 
 import os
 import re
@@ -16,7 +16,7 @@ def test_its_commands_run(scenes, tmp_path):
     page = scenes / "matrices" / "pipe"
     for name in ("pipe.inp", "rubbing.toml"):
         shutil.copy(page / name, tmp_path)
-    # Its curve is followed without stability, which takes most of the time; that of rubbing.toml has it.
+    # Its curve is followed without stability, which needs most of the time; the curve of rubbing.toml has it.
     (tmp_path / "pipe.toml").write_text((page / "pipe.toml").read_text() + "stability = false\n")
     (tmp_path / "commands.sh").write_text(re.search("```sh\n(.*?)```", (page / "README.md").read_text(), re.S).group(1))
     path = os.pathsep.join([FOLDER, os.environ["PATH"]])

@@ -77,7 +77,7 @@ def test_names_are_shown_as_they_are_and_run_no_commands(tmp_path):
     for picture in ("outputs.svg", "response.svg"):
         shown = (tmp_path / "out" / picture).read_text()
         found = [name.replace("'", "\u2019") in shown for name in names]
-        assert all(found) if picture == "outputs.svg" else any(found), picture  # the leading contact alone
+        assert all(found) if picture == "outputs.svg" else any(found), picture  # only the strongest contact
     assert not mark.exists()
 
 

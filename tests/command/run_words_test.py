@@ -1,4 +1,4 @@
-"""Sentences of a report are those of the numbers in its summary."""
+"""Sentences of a report agree with the numbers in its summary."""
 
 import numpy as np
 import pytest

@@ -32,13 +32,13 @@ def keys():
 
 @pytest.fixture(scope="module")
 def words():
-    """What the sources have between quotes: statuses, columns, files, options."""
+    """Names between quotes in the sources: statuses, columns, files, options."""
     files = [file for room in ("app", "solvers", "contact") for file in (ROOT / room).rglob("*.[ch]pp") if "tests" not in file.parts]
     return set(re.findall(r'"(?:-\w,)?([\w.\-]+)[,"]', "\n".join(file.read_text() for file in files)))
 
 
 def fault(name, keys, words):
-    """What is wrong with a name, or nothing."""
+    """The fault of a name, or nothing."""
     key, _, value = (part.strip() for part in name.removeprefix("wavebalance ").partition("="))
     meant = [one for one in keys if one == key or one.endswith(f".{key}")]
     known = key in words or (ROOT / key).is_file() or any(word.endswith(key[3:]) for word in words if key.startswith("..."))

@@ -1,4 +1,4 @@
-"""Rows of a study: those of its runs with any number of threads, and after the study was killed."""
+"""Rows of a study equal its runs with any number of threads, and after the study was killed."""
 
 import concurrent.futures
 import itertools

@@ -39,7 +39,7 @@ def test_a_start_leads_the_reference_and_each_solve_to_its_motion(number, curve,
     solved = [row for row in rows_of(found.table, converged=1.0) if row["functions"] >= 31]
     assert len(solved) > 10
     assert all(row["displacement_error"] < 0.1 * far for row in solved)
-    # The motion of a pair with a known error, and so that of the reference, is as large as the start's.
+    # The motion of a pair with a known error, and so the reference, is as large as the start.
     of_fourier = [row for row in rows_of(found.table, trial="fourier", converged=1.0) if row["functions"] <= 255]
     least = min(of_fourier, key=lambda row: row["displacement_error"])
     assert least["displacement_error"] < 1e-4

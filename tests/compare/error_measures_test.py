@@ -1,4 +1,4 @@
-"""Which error decides in a comparison: that of the displacement, of the force, or the larger."""
+"""Which error decides in a comparison: displacement, force, or the larger."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
-"""Periodic motions of a bar that touches once in a period: exact between the instants of contact, by numpy alone.
+"""Periodic motions of a bar that touches once in a period: exact between the instants of contact, only with numpy.
 
-They are those of the two cases of Jones & Legrand 2014, with an exponential spring or a rigid obstacle at the tip.
-Displacement and force are those at uniform instants, from the crest of the load on.
+The two cases of Jones & Legrand 2014, with an exponential spring or a rigid obstacle at the tip. Displacement and
+force at uniform instants, from the crest of the load on.
 """
 
 import numpy as np

@@ -127,7 +127,7 @@ def test_pairs_are_drawn_each_in_a_way_of_its_own_and_those_of_the_paper_solid(c
     over_functions, over_time = lines("error_over_functions"), lines("error_over_time")
     (phases,) = [line for line in over_time if line["label"] == "exact solution"]
     assert len(phases["x"]) >= 2
-    # Their functions are those of the balance that they start from.
+    # Their functions belong to the balance that they start from.
     assert "exact solution" not in [line["label"] for line in over_functions]
     looks = {(line["colour"], line["dash"]) for line in [*over_functions, phases]}
     assert len(looks) == len(over_functions) + 1 == 12
@@ -160,8 +160,8 @@ def test_pairs_are_those_that_are_named():
 
 
 def test_a_long_reference_leaves_time_for_the_pairs():
-    # A stop that stays closed, and a loss factor, which contact phases do not take: its Newton matrix has a row for
-    # every point, so that the finest level that a tolerance asks for takes many times the budget.
+    # A stop that stays closed, and a loss factor, which exact solutions do not support. Its Newton matrix has a row
+    # for every point, so that the finest level of a tolerance needs many times the budget.
     found = wb.compare(CLOSED_STOP, {"structure.loss_factor": 1e-6}, pairs=TWO_PAIRS, budget=2.0)
     assert (found.summary["reference"], found.status) == ("finer_balance", "converged")
     assert len(found.table["trial"]) > 0

@@ -34,7 +34,7 @@ class FourierPair:
 
 
 class TranslatePair:
-    """Translates of two generators, the points a multiple of them; derivatives stand on the weight functions."""
+    """Translates of two generators, the points a multiple of them; derivatives act on the weight functions."""
 
     def __init__(self, trial, weight, functions, points):
         self.functions, self.points = functions, points

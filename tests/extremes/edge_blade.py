@@ -47,9 +47,9 @@ def relative(left, right):
 
 
 def blade_motion_residual(scene, overrides, one):
-    """The largest relative error of two statements on the motion u under the forces f of the contacts. The mean of u at
-    a pair is that of the free motion less what f does along the motion that a force on this pair causes. And f works as
-    much along another motion under contact forces as those along this one."""
+    """The largest relative error of two statements on the motion u under the forces f of the contacts. The mean of u
+    at a pair equals the free motion's less the work of f along the motion that a force on this pair causes. And f does
+    as much work along another motion under contact forces as that motion's forces along this one."""
     free, compliances, (other, others) = linear_motions(scene, (overrides or {}).get("structure.kept_modes"))
     displacement, force = spectra(one.record)
     errors = []

@@ -1,4 +1,4 @@
-"""Random numbers of one seed, and how many seeds a campaign takes."""
+"""Random numbers of one seed, and the number of seeds of a campaign."""
 
 import os
 

@@ -110,7 +110,7 @@ def damping():
 
     cases += [resonance({"structure.elements": elements}, 1) for elements in (1, 5, 25, 1000)]
     cases += [resonance({}, 2), resonance({}, 2, 1.0 / 3.0)]
-    # A motion with contact exists. Whether it is found beside a free response of 10 km depends on rounding.
+    # A motion with contact exists. Whether it is found near a free response of 10 km depends on rounding.
     beside = resonance({}, 2, 1.0 + 1e-9)
     beside.named, beside.may_be_solved = "stalled", True
     return [*cases, beside]

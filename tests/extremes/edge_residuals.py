@@ -54,7 +54,7 @@ def largest_entry(matrix):
 
 
 def outputs_of(scene):
-    """All degrees of freedom; one of a bar with very many, beside which the record keeps the motion of all."""
+    """All degrees of freedom; one of a bar with very many, for which the record keeps the motion of all."""
     if scene["structure"]["type"] == "blade":
         return {}
     rows = scene["structure"].get("elements", 3)
@@ -78,7 +78,7 @@ def column(record, name):
 
 
 def solve(scene, overrides=None):
-    """The record of the balance alone at the quadrature points, with the scene as it was completed."""
+    """The record of only the balance at the quadrature points, with the scene as it was completed."""
     keys = tomllib.loads(wb.complete(scene, overrides))
     alone = {"analysis.phases": False, "analysis.stability": False,
              "analysis.output_points": keys["time"]["quadrature_points"]}
@@ -107,8 +107,8 @@ def motion_residual(one):
 
 
 def held_displacement(one, laws):
-    """The displacements at which the laws hold. In the force form a spring stands between structure and law: v - u is
-    its deflection for all weighting functions, and the law holds at w = v - deflection. Its flexibility, one number for
+    """The displacements at which the laws hold. In the force form a spring is between structure and law: v - u is its
+    deflection for all weighting functions, and the law holds at w = v - deflection. Its flexibility, one number for
     each contact, is the one that fits the samples with a force best."""
     if one.record.summary["form"] == "displacement":
         return one.displacement

@@ -21,7 +21,7 @@ def draw_contact(draw, bar, displacement, stiffness):
     if law == "none":
         return {"law": law}
     if law == "rigid" and bar["elements"] == 1:
-        law = "linear"  # there is no neighbour to take the tip's mass
+        law = "linear"  # there is no neighbour for the tip's mass
     gap = displacement * draw.uniform(-0.5, 1.5)
     if draw.chance(0.1):
         gap = draw.one_of((0.0, 1e-300, -1e-300, 1e30))

@@ -27,7 +27,7 @@ class Drawn:
     points: int
 
     def package(self):
-        """The structure as the package takes it."""
+        """The structure for the package."""
         one = self.structure
         return wb.Structure(one.mass, one.damping, one.stiffness, one.load, self.contacts)
 

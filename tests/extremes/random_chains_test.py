@@ -11,7 +11,7 @@ import wavebalance as wb
 
 
 def solved(drawn):
-    """The record of the balance alone at the quadrature points."""
+    """The record of only the balance at the quadrature points."""
     pair = wb.Pair(f"{drawn.trial}:{drawn.weight}", drawn.functions, drawn.points)
     return wb.run(drawn.package().scene(drawn.laws, frequency=drawn.frequency, pair=pair, phases=False, stability=False,
                                         contact_outputs=False, output_points=drawn.points))

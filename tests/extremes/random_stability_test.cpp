@@ -1,5 +1,5 @@
 // The count of unstable multipliers against the monodromy, on random structures with a given stiffness of
-// contact, which no scene has. Those of responses are compared with matrix exponentials by pytest.
+// contact, which no scene has. Counts of responses are compared with matrix exponentials by pytest.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace {
 using namespace wavebalance;
 using solvers::StabilityStatus;
 
-/// What became of the motions.
+/// Outcomes of the motions.
 struct Outcomes {
   int drawn = 0, compared = 0, near = 0, unknown = 0, unstable = 0, wrong = 0;
 

@@ -1,4 +1,4 @@
-"""Counts of unstable multipliers of random responses against stops, held against matrix exponentials."""
+"""Counts of unstable multipliers of random responses against stops, compared with matrix exponentials."""
 
 import functools
 
@@ -11,7 +11,7 @@ from random_chains import random_structure
 
 import wavebalance as wb
 
-# Both counts are those of a motion of so many harmonics. With 31 of them, one in 500 differs from that of the structure.
+# Both counts belong to a motion of so many harmonics. With 31 of them, one in 500 differs from the exact one.
 HARMONICS, POINTS = 63, 512
 INSTANTS = 4096  # at which contact is looked for
 

@@ -71,7 +71,7 @@ class Key:
 
 @functools.cache
 def keys():
-    """The keys of all sections but those that stand any number of times."""
+    """The keys of all sections except the repeatable ones."""
     program = os.environ["WAVEBALANCE_COMMAND"]
     printed = subprocess.run([program, "keys"], capture_output=True, text=True, check=True).stdout
     found, section = [], ""
@@ -107,7 +107,7 @@ def valid_value(draw, key):
         return valid_number(draw, key)
     if not key.choices:
         return '"contact 1"'  # the only free text that is no path: an output
-    few = key.choices is BASES and draw.chance(0.9)  # filters take the loader milliseconds
+    few = key.choices is BASES and draw.chance(0.9)  # filters cost the loader milliseconds
     return f'"{draw.one_of(BASES[:3] if few else key.choices)}"'
 
 

@@ -20,7 +20,7 @@ def text(damping=DAMPING):
 
 
 def highest_speed():
-    """Of the belt with a cycle: as fast as the mass is at most, when it has been torn off at that speed."""
+    """The largest speed of the belt with a cycle: the torn-off mass must reach the belt's speed again."""
     def catches(speed):
         try:
             StickSlip(DAMPING, speed=speed)

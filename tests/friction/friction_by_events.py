@@ -57,7 +57,7 @@ class FrictionFlow:
         return self.inverse @ force
 
     def slip_speed(self, t, y, state):
-        """Of the slider over the surface, times the direction in which it slips."""
+        """Velocity of the slider over the surface, times the direction of slip."""
         v = self.split(y)[1]
         speed = v[self.tangent] - self.c["surface_speed"]
         if self.rigid:

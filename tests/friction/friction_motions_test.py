@@ -36,7 +36,7 @@ def assert_is_the_exact_motion(name, pair, of_motion, of_work):
 @pytest.mark.parametrize("name", KNOWN)
 @pytest.mark.parametrize("basis", ["fourier", SPLINE])
 def test_a_balance_has_the_harmonic_and_the_work_of_the_exact_motion(name, basis):
-    """The error is that of its functions: at 63 the worst row, a stiff slider, has 1.6e-4."""
+    """The error is due to its functions: at 63 the worst row, a stiff slider, has 1.6e-4."""
     points = 256 if name in IN_A_PLANE else 1024  # slip in a plane remembers many samples, which are all unknowns
     # The error of points is of second order in their number.
     allowed = 1e-3 if basis == SPLINE else 5e-4 if points == 256 else 2e-4

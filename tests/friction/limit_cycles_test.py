@@ -67,7 +67,7 @@ def test_a_mass_on_a_belt_sticks_and_slips_as_in_closed_form(tmp_path, damping, 
     assert found["friction"]["stick_fraction"][0] == pytest.approx(known.sticks / known.period, abs=1e-11)
     times = column(tmp_path / "out", "time_fraction") * known.period
     assert column(tmp_path / "out", "displacement_m") == pytest.approx(known.displacement(times), abs=1e-10)
-    # What is disturbed while it sticks leaves at the same force and is forgotten.
+    # A disturbance during stick ends at the same force and is forgotten.
     assert np.max(found["multipliers"]["modulus"]) < 1e-9
 
 
@@ -91,7 +91,7 @@ def test_squeal_by_coupled_modes_is_that_of_another_integration(name):
         y, state, parts = flow.period(y, state)
         if state == begin and np.abs(y - before)[:4].max() < 1e-10:
             break
-    # It repeats after the period found, to which all phases settle.
+    # It repeats after the period found, to which all starts converge.
     assert np.abs(y - before)[:4].max() < 1e-8
     stick = sum(times[-1] - times[0] for times, _, one in parts if one == 0) / found["period_s"]
     assert found["friction"]["stick_fraction"][0] == pytest.approx(stick, abs=1e-8)

@@ -1,4 +1,5 @@
-"""Friction against a surface that moves, with a coefficient at rest above that of slip, and with dashpots beside its springs."""
+"""Friction against a surface that moves, with a coefficient at rest above the one of slip, and with dashpots parallel
+to its springs."""
 
 import csv
 import functools
@@ -46,7 +47,7 @@ def solve(folder, structure, contact, load, frequency, analysis="forced_response
 
 
 def case(name):
-    """The arguments of solve() and of settled()."""
+    """The arguments of solve() and settled()."""
     size, normal, more = CASES[name]
     load, frequency = LOADS[size]
     contact = {"friction": 0.3, "normal_load": 2.0 if size == "one" else 1.0} | more

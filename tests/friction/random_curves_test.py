@@ -5,7 +5,7 @@ from random_curves import RandomCurve
 from standard_random import campaign_seeds
 
 ENDS = ("reached_end", "returned")
-DIGITS = 1e-6  # folds that lie at grazing to six digits are told apart to as many
+DIGITS = 1e-6  # folds that agree with grazing to six digits are distinguished to as many
 
 
 def folds_of(exact):
@@ -13,7 +13,7 @@ def folds_of(exact):
 
 
 def folds_beside(sweep):
-    """Those of the structure itself."""
+    """Exact points."""
     points = sweep.summary["structure_special_points"]
     return [value for kind, value in zip(points["type"], points["frequency_Hz"]) if kind == "fold"]
 

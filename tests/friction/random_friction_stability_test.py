@@ -1,4 +1,4 @@
-"""Counts of Floquet multipliers of random structures with elastic friction, against those of another integration."""
+"""Counts of Floquet multipliers of random structures with elastic friction, compared with another integration."""
 
 import numpy as np
 import wavebalance as wb

@@ -1,4 +1,4 @@
-"""Stability along curves with friction of structures with more states than a map of all modes takes."""
+"""Stability along curves with friction of structures with more states than a map of all modes supports."""
 
 import numpy as np
 import pytest
@@ -51,6 +51,6 @@ def test_counts_are_those_of_all_modes_of_a_smaller_structure_with_the_same_slow
     found = counts(np.eye(len(mass)), mass, damping, stiffness, frequencies)
     assert len(found) == len(reference) and not np.isnan(reference).any()
     known = ~np.isnan(found)
-    assert np.count_nonzero(~known) <= 3  # beside the circle
+    assert np.count_nonzero(~known) <= 3  # near the circle
     assert np.array_equal(found[known], reference[known])
     assert set(reference) >= {0.0, 1.0, 2.0}

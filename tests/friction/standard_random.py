@@ -6,7 +6,7 @@ import numpy as np
 
 
 def campaign_seeds(usual, full):
-    """How many seeds a campaign takes: `full` of them where the environment asks for full campaigns."""
+    """Number of seeds of a campaign: `full` if the environment requests full campaigns."""
     extent = os.environ.get("WAVEBALANCE_CAMPAIGN")
     assert extent in (None, "full"), extent
     return full if extent else usual

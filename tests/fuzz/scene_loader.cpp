@@ -18,7 +18,7 @@ struct Input {
   std::vector<std::string> removed;
 };
 
-/// What follows `mark` on a line that starts with it goes to `list`.
+/// The text after `mark` on a line that starts with it goes to `list`.
 bool take(std::string_view line, std::string_view mark, std::vector<std::string>& list) {
   if (!line.starts_with(mark)) return false;
   list.emplace_back(line.substr(mark.size(), line.find('\n') - mark.size()));

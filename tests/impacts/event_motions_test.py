@@ -28,7 +28,7 @@ def test_the_stable_motion_of_two_periods_of_the_table_is_found_from_every_start
             if motions["period"][k] == known.periods and list(impacts["impulse_Ns"]) == impulses]
     assert motions["found_by"][k] != "newton" and motions["unstable_multipliers"][k] == 0.0
     assert found.summary["random_starts"] == 24
-    # The shares are those of the starts, of which no one is lost.
+    # The fractions count the starts, none of which is lost.
     arrivals = np.array(motions["share"]) * 24.0
     assert arrivals == pytest.approx(np.round(arrivals), abs=1e-12)
     assert arrivals.sum() + found.summary["starts_without_motion"] == pytest.approx(24.0, abs=1e-12)

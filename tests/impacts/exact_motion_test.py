@@ -34,7 +34,7 @@ def test_a_motion_has_the_harmonic_the_work_and_the_multipliers_of_the_exact_one
     assert summary["unstable_multipliers"] == 0
     if largest is None:  # not known
         return
-    # The last digit of the beams' rows is that of matrix exponentials with fast poles.
+    # The last digit of the beams' rows comes from matrix exponentials with fast poles.
     allowed = 2e-8 if name.startswith("beam") else 1e-8
     leading = complex(summary["leading_multiplier_real"], summary["leading_multiplier_imag"])
     assert abs(leading) == pytest.approx(largest, abs=allowed, rel=0.0)

@@ -85,7 +85,8 @@ def test_every_point_of_one_impact_has_its_closed_form(structure, begin, end, al
 
 
 def test_a_curve_ends_at_the_unstable_motion_of_one_period_of_the_table():
-    # The motion from which that of two periods branches; 0.1789102811 N s and 0.0993946006 m/s by matrix exponentials.
+    # The motion from which the motion of two periods branches; 0.1789102811 N s and 0.0993946006 m/s by matrix
+    # exponentials.
     record = curve(oscillator(0.05, 0.0, 0.8, 2.4), 2.4, 3.7)
     last = {key: values[-1] for key, values in record.sweep.items()}
     assert last["unstable"] == 1.0 and last["impacts"] == 1.0
@@ -126,7 +127,7 @@ def test_over_the_amplitude_motions_of_twice_the_period_begin_where_they_do_over
     ends = {"amplitude_from": 1.3, "amplitude_to": 0.7}
     record = wb.run(scene_of(oscillator(0.04, 1.0, 0.7, omega), "amplitude_sweep", **ends, branches=True))
     (load,) = special(record, "period_doubling", "amplitude_N")
-    # Of a gap of 1 / load a load of 1 N has the same motion, smaller.
+    # With a gap of 1 / load, a load of 1 N has the same motion, smaller.
     same = curve(oscillator(0.04, 1.0 / load, 0.7, 0.65), 0.65, 0.5)
     assert min(abs(TAU * one - omega) for one in special(same, "period_doubling")) <= 1e-9
     sweep, branches = record.sweep, record.summary["branches"]

@@ -28,7 +28,7 @@ class Found:
             self.impacts = columns(record, f"motion_{number + 1}_impacts.csv")
 
     def matches(self, known):
-        """Whether its instants are those of the table up to whole periods of the load."""
+        """Whether its instants agree with the table up to whole forcing periods."""
         if self.periods != known.periods or len(self.impacts["contact"]) != len(known.contacts):
             return False
         return any(np.abs((self.instants(k) - known.instants)).max() < 1e-3 for k in range(known.periods))
@@ -108,7 +108,7 @@ def test_a_motion_moves_as_its_impacts_say(motions, known):
 
 @pytest.mark.parametrize("known", [one for one in KNOWN if len(one.structure.mass) == 1], ids=lambda known: known.name)
 def test_the_load_brings_what_damping_and_impacts_take(motions, known):
-    # Of an oscillator, int cos(w t) v dt = int c v^2 dt + what impacts take, by Gauss' rule between impacts.
+    # Oscillator: int cos(w t) v dt = int c v^2 dt + energy dissipated by impacts, by Gauss' rule between impacts.
     (found,) = motions[known.name]
     oracle = ImpactOracle(known.structure)
     period, panels = found.periods * oracle.load_period, 200

@@ -10,7 +10,7 @@ Strike = namedtuple("Strike", "contact time velocity impulse")  # s, m/s, N s
 
 
 def strikes_of(impacts, period):
-    """Of the columns of impacts.csv, of a motion with this period."""
+    """Impacts from the columns of impacts.csv, for a motion with this period."""
     return [Strike(int(c) - 1, t * period, v, p) for c, t, v, p in zip(
         impacts["contact"], impacts["time_fraction"], impacts["velocity_before_m_per_s"], impacts["impulse_Ns"])]
 
@@ -47,7 +47,7 @@ class ImpactOracle:
         return states
 
     def multipliers(self, strikes, periods):
-        """Of a periodic motion with these impacts: exponentials, and the saltation of each impact."""
+        """Multipliers of a periodic motion with these impacts: exponentials, and the saltation of each impact."""
         whole, size = periods * self.load_period, 2 * self.n
         monodromy, e, rate = np.eye(size), self.structure.restitution, self.structure.omega
         after = np.roll([strike.time for strike in strikes], -1)

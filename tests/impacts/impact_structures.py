@@ -31,7 +31,7 @@ class Structure:
         return self.omega / (2.0 * math.pi)
 
     def free_amplitudes(self, omega=None):
-        """Of all displacements without contact, complex, for exp(i omega t)."""
+        """Amplitudes of all displacements without contact, complex, for exp(i omega t)."""
         w = self.omega if omega is None else omega
         load = np.eye(len(self.mass))[self.loaded]
         return np.linalg.solve(self.stiffness - w * w * self.mass + 1j * w * self.damping, load)
@@ -82,7 +82,7 @@ def scene_of(structure, kind="forced_response", **analysis):
 
 
 def mixture_of(structure):
-    """The structure as EventFlow takes it."""
+    """The structure for EventFlow."""
     stops = [{"law": "rigid_stop", "direction": row, "gap": gap, "restitution": structure.restitution}
              for row, gap in zip(structure.contacts, structure.gaps)]
     return {**{key: getattr(structure, key) for key in ("mass", "damping", "stiffness", "omega")},

@@ -53,7 +53,7 @@ def test_a_contact_opens_where_the_load_no_longer_presses_and_closes_where_it_co
 
 
 def force_harmonic(n, record, impacts, frequency):
-    """Of contact force and impulses; between begin and end of a contact the samples have a spline."""
+    """Harmonic n of contact force and impulses; between begin and end of a contact the samples have a spline."""
     times, force = record.response["time_fraction"], record.response["contact_force_N"]
     closed = record.summary["lasting_contacts"]
     points, weights = np.polynomial.legendre.leggauss(8)
@@ -69,7 +69,7 @@ def force_harmonic(n, record, impacts, frequency):
 
 
 def test_a_bar_has_forces_that_make_its_motion():
-    # Harmonics of the displacement are those of load and contact force through the compliance.
+    # Harmonics of the displacement follow from load and contact force through the compliance.
     bar, points = lumped_bar(10, 0.0, 0.02, 0.5, 0.0, 0.7), 1 << 16
     record, impacts = solve(bar, output_points=points), columns(solve(bar, output_points=64), "impacts.csv")
     assert len(record.summary["lasting_contacts"]["begin"]) == 2

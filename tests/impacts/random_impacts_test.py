@@ -9,7 +9,7 @@ from event_flow import EventFlow
 from impact_oracle import ImpactOracle, strikes_of
 from impact_structures import Structure, columns, leading, mixture_of, periods_of, scene_of
 
-SHARE = 0.7  # of chains that must have a motion with impacts alone
+SHARE = 0.7  # of chains that must have a motion with impacts only
 
 
 def seeds():
@@ -63,7 +63,7 @@ class InTime:
 
 
 def compare(structure, record):
-    """What is wrong with a motion of impacts alone, or None."""
+    """The error of a motion with impacts only, or None."""
     periods, oracle = periods_of(record.summary), ImpactOracle(structure)
     in_time, period = InTime(structure, periods), periods * oracle.load_period
     expected = strikes_of(columns(record, "impacts.csv"), period) if record.summary["impacts"] else []

@@ -60,7 +60,7 @@ if(python)
   expect("${output}" "${root}/usr/lib/python3/dist-packages/wavebalance")
 endif()
 
-# Studies on many machines are a package of their own.
+# Studies on many machines are a separate package.
 if(mpi)
   run(${cpack} -G DEB --config ${build}/CPackMpiConfig.cmake -B ${folder}/mpi)
   file(GLOB package ${folder}/mpi/*.deb)

@@ -1,4 +1,4 @@
-# Stages the components, then configures, builds and runs the consumer against the stage alone.
+# Stages the components, then configures, builds and runs the consumer only against the stage.
 include(${CMAKE_CURRENT_LIST_DIR}/run_command.cmake)
 
 file(REMOVE_RECURSE ${stage} ${binary})

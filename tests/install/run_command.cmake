@@ -8,7 +8,7 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# expect(text <parts>...): ends the test unless all parts stand in the text.
+# expect(text <parts>...): ends the test unless the text contains all parts.
 function(expect text)
   foreach(part IN LISTS ARGN)
     string(FIND "${text}" "${part}" place)

@@ -5,7 +5,7 @@ import pytest
 
 import wavebalance as wb
 
-# The chain with relative motion, both sides of one mass, and a weighted sum with a law of its own.
+# The chain with relative motion, both sides of one mass, and a weighted sum with a separate law.
 PAIRS = """[structure]
 type = "matrices"               # 2
 mass = "m.mtx"                  # 3
@@ -52,7 +52,7 @@ def pairs(chain_text):
 
 
 def law_of(changed, text, law):
-    """The scene with one law of all contacts, without what it does not take."""
+    """The scene with one law of all contacts, without keys that it does not have."""
     text = changed(text, ('"linear"                  # 7', f'"{law}"'), ("stiffness = 1e6", "# "),
                    ('law = "exponential"', "# "), ("constant = 1e4", "# "), ("exponent = 100.0", "# "))
     return changed(text, ("gap = 2e-5", "# "), ("gap = 5e-5", "# ")) if law == "none" else text

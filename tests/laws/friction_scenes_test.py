@@ -44,7 +44,7 @@ def test_a_slider_has_the_work_and_the_shares_of_the_exact_motion(solve):
 
 def test_a_response_has_the_damping_ratio_that_its_mode_has_nearby(solve):
     # As published for the damped mode of one mass, k = kt = limit = 1: the damping ratio 0.0464 at a turning point of
-    # 1.2. Friction takes 4 (1.2 - 1) in a cycle.
+    # 1.2. Friction dissipates 4 (1.2 - 1) in a cycle.
     record = solve("slider.toml", "structure.stiffness_damping=1e-9", "forcing.frequency=0.2188006",
                    "forcing.amplitude=0.2122", "analysis.output_points=4096")
     assert record.summary["max_displacement_m"] == pytest.approx(1.2, abs=0.05)
@@ -112,7 +112,7 @@ def test_by_phases_other_laws_are_taken_beside(folder, changed, monkeypatch):
 
 
 def test_a_bolted_beam_is_swept_through_its_resonance_in_few_points(solve):
-    # Steps that are measured by the slip at the start of the sweep take a thousand points.
+    # Steps measured by the slip at the start of the sweep need a thousand points.
     record = solve("bolted_beam.toml", "analysis.stability=false")
     assert record.status == "reached_end" and record.summary["points"] <= 100
 
@@ -216,7 +216,7 @@ def test_the_mode_of_a_bolted_beam_has_its_damping_from_the_joint(solve):
 
 def test_without_tangential_stiffness_friction_is_rigid_and_moves_the_mass_of_its_contacts(solve):
     # The beams of ten contacts whose springs of 2e7 N/m are left out: the mass of the contacts goes to the beams, which
-    # give way there by springs of their own.
+    # deflect there by additional springs.
     settings = ("analysis.type=forced_response", "forcing.frequency=145", "structure.kept_modes=30",
                 "analysis.stability=false", "analysis.phases=false")
     rigid = solve("bolted_beam.toml", *settings, unset=(*SWEEPING, "contact.tangential_stiffness")).summary

@@ -140,7 +140,7 @@ def test_duffings_oscillator_has_its_peak_on_its_backbone_and_no_gap_to_draw(exa
 
 
 def gap_lines(picture):
-    """Dotted lines across a picture: those of gaps."""
+    """Dotted lines across a picture: the gaps."""
     return picture.count("stroke-dasharray='1.2,2.4'")
 
 

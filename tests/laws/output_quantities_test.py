@@ -63,7 +63,7 @@ def test_a_response_has_them_too(analysis):
 
 
 def test_peaks_are_solved_for_between_the_points_of_a_curve():
-    # Of the relative displacement at sqrt(1 - 2 z^2) of the natural frequency, of the velocity at it.
+    # Peak of the relative displacement at sqrt(1 - 2 z^2) of the natural frequency, of the velocity at it.
     summary = wb.run(scene(largest_step=2.0, peak_of="row 1")).summary
     place = NATURAL * np.sqrt(1.0 - 2.0 * RATIO**2)
     height = PUSH / (2.0 * np.pi * NATURAL) ** 2 / (2.0 * RATIO * np.sqrt(1.0 - RATIO**2))
@@ -71,7 +71,7 @@ def test_peaks_are_solved_for_between_the_points_of_a_curve():
     assert summary["row_1_half_peak_to_peak_m"] == pytest.approx(height, rel=1e-7)
     assert summary["row_1_largest_m"] == pytest.approx(height, rel=1e-7)
     assert summary["velocity_of_row_1_peak_frequency_Hz"] == pytest.approx(NATURAL, abs=1e-4)
-    # Of the transmissibility [Harris, Shock and Vibration Handbook, ch. 30].
+    # Peak of the transmissibility [Harris, Shock and Vibration Handbook, ch. 30].
     x = np.sqrt((np.sqrt(1.0 + 8.0 * RATIO**2) - 1.0)) / (2.0 * RATIO)
     ratio = np.sqrt((1.0 + (2.0 * RATIO * x) ** 2) / ((1.0 - x**2) ** 2 + (2.0 * RATIO * x) ** 2))
     assert summary["transmissibility_of_row_1_peak_frequency_Hz"] == pytest.approx(NATURAL * x, abs=1e-4)
@@ -91,7 +91,7 @@ def test_the_peak_against_a_stop_is_the_same_of_a_balance_and_of_the_exact_curve
 
 
 def test_moved_rows_give_displacements_relative_to_them():
-    # A mass between two supports that move alike: the ratio of displacements is that of the accelerations.
+    # A mass between two supports that move alike: displacements and accelerations have the same ratio.
     springs = np.array([[STIFFNESS, -STIFFNESS], [-STIFFNESS, STIFFNESS]])
     dashpots = DAMPING * np.array([[1.0, -1.0], [-1.0, 1.0]])
     values = scene(outputs=["row 1", "relative displacement of row 1", "transmissibility of row 1"])
@@ -135,7 +135,7 @@ def test_logarithmic_ordinates_change_the_picture_alone(tmp_path):
 
 
 class Axes:
-    """What is drawn, without Matplotlib."""
+    """Keeps what is drawn, without Matplotlib."""
 
     def plot(self, _, ordinates, *more, **how):
         self.drawn = np.asarray(ordinates)

@@ -65,7 +65,7 @@ def stiffness(t, frequency, harmonics=HARMONICS, phases=PHASES):
 
 
 def rates(t, x, frequency, gap):
-    """Of the two masses, whatever the program makes of them."""
+    """Time derivatives of the state of the two masses, independent of the program."""
     u = x[0] - x[1]
     force = stiffness(t, frequency) * (u - np.clip(u, -gap, gap))
     load = np.array([0.8 * np.cos(2.0 * np.pi * frequency * t) + 0.2, -0.2])

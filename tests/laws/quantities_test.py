@@ -48,7 +48,7 @@ def test_a_column_is_drawn_with_its_words_and_its_unit(scene_of, scene, quantity
 
 
 def test_what_is_measured_of_a_motion_is_missing_without_one_and_its_effort_is_not(bar_text):
-    # The first of the two runs has too few periods to settle.
+    # The first of the two runs has too few periods to converge.
     stepping = bar_text[:bar_text.index("[time]")] + '[analysis]\ntype = "time_stepping"\n'
     table = wb.study(stepping, {"analysis.max_periods": [1, 2000]}).table
     assert table["status"] == ["iteration_limit", "converged"]

@@ -29,7 +29,7 @@ points = 200                    # 14
 
 @pytest.fixture
 def tolerance(bar_text):
-    """The bar with a tolerance in place of pair, functions and points."""
+    """The bar with a tolerance instead of pair, functions and points."""
     begin, end = bar_text.index("trial = "), bar_text.index("[analysis]")
     return lambda value: bar_text[:begin] + f"tolerance = {value}\n" + bar_text[end:]
 

@@ -45,7 +45,7 @@ def vector(rows, size):
 
 
 def contact(law, random, places, linear, stiffness, load):
-    """The constants of one contact, of sizes by which it takes part in the motion; None where it finds no place."""
+    """The constants of one contact, of sizes by which it affects the motion; None if it has no place."""
     size = len(stiffness)
     rows = places.one(law, law not in ("rigid_slider", "lifting"))
     if rows is None:
@@ -68,7 +68,7 @@ def contact(law, random, places, linear, stiffness, load):
         result["tangential"] = own * random.uniform(0.3, 3.0)
     if law == "slider":
         result["limit"] = load * random.uniform(0.05, 0.6)
-    if law == "lifting":  # its normal direction is that of a mass beside it
+    if law == "lifting":  # its normal direction belongs to a neighbouring mass
         beside = [k for k in (next(iter(rows)) - 1, next(iter(rows)) + 1) if 0 <= k < size]
         result["normal"] = vector({int(random.choice(beside)): 1.0}, size)
         result["normal_stiffness"] = own * random.uniform(0.05, 0.5)

@@ -1,4 +1,4 @@
-"""Random chains with friction, stops and rigid stops side by side: each motion that is found, against another integration."""
+"""Random chains with friction, stops and rigid stops together: each motion compared with another integration."""
 
 import collections
 import os

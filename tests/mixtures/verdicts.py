@@ -1,4 +1,4 @@
-"""What an integration of the tests' own says of the periodic motion that a record has."""
+"""Verdict of an independent integration on the periodic motion of a record."""
 
 import numpy as np
 from near_motion import NearMotion
@@ -27,7 +27,7 @@ def masses(mixture, record):
 
 
 class Comparison(NearMotion):
-    """The motion of the integration that closes its period near that of a record, and how far they lie apart."""
+    """The motion of the integration that closes its period near the one of a record, and their distance."""
 
     def __init__(self, mixture, record):
         self.record = record

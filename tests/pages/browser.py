@@ -23,7 +23,7 @@ class Browser:
         (read, self.out), (self.into, write) = os.pipe(), os.pipe()
 
         def connect():
-            # The protocol is spoken over the descriptors 3 and 4, which may be in use as those of the pipes.
+            # The protocol uses the descriptors 3 and 4, which may belong to the pipes.
             ends = os.dup(read), os.dup(write)
             os.dup2(ends[0], 3)
             os.dup2(ends[1], 4)

@@ -1,4 +1,4 @@
-"""What the tests of pages share: one browser, and the reports of the command, each made once."""
+"""Common parts of the tests of pages: one browser, and the reports of the command, each made once."""
 
 import os
 import re
@@ -59,7 +59,7 @@ def broken_links(page):
 
 
 class Look:
-    """What holds of every page of this project."""
+    """Checks of every page of this project."""
 
     def __init__(self, browser):
         self.browser = browser
@@ -103,8 +103,8 @@ class Look:
         assert self.browser.value("look.unreadable()") == [], place
 
     def legible(self, picture, least=2):
-        """In an SVG picture no two texts lie on each other, none is cut by its edge, no curve passes through a name of the legend,
-        every axis has its `least` numbers, and axes take half of their column and of their row at least."""
+        """In an SVG picture no two texts overlap, none is cut by its edge, no curve passes through a name of the
+        legend, every axis has its `least` numbers, and axes take half of their column and of their row at least."""
         self.browser.open(picture, 2200, 6000)
         found = self.browser.value((HERE / "pictures.js").read_text() + f";measured(document.documentElement, {least})")
         assert found["texts"] > 0, picture

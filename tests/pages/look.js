@@ -1,16 +1,16 @@
-// What tests ask of a page that is open: `look`, defined in it once.
+// Functions of tests for an open page: `look`, defined in it once.
 "use strict";
 window.look ??= (() => {
   const root = document.documentElement;
   const overflow = () => root.scrollWidth - root.clientWidth;
   const frame = () => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
 
-  // Elements that reach beyond the right edge and do not scroll within a box of their own.
+  // Elements that reach beyond the right edge and do not scroll within a box.
   const tooWide = () => (overflow() <= 0 ? [] : [...document.body.querySelectorAll("*")]
     .filter((one) => one.getBoundingClientRect().right > root.clientWidth + 1 && !one.closest(".wide, svg, .katex"))
     .slice(-3).map((one) => `${one.tagName} ${one.className} ${one.textContent.slice(0, 60)}`));
 
-  // Everything is unfolded, and the curves of all figures are drawn in place of their pictures, or the pictures again.
+  // Everything is unfolded, and the curves of all figures are drawn instead of their pictures, or the pictures again.
   async function draw(curves) {
     document.querySelectorAll("details").forEach((one) => { one.open = true; });
     for (const button of document.querySelectorAll("figure[data-curves] .tools button[aria-pressed]"))

@@ -1,4 +1,5 @@
-"""The page of the papers: one made from small results, which has all that the page can show, and those of `make reproduce`."""
+"""The page of the papers: one made from small results with all features of the page, and the ones of `make
+reproduce`."""
 
 import json
 import math
@@ -66,7 +67,7 @@ def figure():
 
 
 def record(paper, stem, **more):
-    """What a step has left beside its files."""
+    """The record of a step in addition to its files."""
     return {"identity": {"paper": paper, "number": f"JL14 {stem}", "title": "Tip displacement", "stem": stem}, "caption": "The gap is $g_0 = 1$ mm.",
             "files": [], "data": [], "scenes": [], "notes": [], "statements": [], "checks": [], "unjudged": [], "slips": [], "table": [],
             "program": "jl14 fig06", "wall_seconds": 0.1, "version": "0", **more}
@@ -87,7 +88,7 @@ def write(folder, paper, stem, one):
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
-    """Results with a figure that has all that a page shows, and a table on a page of its own."""
+    """Results with a figure that has all that a page shows, and a table on a separate page."""
     program = os.environ.get("WAVEBALANCE_REPORT_PAGE")
     if not program:
         pytest.skip("the report on the papers is not built")
@@ -143,7 +144,7 @@ def test_choices_show_each_way_to_form_sums(look, browser, results):
     look.near("document.querySelector('.sums')")
 
     def shown(option=None):
-        """What is shown after the option is chosen."""
+        """The page after the option is chosen."""
         return browser.value(f"""(() => {{ const box = document.querySelector(".sums");
           [...box.querySelectorAll("input")].find((one) => one.value === {json.dumps(option)})?.click();
           const texts = (list) => [...box.querySelectorAll(list)].map((one) => one.textContent);
@@ -165,7 +166,7 @@ def test_choices_show_each_way_to_form_sums(look, browser, results):
 
 
 def told(look, browser, panel, curve, point):
-    """What a panel says at a point of one of its curves, ten pixels beside it."""
+    """Text of a panel at a point of one of its curves, ten pixels from it."""
     place = browser.value(f"""(() => {{ const svg = document.querySelectorAll(".plot svg")[{panel}]; svg.scrollIntoView({{ block: "center" }});
       const [left, top] = svg.querySelector("g").getAttribute("transform").match(/[\\d.]+/g).map(Number), box = svg.getBoundingClientRect();
       const points = svg.querySelectorAll(".curve")[{curve}].getAttribute("d").slice(1).split(/[ML]/).map((one) => one.split(",").map(Number));
@@ -178,7 +179,7 @@ def test_curves_zoom_tell_values_and_hide(look, browser, results):
     look.open(results / "index.html")
     browser.value("look.draw(true)")
     assert told(look, browser, 0, 0, 10) == ["sine", "Time (periods): 0.25", "utip (mm): 1"]
-    assert told(look, browser, 1, 1, 1)[:2] == ["dots", "Error: 0.03"]  # drawn at 0.031, so that it stands beside another
+    assert told(look, browser, 1, 1, 1)[:2] == ["dots", "Error: 0.03"]  # drawn at 0.031, so that it is next to another
     count = "document.querySelectorAll('.plot .curve').length"
     assert browser.value(count) == 5
     browser.click("document.querySelector('.legend button')")
@@ -272,5 +273,5 @@ def test_pictures_of_make_reproduce_are_legible(look):
     if not pictures or min(one.stat().st_mtime for one in pictures) < built:
         pytest.skip("the results are not those of this build: make reproduce")
     for picture in pictures:
-        # Names of kernels in place of numbers; the states of a single contact.
+        # Names of kernels instead of numbers; the states of a single contact.
         look.legible(picture, 0 if picture.name == "kernels.svg" else 1 if picture.parent.name == "cases_of_others" else 2)

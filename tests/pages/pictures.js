@@ -41,7 +41,7 @@ function areasOf(paths) {
   return areas.map(([up, along]) => ({ left: up[0][0], right: along[1][0], top: Math.min(up[0][1], up[1][1]), bottom: along[0][1] }));
 }
 
-// How many numbers stand below the axes and left of them.
+// Number of labels below the axes and left of them.
 function numbersOf(area, texts) {
   const within = (value, from, to) => value > from && value < to;
   const number = /^[\u2212-]?[\d.]+(\u00B710)?([\u2212-]?\d+)?$/;

@@ -1,4 +1,5 @@
-"""What every command writes, in a browser: page and pictures of each kind of analysis, of study, comparison and overlay."""
+"""Pages of every command in a browser: page and pictures of each kind of analysis, of study, comparison and
+overlay."""
 
 import csv
 import json

@@ -50,7 +50,7 @@ TEST(DenseOracle, EqualsTheSymbolsForTheWholeBar) {
 // Without mass along its contact directions, as rigid obstacles need it.
 solvers::LinearStructure massless_at_contacts(solvers::LinearStructure structure) {
   const Eigen::MatrixXd rows(structure.contact_directions);
-  // Directions along which no contact acts, also where one is that of another.
+  // Directions along which no contact acts, also if one repeats another.
   const auto along =
       oracle::generalized_eigen(rows.transpose() * rows, Eigen::MatrixXd::Identity(rows.cols(), rows.cols()));
   Eigen::Index free = 0;
@@ -61,8 +61,8 @@ solvers::LinearStructure massless_at_contacts(solvers::LinearStructure structure
   return structure;
 }
 
-// Several random directions of a bar, of which one is that of another with its obstacle on the other side,
-// at 0.6 of their motion without contact.
+// Several random directions of a bar, one of which repeats another with its obstacle on the other side, at
+// 0.6 of their linear response.
 Contacts random_directions(int count, unsigned seed) {
   using Complex = std::complex<double>;
   const Case& scene = cases[0];

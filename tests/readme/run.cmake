@@ -1,5 +1,5 @@
 # Runs the command blocks of README.md in a fresh clone of `source` in `folder`, in order. To keep the suite short the
-# clone takes the finished build tree `build`, and `make TARGET` there checks that the Makefile has the target and that
+# clone uses the finished build tree `build`, and `make TARGET` there checks that the Makefile has the target and that
 # it builds the command; `.ci/run` runs the same blocks without such a replacement.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

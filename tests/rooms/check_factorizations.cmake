@@ -1,8 +1,8 @@
-# Each factorization of Eigen takes the compiler seconds: it is included by the files of this list alone, behind plain functions.
-#   cmake -D root=<project> -P check_factorizations.cmake
+# Each factorization of Eigen takes the compiler seconds: only the files of this list include it, behind plain
+# functions. cmake -D root=<project> -P check_factorizations.cmake
 cmake_minimum_required(VERSION 3.25)
 set(allowed
-  solvers/src/linalg/ solvers/src/structure/condensation_sparse.cpp  # that of sparse complex matrices
+  solvers/src/linalg/ solvers/src/structure/condensation_sparse.cpp  # for sparse complex matrices
   app/src/compose/ app/src/matrices/ fem/src/simplicial_factor.cpp fem/src/hexahedron.cpp wavelets/src/refinable.cpp
   tests/support/dense_algebra.cpp tests/support/dense_system.cpp
   # Oracles of one suite each, and what bench compares with.

@@ -1,4 +1,4 @@
-"""Special points of curves: none is dropped in silence, and none stands twice."""
+"""Bifurcation points of curves: none is dropped silently, and none is listed twice."""
 
 import csv
 import math

@@ -70,7 +70,7 @@ def one_mass(matrix):
 
 
 def test_a_curve_passes_two_samples_that_graze_together_and_come_back(run, isolator):
-    # Of an even number of points two reach the gaps of a symmetric law together.
+    # With an even number of points two reach the gaps of a symmetric law together.
     record = run(isolator)
     assert record.code == 0 and record.summary["status"] == "reached_end"
     assert record.summary["points"] < 2000

@@ -1,4 +1,4 @@
-"""Motions in time from event to event: friction, rebounds and other laws side by side, and structures that are free."""
+"""Motions in time from event to event: friction, rebounds and other laws together, and free structures."""
 
 import csv
 import math

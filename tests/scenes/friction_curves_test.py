@@ -1,4 +1,4 @@
-"""Exact curves of friction, alone and beside stops, and what records say of them."""
+"""Exact curves with friction, also with stops, and their records."""
 
 import csv
 import math

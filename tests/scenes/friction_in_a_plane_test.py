@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scipy.integrate
 
-OPENING = 3e-10  # N, from which on the direction of a vanishing force is left alone
+OPENING = 3e-10  # N, above which the direction of the force is compared
 
 
 class RubbingMass:
@@ -116,7 +116,8 @@ class RubbingMass:
         return self.closed_in_slip(time, motion)
 
     def closed_in_slip(self, time, motion):
-        """The angle is regular where the force begins: that of the velocity, and ratio / (1 + ratio) of its rate."""
+        """The angle is regular where the force begins: the angle of the velocity, and ratio / (1 + ratio) of its
+        rate."""
         n, first, soon = self.rows, self.normal, 2e-6
         v = motion[n + first:]
         a = self.acceleration(time, motion[:n], motion[n:], "open", [])[first:]

@@ -1,4 +1,4 @@
-"""Impacts under a load of samples: what the contact does is told by what it does, and many samples are no burden."""
+"""Impacts under a load of samples: the record describes the contact, and many samples cost little."""
 
 import pytest
 
@@ -57,7 +57,7 @@ def test_a_contact_that_bounces_to_rest_has_a_motion_in_which_it_rests(run, foll
 
 
 def test_a_load_of_many_samples_has_the_motion_of_fewer(run, follower):
-    # Without rebound the follower rests in each turn. Sums over all harmonics at each instant take minutes here.
+    # Without rebound the follower rests in each turn. Sums over all harmonics at each instant would take minutes here.
     few, many = (run(follower(samples, 0.0)).summary for samples in (1024, 16384))
     assert few["converged"] and many["converged"]
     assert many["min_displacement_m"] == pytest.approx(few["min_displacement_m"], rel=1e-2)

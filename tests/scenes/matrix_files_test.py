@@ -69,7 +69,7 @@ def test_a_file_is_read_by_its_content_whatever_its_name_and_with_one_triangle_o
 def test_a_load_is_the_right_hand_side_of_a_harwell_boeing_file(solved):
     scaled = solved(COORDINATES, load="load_dofs = [1]").summary["rms_displacement_m"]
     named = solved(HARWELL_BOEING, load='load = "stiffness.mtx"').summary["rms_displacement_m"]
-    assert named > 2.0 * scaled  # 5 N in place of 1 N
+    assert named > 2.0 * scaled  # 5 N instead of 1 N
 
 
 # The same two masses as nodes 40 and 7, which comes first.

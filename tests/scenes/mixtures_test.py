@@ -1,4 +1,4 @@
-"""Exact motions of friction beside other laws, and what records say of them."""
+"""Exact motions of friction with other laws, and their records."""
 
 import math
 
@@ -24,7 +24,7 @@ def two_masses(matrix):
 
 
 @pytest.mark.parametrize("stop, dissipated", [
-    # By integrations of 260 000 steps a period with an own return mapping: 2.391808 J by friction beside the first.
+    # By integrations of 260 000 steps a period with a separate return mapping: 2.391808 J by friction near the first.
     ('law = "hunt_crossley"\nhertz_stiffness = 10.0\npower = 1.5\ndissipation = 0.5\ngap = 0.5', 0.260145),
     ('law = "kelvin_voigt"\nstiffness = 10.0\ndamping = 0.5\ngap = 5.0', 0.0),  # never touched
 ])
@@ -38,7 +38,7 @@ def test_friction_is_no_part_of_what_damped_contacts_take(run, two_masses, stop,
 
 
 def test_an_exact_motion_is_not_held_against_samples(run, matrix):
-    """Rigid friction without mass beside a stop: the forces jump between samples."""
+    """Massless rigid friction and a stop: the forces jump between samples."""
     matrix("m.mtx", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
     matrix("k.mtx", [[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 1.0]])
     contacts = slider(1, "friction = 0.4\nnormal_load = 1.0") + '[[contact.pairs]]\ndofs = [3]\nlaw = "linear"\nstiffness = 8.0\ngap = 0.5\n'

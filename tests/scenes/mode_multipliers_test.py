@@ -1,4 +1,4 @@
-"""Multipliers of nonlinear modes are near those of the exact motion, and have no more digits than that."""
+"""Multipliers of nonlinear modes are near the exact motion's, and have no more digits than that."""
 
 import pytest
 

@@ -69,8 +69,8 @@ random_starts = 4
 
 
 def test_a_detached_curve_that_the_law_moves_away_is_found(run, absorber):
-    """An absorber, of which the spring to the ground alone makes a shape that no mode has [T. Detroux, G. Habib,
-    L. Masset, G. Kerschen, MSSP, 2015]."""
+    """An absorber, whose spring to the ground gives a shape that no mode has [T. Detroux, G. Habib, L. Masset, G.
+    Kerschen, MSSP, 2015]."""
     record = run(absorber([[1.0453, -0.0453], [-0.0453, 0.0453]], [[0.015, -0.013], [-0.013, 0.013]], """law = "cubic"
 [[contact.pairs]]
 dofs = [1]
@@ -85,7 +85,7 @@ isola_starts = 1"""))
     assert record.code == 0, record.errors
     point, = record.summary["special_points_of_isolas"]
     assert point["type"] == "neimark_sacker"
-    assert point["frequency_Hz"] == pytest.approx(0.27943606, rel=1e-6)  # that of the curve followed from above
+    assert point["frequency_Hz"] == pytest.approx(0.27943606, rel=1e-6)  # motion of the curve followed from above
     parts = {part["isola"]: part for part in record.summary["unstable_parts"]}
     assert parts[1]["end_Hz"] == pytest.approx(point["frequency_Hz"])
     assert parts[2]["end_Hz"] - parts[2]["begin_Hz"] == pytest.approx(0.04)

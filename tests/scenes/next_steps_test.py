@@ -1,4 +1,4 @@
-"""What may help, as a run that was not solved prints it, is accepted by the scene that it is said of."""
+"""Remedies that an unsolved run prints are accepted by its scene."""
 
 import re
 
@@ -34,7 +34,7 @@ LAWS = {
 
 @pytest.fixture(scope="module")
 def known():
-    """What runs of this file said, by their scenes and changes: the special points of dampers take seconds."""
+    """Output of runs of this file, by their scenes and changes: bifurcation points with dampers take seconds."""
     return {}
 
 

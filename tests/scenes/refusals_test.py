@@ -1,4 +1,4 @@
-"""What a scene cannot be is refused by check as by run, with file, key and what is allowed."""
+"""Invalid scenes are refused by check as by run, with file, key and allowed values."""
 
 import signal
 import subprocess
@@ -51,7 +51,7 @@ def matrices(matrix):
 
 @pytest.fixture
 def verdicts(matrices, command, run, tmp_path):
-    """What check and then run say of a scene."""
+    """Output of check and then run for a scene."""
 
     def ask(contact, structure="contact_dofs = [2]", analysis="forced_response", *arguments, set=(), solve=True):
         bases = "" if "restitution" in contact or analysis in ("time_stepping", "shooting", "motions") else BASES

@@ -1,4 +1,4 @@
-"""What records and report pages say of motions and curves, beginning with what vibrates."""
+"""Records and report pages of motions and curves, beginning with the vibration."""
 
 import csv
 import html
@@ -241,7 +241,7 @@ def test_points_of_an_interrupted_curve_are_solutions_with_their_outputs(scenes,
                  tmp_path / "out"]
     for pair in ("analysis.outputs=[25]", "analysis.largest_step=0.01", "analysis.first_step=0.01"):
         arguments += ["--set", pair]
-    for seconds in (0.5, 2.0, 8.0):  # on a busy machine the first point takes longer
+    for seconds in (0.5, 2.0, 8.0):  # on a busy machine the first point is slower
         with subprocess.Popen([str(one) for one in arguments], stderr=subprocess.PIPE, stdout=subprocess.PIPE) as program:
             time.sleep(seconds)
             program.send_signal(signal.SIGINT)

@@ -1,8 +1,8 @@
 """A journal in a ring, law = "ring": a Jeffcott rotor against its closed forms and an integration of the test's own.
 
-A journal of mass 1 kg on springs of 1 N/m with a damping of 0.1 N s/m moves in a ring of clearance 1 m. Under a load F that turns
-with the frequency W its synchronous motion has the radius r of |(k - W^2 + i c W) r + kc max(r - 1, 0) (1 + i mu)| = F. In a
-frame that turns with the load it stands still, and its multipliers are those of a matrix of 4 x 4.
+A journal of mass 1 kg on springs of 1 N/m with a damping of 0.1 N s/m moves in a ring of clearance 1 m. Under a load F
+that turns with the frequency W its synchronous motion has the radius r of |(k - W^2 + i c W) r + kc max(r - 1, 0) (1 +
+i mu)| = F. In a frame that turns with the load it is at rest, and its multipliers are eigenvalues of a 4 x 4 matrix.
 """
 
 import csv
@@ -77,7 +77,7 @@ def radii(speed, load, ring, friction=0.0):
 
 
 def multipliers(radius, speed, ring, friction=0.0):
-    """Of the synchronous motion of this radius over its period."""
+    """Positions of the synchronous motion of this radius over its period."""
     along, across = (ring, ring * (1.0 - CLEARANCE / radius)) if radius > CLEARANCE else (0.0, 0.0)
     # By the radial and the tangential displacement: the normal force turns with the journal, too.
     slopes = np.array([[along, -friction * across], [friction * along, across]])

@@ -1,4 +1,4 @@
-"""A law that acts on both sides takes no obstacle on either side."""
+"""A law that acts on both sides accepts no obstacle on either side."""
 
 import pytest
 

@@ -9,7 +9,7 @@ from structure_scenes import BLADE, MATRICES, changed, node_displacements, refus
 import wavebalance as wb
 
 SWEEP = MATRICES.parent / "blade" / "sweep.toml"
-# The blade of this project, a stand-in for that of Laxalde and Legrand (2010), section 5.2: fem's BladeOptions.
+# The blade of this project, a substitute for the blade of Laxalde and Legrand (2010), section 5.2: fem's BladeOptions.
 OPEN_BLADE = {
     "chord": [0.052, 0.056], "thickness_ratio": [0.09, 0.031], "camber_ratio": [0.098, 0.011],
     "angle_degrees": [10.0, 35.0], "edge_thickness": 0.35, "length": 0.091, "youngs_modulus": 1.1e11,
@@ -30,7 +30,7 @@ def test_the_type_alone_is_the_open_blade():
 
 
 @pytest.mark.parametrize("overrides, counted", [
-    # 24 contacts: counts of 15 functions take three points of the curve, those of 63 tens of them.
+    # 24 contacts: counts of 15 functions cost three points of the curve, of 63 functions tens of them.
     ({"time.functions": 15}, True),
     ({"time.functions": 63}, False),
     ({"time.functions": 63, "analysis.stability": True}, True),
@@ -54,7 +54,7 @@ def test_a_wrong_value_is_refused_at_its_line(line, key, part):
 
 
 def free_nodes(chord, thickness, span, mid_edges):
-    """Nodes of a block of hexahedra, of which those of the root are held."""
+    """Nodes of a block of hexahedra, held at the root."""
     corners = (chord + 1) * (thickness + 1) * span
     if not mid_edges:
         return corners

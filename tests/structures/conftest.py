@@ -17,7 +17,7 @@ def chain_files(matrix, tmp_path, monkeypatch):
 
 @pytest.fixture
 def rotor_files(matrix, tmp_path, monkeypatch):
-    """Writes a matrix into the current folder, which has those of the overhung disk."""
+    """Writes a matrix into the current folder, which has the matrices of the overhung disk."""
     monkeypatch.chdir(tmp_path)
     for name, rows in FILES:
         matrix(f"{name}.mtx", rows.tolist())

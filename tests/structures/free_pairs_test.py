@@ -1,4 +1,5 @@
-"""Bodies that turn together without force, and contacts at supports that move: the motion relative to both is that of one mass."""
+"""Bodies that turn together without force, and contacts at supports that move: the motion relative to both belongs to
+one mass."""
 
 import copy
 

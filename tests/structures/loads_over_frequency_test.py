@@ -169,7 +169,8 @@ def test_a_key_that_does_not_belong_to_the_term_is_refused(term, key):
     refused(scene(term), key)
 
 
-# A slider on the first mass, whose normal load grows with the square of the frequency, or by a table beside one that does not vary.
+# A slider on the first mass, whose normal load grows with the square of the frequency, or by a table in addition to a
+# constant one.
 MU, TANGENTIAL, GROWTH, LOAD = 0.4, 2e4, 6.5e-3, 1.0
 LOADS = [3.0, 20.0, 6.0, 12.0]
 PRESSED = f'law = "coulomb"\nfriction = {MU}\ntangential_stiffness = {TANGENTIAL}\nnormal_load = '

@@ -104,7 +104,7 @@ def test_the_strip_has_72_degrees_of_freedom(scene):
     assert "matrices, 72 degrees of freedom" in wb.check(MATRICES / scene)
 
 
-# A chain whose responses settle within few periods.
+# A chain whose transients decay within few periods.
 DAMPED = {"forcing.frequency": 35.0, "structure.modal_damping": 0.1, "contact.gap": [5e-5, 1e-4]}
 SOFT = {**DAMPED, "contact.stiffness": 1e6}
 
@@ -124,7 +124,7 @@ def test_two_contacts_of_a_chain_move_as_time_stepping_says(chain_files):
 
 @pytest.mark.parametrize("functions", [15, 31, 63])
 def test_rigid_contacts_hold_up_to_the_error_of_the_functions(chain_files, functions):
-    # One mode is left beside the two contacts, and the load drives it at its resonance.
+    # One mode is left in addition to the two contacts, and the load drives it at its resonance.
     record = wb.run(changed(CHAIN, ('"linear"', '"rigid"'), ("stiffness = 1e7", "# ")),
                     {**DAMPED, "time.functions": functions, "time.quadrature_points": 8 * functions})
     assert record.converged, record.status

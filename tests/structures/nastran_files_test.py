@@ -25,7 +25,7 @@ DIGITS = {"rtol": 1e-9, "atol": 0.0}
 
 @pytest.fixture
 def read(tmp_path):
-    """What one file with these contents holds."""
+    """Matrices of one file with these contents."""
 
     def read(content, place="", name="job.dat"):
         file = tmp_path / name

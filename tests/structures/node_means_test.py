@@ -1,4 +1,4 @@
-"""A node of an expanded beam, which has several rows: contacts, loads and outputs take their mean."""
+"""A node of an expanded beam, which has several rows: contacts, loads and outputs use their mean."""
 
 import numpy as np
 import pytest
@@ -80,7 +80,7 @@ def test_a_reduction_keeps_one_coordinate_for_the_mean_of_a_node(beam):
 @pytest.mark.parametrize("loaded, kept", [(["node 7 z"], 1), (["node 7 z", "node 8 z"], 2), (["node 8 z"], 2),
                                           (["node 7 z #2"], 2), (["node 7 z #2", "node 7 z #3"], 2)])
 def test_rows_that_a_load_takes_otherwise_than_a_contact_are_coordinates_of_their_own(beam, loaded, kept):
-    # A load on one or two rows of the node leaves the others one coordinate, and those that it takes another.
+    # A load on one or two rows of the node leaves one coordinate for the others, and one for the loaded rows.
     beam["forcing"]["load_dofs"] = loaded
     record = wb.run(beam, reduced(5 - kept))
     assert record.summary["reduced_degrees_of_freedom"] == 5

@@ -53,14 +53,14 @@ def refused(scene, key, *parts, line=None, overrides=None, unset=()):
 
 
 def solved(scene, overrides=None, unset=()):
-    """The record of the balance alone, which must converge."""
+    """The record of only the balance, which must converge."""
     record = wb.run(scene, {"analysis.phases": False, "analysis.stability": False, **(overrides or {})}, unset=unset)
     assert record.converged, record.status
     return record
 
 
 def stepped(scene, overrides=None, unset=()):
-    """The record of the same motion by time stepping, which must settle."""
+    """The record of the same motion by time stepping, which must converge."""
     record = wb.run(scene, {"analysis.type": "time_stepping", **(overrides or {})}, unset=unset)
     assert record.converged, record.status
     return record
@@ -82,7 +82,7 @@ def forces(record):
 
 
 def distance(found, expected):
-    """The norm of a difference over that of what is expected."""
+    """The norm of a difference over the norm of the expected value."""
     assert np.shape(found) == np.shape(expected)
     return np.linalg.norm(found - expected) / np.linalg.norm(expected)
 

@@ -1,4 +1,4 @@
-"""structure.gyroscopic and spin_stiffness: a rotor at a speed of its own, or at that of its load."""
+"""structure.gyroscopic and spin_stiffness: a rotor at a fixed speed, or at the speed of its load."""
 
 import numpy as np
 import pytest

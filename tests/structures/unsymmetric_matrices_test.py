@@ -38,7 +38,7 @@ def test_a_rotor_flutters_where_the_damping_of_the_shaft_exceeds_that_outside(ci
 def test_a_rotor_reduced_to_all_its_modes_is_the_whole_one_and_unsymmetric(rotor):
     kept = {"structure.kept_modes": 3}
     assert distance(displacements(solved(ROTOR, kept)), displacements(rotor)) < 1e-8
-    # Without contact, damping and stiffness each matter by their skew parts alone.
+    # Without contact, damping and stiffness each matter only by their skew parts.
     linear = {**kept, "contact.law": "none"}
     mass, damping, stiffness = (scipy.io.mmread(MATRICES / "rotor" / f"{name}.mtx").toarray()
                                 for name in ("mass", "damping", "stiffness"))

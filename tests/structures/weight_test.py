@@ -1,4 +1,4 @@
-"""Directions of a dof map, weights, loads of single terms, and where a structure stands under its static loads."""
+"""Directions of a dof map, weights, loads of single terms, and the static deflection of a structure."""
 
 import tomllib
 
@@ -76,7 +76,7 @@ ONE_FAR = {"contact.gap": [1.0, 1e-4]}
 
 
 def test_it_stands_under_its_static_loads_with_the_contacts_that_they_close():
-    # K u + k (u_3 - g) e_3 = f where the last mass alone touches.
+    # K u + k (u_3 - g) e_3 = f where only the last mass touches.
     closed = CHAIN_STIFFNESS + np.diag([0.0, 0.0, 1e7])
     u = np.linalg.solve(closed, [0.0, 0.0, 300.0 + 1e7 * 1e-4])
     rest = rest_of(STANDS, ONE_FAR)

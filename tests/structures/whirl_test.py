@@ -79,7 +79,7 @@ def test_critical_speeds_are_where_a_root_has_the_frequency_of_the_speed(tmp_pat
     found = record.summary["critical_speeds"]
 
     def off(speed, sense):
-        """Of the lowest whirl of one sense from the speed."""
+        """Difference of the lowest whirl of one sense from the speed."""
         values = sense * roots(speed).imag
         return np.min(values[values > 1.0]) - speed
 

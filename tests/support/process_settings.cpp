@@ -1,5 +1,5 @@
 // Tests compute with one thread of OpenBLAS and keep the memory that they free, as the programs do
-// (solvers/linalg/blas_threads.hpp, freed_memory.hpp), so that their figures are those of the programs. Tests
+// (solvers/linalg/blas_threads.hpp, freed_memory.hpp), so that they have the numbers of the programs. Tests
 // of modules below `solvers` do not link it.
 #include <malloc.h>
 

@@ -9,7 +9,7 @@ MASK = (1 << 64) - 1
 
 
 class Dice:
-    """The Mersenne twister of 64 bits (Nishimura 2000), whose numbers are those of the bench of the same motions."""
+    """The Mersenne twister of 64 bits (Nishimura 2000), with the numbers of the benchmark of the same motions."""
 
     def __init__(self, seed):
         self.state, self.at = [seed], 312

@@ -23,10 +23,10 @@ def distance(found, exact):
     return np.linalg.norm(found - exact) / np.linalg.norm(exact)
 
 
-# `make bench` takes 200 motions, and 1e-6; there the largest true error is 1.8 times the tolerance, because the
+# `make bench` uses 200 motions, and 1e-6; there the largest true error is 1.8 times the tolerance, because the
 # estimate is no bound.
 CASES = [(seed, tolerance) for seed in range(FIRST_SEED, FIRST_SEED + 20) for tolerance in (1e-2, 1e-4)]
-# The true errors of 1000 seeds once were 6.4, 5.0 and 3.3 times the tolerance: one or two of 64 points touched, beside
+# The true errors of 1000 seeds once were 6.4, 5.0 and 3.3 times the tolerance: one or two of 64 points touched, near
 # the maximum; and 5.8 times: a contact shorter than the highest harmonic of 63 functions. At seed 283 Newton's method
 # once stalled from the harmonics of the previous level, which oscillate between samples in contact.
 CASES += [(19, 1e-4), (198, 1e-4), (246, 1e-4), (704, 1e-4), (283, 1e-3)]

@@ -1,4 +1,4 @@
-"""Scenes with a tolerance against references that know no time basis; the motions are those of the bench."""
+"""Scenes with a tolerance compared with references without a time basis; the motions are from the benchmark."""
 
 from pathlib import Path
 

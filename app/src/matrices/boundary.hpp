@@ -16,8 +16,8 @@ struct BoundaryCoordinate {
 };
 
 /// Coordinates that a reduction keeps in addition to its modes: the unknowns that contacts touch, then
-/// those loaded. Rows of one name, as those of a node of an expanded beam, are one coordinate if all
-/// contacts and loads have them in the same proportions.
+/// those loaded. Rows of one name, as of a node of an expanded beam, are one coordinate if all contacts and
+/// loads have them in the same proportions.
 std::vector<BoundaryCoordinate> boundary_coordinates(const Scene& scene, const StructureFiles& files);
 
 /// The unknowns that the coordinates replace, the first one of each.
@@ -29,7 +29,7 @@ Eigen::SparseMatrix<double> merging(const std::vector<BoundaryCoordinate>& bound
 /// B^T A B of M, C and K.
 fem::Matrices merged(const fem::Matrices& matrices, const Eigen::SparseMatrix<double>& merging);
 
-/// S B with exact zeros in place of rounding errors.
+/// S B with exact zeros instead of rounding errors.
 solvers::ContactDirections merged(const solvers::ContactDirections& directions,
                                   const Eigen::SparseMatrix<double>& merging);
 

@@ -171,7 +171,7 @@ std::string mark_text(const TextMark& mark) {
 
 /// Edges of the axes of a diagram in fractions of the picture. In SVG gnuplot overestimates the height of
 /// letters, and would use half of a low panel for its margins. `aligned` panels are below each other: 88 px
-/// hold labels like 0.0005. Labels of segments stand right of the panel.
+/// hold labels like 0.0005. Labels of segments are right of the panel.
 std::string margins_text(const Panel& panel, const FigureLayout& layout, const Box& box, bool heading,
                          bool aligned, bool labelled) {
   const double below = panel.x.label.empty() ? 32.0 : 58.0, above = heading ? 30.0 : 12.0;

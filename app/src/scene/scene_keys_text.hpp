@@ -6,7 +6,7 @@
 
 namespace wavebalance::app {
 
-/// As describe_scene_keys(), of the keys, also those of pairs and terms, for which `shown` is true; where a
+/// As describe_scene_keys(), of the keys, also of pairs and terms, for which `shown` is true; where a
 /// contact law is given, its parameters as for this law.
 std::string describe_scene_keys(const std::function<bool(const SceneKey&)>& shown, std::string_view law = {},
                                 int width = 100);

@@ -67,7 +67,7 @@ def scene(analysis, contact, structure):
 
 
 def entry(env, row, contact, structure=""):
-    """What the command answers to a scene of this row and column."""
+    """The command's answer to a scene of this row and column."""
     name = re.sub(r"\W+", "_", f"{row} {contact} {structure}")
     (work_folder(env) / f"{name}.toml").write_text(scene(row, contact, structure))
     code, text = answer(env, f"wavebalance check {name}.toml")

@@ -1,8 +1,7 @@
 """Directives that run the examples of a page while the site is made, and show what they write.
 
-Each page has a folder of its own, in which `run` runs its commands in the order of the page, `file` writes files and
-from which `picture`, `figure-table` and the role `value` take results. A command that ends with another exit code than
-expected ends the making of the site.
+Each page has a separate folder. `run` runs its commands there in the order of the page, `file` writes files, and
+`picture`, `result-table` and the role `value` read results. A command with an unexpected exit code stops the build.
 """
 
 import csv
@@ -58,7 +57,7 @@ def environment(app):
 
 
 def answer(env, command):
-    """Exit code and output, with that of errors, of a shell command in the folder of the page."""
+    """Exit code and output, including errors, of a shell command in the folder of the page."""
     try:
         done = subprocess.run(["sh", "-e", "-c", command], cwd=work_folder(env), env=environment(env.app), text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=MAX_SECONDS)
@@ -83,8 +82,8 @@ def shortened(text, limit):
 
 
 class Run(Directive):
-    """`.. run::` with one shell command per line; shows commands and output. `:silent:` shows the commands alone and
-    `:hidden:` nothing, `:lines:` limits the lines shown per command, `:exit:` is the exit code that must come."""
+    """`.. run::` with one shell command per line; shows commands and output. `:silent:` shows only the commands and
+    `:hidden:` nothing, `:lines:` limits the lines shown per command, `:exit:` is the expected exit code."""
 
     has_content = True
     option_spec = {"exit": directives.nonnegative_int, "lines": directives.positive_int, "silent": directives.flag,
@@ -107,7 +106,7 @@ class Run(Directive):
 
 class File(Directive):
     """`.. file:: name` writes its content into the folder of the page and shows it; `:from:` copies a file of the
-    sources, relative to their top, in place of the content. `:hidden:` shows nothing."""
+    sources, relative to their top, instead of the content. `:hidden:` shows nothing."""
 
     required_arguments = 1
     has_content = True
@@ -186,7 +185,7 @@ def figure(address, alt, caption, leads_to):
 
 class ResultTable(Directive):
     """`.. result-table:: file.csv` shows rows of a table of results: `:columns:` names them, separated by commas, each
-    with a factor behind `*`, a title behind `=` and a format behind `|`; `:every:` takes each n-th row."""
+    with a factor after `*`, a title after `=` and a format after `|`; `:every:` shows each n-th row."""
 
     required_arguments = 1
     option_spec = {"columns": directives.unchanged_required, "every": directives.positive_int}
@@ -219,7 +218,7 @@ def read_column(text):
 
 
 def with_formulas(text):
-    """A paragraph of a text whose formulas stand between dollar signs."""
+    """A paragraph of a text with formulas between dollar signs."""
     paragraph = nodes.paragraph()
     for number, part in enumerate(re.split(r"\$([^$]+)\$", str(text))):
         paragraph += nodes.math(part, part) if number % 2 else nodes.Text(part)

@@ -1,5 +1,5 @@
 """`.. headers:: folder` documents the public names of all headers below a folder from the XML that Doxygen wrote: classes,
-structs, concepts, enums, functions and types, each with its comment as it stands in the header."""
+structs, concepts, enums, functions and types, each with its comment in the header."""
 
 import re
 import xml.etree.ElementTree as ElementTree

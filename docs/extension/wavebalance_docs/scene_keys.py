@@ -1,4 +1,5 @@
-"""`.. scene-keys::` lists all keys of a scene from `wavebalance keys`, so that this reference is that of the program."""
+"""`.. scene-keys::` lists all keys of a scene from `wavebalance keys`, so that this reference agrees with the
+program."""
 
 import re
 

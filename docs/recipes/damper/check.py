@@ -1,4 +1,4 @@
-"""A damper that always sticks is a spring, and friction takes out what the load puts in."""
+"""A damper that always sticks is a spring, and friction dissipates the work of the load."""
 import json
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Below the clearance the curve is that of a linear oscillator; the jumps are where its time integration jumps."""
+"""Below the clearance the oscillator is linear; the curve jumps where time integration jumps."""
 import json
 
 import numpy as np

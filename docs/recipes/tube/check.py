@@ -1,4 +1,4 @@
-"""What the flow puts in over a period, damping and friction take out."""
+"""Damping and friction dissipate the work of the flow in a period."""
 import json
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""What the program blade writes: the Campbell diagram, and the forced response on a coarser scene."""
+"""Files of the program blade: the Campbell diagram, and the forced response on a coarser scene."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_the_forced_response_is_bent_by_contact_in_every_pair(forced_response):
     assert forced_response.has("forced_response.png")
 
 
-# Whoever draws the curve again finds its folds beside its turns, and where it is known to be stable.
+# The curve can be drawn again with its folds at its turns and its stable parts.
 def test_folds_of_the_forced_response_lie_beside_the_turns_of_its_curve(forced_response):
     curve = forced_response.table("forced_response_curve.csv")
     frequency, step = curve.numbers("frequency_Hz"), np.diff(curve.numbers("frequency_Hz"))

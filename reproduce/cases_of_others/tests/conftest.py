@@ -1,4 +1,4 @@
-"""What the tests of the cases share."""
+"""Common parts of the tests of the cases."""
 
 import os
 import sys

@@ -104,8 +104,8 @@ def harvester(frequency, dashpot=0.0):
 
 
 def harvester_fold(speed, phase, share):
-    """The upper fold (Hz) of the harvester's symmetric motion from one at 400 Hz: its speed and phase at the right stop, and how long it
-    stays. The frequency is sought for each phase, until it falls."""
+    """The upper fold (Hz) of the harvester's symmetric motion from one at 400 Hz: its speed and phase at the right
+    stop, and how long it stays. The frequency is computed for each phase, until it decreases."""
     def rest(unknown, phase):
         speed, share, frequency = unknown[0] * 1e3, unknown[1] / 10, unknown[2] * 1e2
         flow = harvester(frequency)

@@ -174,7 +174,7 @@ def test_fold_of_the_rub_is_where_its_whirls_end():
 
 
 def quartic(radius):
-    """The polynomial in the speed whose roots are those of whirl() of the rub at a radius, squared."""
+    """The polynomial in the speed with the roots of whirl() of the rub at a radius, squared."""
     pressure = 10 * (1 - 1 / radius)
     stiffness = np.poly1d([-1, 0, 1 + pressure])
     turning = np.poly1d([0.1, 0.1 * pressure])
@@ -186,7 +186,8 @@ def test_motion_of_the_ball_has_its_closed_form():
     omega = 2 * pi / period
     speed = gravity * period * (1 - kept) / (1 + kept) / 2  # of the table at the impact
     phase = pi - np.arcsin(speed * omega / table)
-    # Of the map from impact to impact: its determinant is kept^2, and its trace has the table's acceleration at the impact.
+    # The map from impact to impact has the determinant kept^2, and its trace has the table's acceleration at the
+    # impact.
     trace = 1 + kept**2 + (1 + kept)**2 * table * np.cos(phase) / gravity
     instant, _, multiplier = known("bouncing_ball", "instant", "relative", "leading")
     assert phase / (2 * pi) == pytest.approx(instant, abs=1e-11)

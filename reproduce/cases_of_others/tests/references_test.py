@@ -115,7 +115,7 @@ def test_exact_curves_have_the_special_points_to_their_digits(solve, name):
         assert min(abs(unit * one["frequency_Hz"] / place - 1) for one in found if one["type"] == kind) < 5e-9, (kind, place)
 
 
-# Stick and slip between exact instants, which neither bases nor samples take part in.
+# Stick and slip between exact instants, without bases or samples.
 def test_values_of_the_slider_are_those_of_its_exact_motions(solve):
     group = text("slider")["values"][1]
     for place, work, multiplier in zip(group["at"], group["rows"][0][2:], group["rows"][1][2:]):

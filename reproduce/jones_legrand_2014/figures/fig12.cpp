@@ -101,7 +101,8 @@ void state_stiffening(report::Artefact& artefact, const Curves& curves) {
        .panel = "(a)"});
 }
 
-/// The curves of all pairs under one reading, and whether those of `names` turn where the exact one does.
+/// The curves of all pairs under one reading, and whether the curves of `names` turn where the exact one
+/// does.
 struct UnderReading {
   SweepReading reading;
   std::vector<app::Sweep> sweeps;

@@ -1,4 +1,5 @@
-"""What the program jl14 writes, held to known values: references to shooting, errors to another implementation."""
+"""Files of the program jl14 compared with known values: references with shooting, errors with another
+implementation."""
 
 import json
 import tomllib
@@ -19,9 +20,9 @@ TIP_ERRORS = [("bspline_bspline", 1, 8, 2.83e-2), ("bspline_bspline", 1, 16, 1.7
               ("daubechies6_daubechies6", 1, 32, 8.52e-3), ("daubechies6_daubechies6", 1, 64, 1.57e-3),
               ("daubechies6_daubechies6", 1, 128, 1.06e-3), ("haar_bspline", 2, 32, 5.78e-2),
               ("haar_bspline", 2, 128, 1.68e-2)]
-#: Likewise case, functions, the energy norm of daubechies6_daubechies6 over that of the reference [JL14, Fig. 10] and half
-#: a unit of its last digit. With 16 functions it is 1 %: the motion itself is off by half, and two discretisations of the
-#: energy differ by nearly as much.
+# : Likewise case, functions, the energy norm of daubechies6_daubechies6 over the reference's [JL14, Fig. 10] and half
+# : a unit of its last digit. With 16 functions it is 1 %: the motion itself is off by half, and two discretisations of
+# the : energy differ by nearly as much.
 ENERGY_NORMS = [(1, 8, 0.994, 5e-4), (1, 16, 2.02, 0.02), (1, 32, 1.002, 5e-4), (2, 128, 1.000, 5e-4)]
 
 

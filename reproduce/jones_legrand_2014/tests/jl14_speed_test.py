@@ -1,4 +1,4 @@
-"""What the picture of speed against accuracy says of itself. No time is asserted."""
+"""The record of the picture of speed against accuracy. No time is asserted."""
 
 import itertools
 import math

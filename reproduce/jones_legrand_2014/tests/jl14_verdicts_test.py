@@ -92,7 +92,7 @@ def test_curves_without_the_nyquist_coefficient_pass_with_every_step(results, wo
     assert [reading["verdict"] for reading in kept_shortest] == ["differs"]
 
 
-# What cannot fail but by a fault of the code.
+# Fails only by an error in the code.
 @pytest.mark.parametrize("stem, words", [(FIG04, "no longer scale-invariant"), (FIG06, "blocky nature"),
                                          (FIG08, "sharp jump in velocity"), (FIG08, "ringing due to Gibbs"),
                                          (FIG11, "is highest out of")])

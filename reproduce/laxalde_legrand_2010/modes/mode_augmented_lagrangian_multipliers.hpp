@@ -32,7 +32,7 @@ class Multipliers {
   virtual MultiplierReport update(std::span<const double> g, double h) = 0;
 };
 
-/// Of the augmented Lagrangian; refers to the update, which must outlive this.
+/// Multipliers of the augmented Lagrangian; refers to the update, which must outlive this.
 class AugmentedMultipliers final : public Multipliers {
  public:
   explicit AugmentedMultipliers(contact::MultiplierUpdate& update) : update_(update) {}

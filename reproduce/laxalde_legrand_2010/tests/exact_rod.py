@@ -6,7 +6,7 @@ import scipy.optimize
 
 
 def energy_ratio(period):
-    """The energy measure of LL10 over that of grazing, of a period 3 < T < 4 in units of length and wave speed."""
+    """The energy measure of LL10 over its value at grazing, of a period 3 < T < 4 in units of length and wave speed."""
     speed = 1.0 / (2.0 * period - 6.0)
     return 8.0 * speed**2 * period * (period - 2.0) * (6.0 - period) / (4.0 * math.pi**2)
 

@@ -1,4 +1,4 @@
-"""What the program ll10 writes of the blade, held to values found independently."""
+"""Files of the program ll10 for the blade compared with independent values."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What the program ll10 writes of the rod, held to the closed form and to values found independently."""
+"""Files of the program ll10 for the rod compared with the closed form and independent values."""
 
 import exact_rod
 import numpy as np
@@ -129,7 +129,7 @@ def test_both_algorithms_reach_the_largest_energy_with_fewer_than_three_harmonic
 
 
 def median_error(harmonics):
-    """Of the frequencies at energy ratios from 1.2 to 10 against the exact ones."""
+    """Median error of the frequencies at energy ratios from 1.2 to 10."""
     curve = wb.run(LAXALDE / "rod.toml", {"analysis.harmonics": harmonics, "analysis.samples": 2 * harmonics,
                                           "structure.elements": 80}).backbone
     energy, ratio = curve["energy_ratio"], curve["frequency_ratio"]

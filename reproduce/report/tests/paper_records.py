@@ -9,7 +9,7 @@ IMAGE = '<svg xmlns="http://www.w3.org/2000/svg" width="800" height="600"></svg>
 
 
 def record(stem, number="JL14 Fig.", title="", **parts):
-    """What a step leaves beside its files; pages_of() says for which paper."""
+    """The record of a step in addition to its files; pages_of() sets the paper."""
     return {"identity": {"paper": "", "number": number, "title": title, "stem": stem}, "caption": "", "files": [],
             "data": [], "scenes": [], "notes": [], "statements": [], "checks": [], "unjudged": [], "slips": [],
             "table": [], "program": "", "wall_seconds": 0.0, "version": "", **parts}
@@ -26,7 +26,7 @@ def check(sentence, passes):
 
 
 def pages_of(folder, records, paper, beside):
-    """Writes the records of a paper with files beside them, and makes their pages; returns the folder."""
+    """Writes the records of a paper with their files, and makes their pages; returns the folder."""
     for name, text in beside.items():
         (folder / paper / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / paper / name).write_text(text)

@@ -1,4 +1,4 @@
-"""What tests read of the steps of a paper: the tables, records and pictures that they have written."""
+"""Reading of the steps of a paper in tests: their tables, records and pictures."""
 
 import csv
 import json
@@ -12,7 +12,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENES = ROOT / "reproduce" / "scenes"
-if "PYTHONPATH" not in os.environ:  # CTest names the package of its own build
+if "PYTHONPATH" not in os.environ:  # CTest names the package of its build
     sys.path.insert(0, str(ROOT / "build" / "default" / "python"))
 
 
@@ -53,7 +53,7 @@ class Results:
 
     @classmethod
     def of(cls, paper):
-        """The results that CTest has made before its tests, each step once; else those of `make reproduce`."""
+        """The results that CTest has made before its tests, each step once; else the results of `make reproduce`."""
         folder = Path(os.environ.get("WAVEBALANCE_PAPER_RESULTS", ROOT / "results" / paper))
         if "WAVEBALANCE_PAPER_RESULTS" not in os.environ and not folder.is_dir():
             pytest.skip(f"{folder} is missing: make reproduce")
@@ -115,7 +115,7 @@ def relative_rms_error(values, reference):
 
 
 def built_program(variable, folder, name):
-    """The program of reproduce/`folder` that the variable names, else that of `make`."""
+    """The program of reproduce/`folder` that the variable names, else the program of `make`."""
     built = ROOT / "build" / "default" / "reproduce" / folder / name
     if variable not in os.environ and not built.is_file():
         pytest.skip(f"{built} is missing: make")

@@ -45,7 +45,7 @@ def pages(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def page(pages):
-    """The page of the record as it is, and that of one that a function has changed."""
+    """The page of the unchanged record, and of one that a function has changed."""
     made = {}
 
     def text(change=None):
@@ -71,7 +71,7 @@ def attributes(text, name):
 
 
 def copied(text):
-    """Commands as they are copied from a page, whose options are elements of their own."""
+    """Commands as they are copied from a page, whose options are separate elements."""
     return re.sub('<span class="whole">([^<]*)</span>', r"\1", text)
 
 

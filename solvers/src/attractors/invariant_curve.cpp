@@ -115,7 +115,7 @@ class SectionFit {
     }
   }
 
-  // Residual of the curve over the turns.
+  // Slope of the curve over the turns.
   static Eigen::MatrixXd slope_of(const Eigen::MatrixXd& coefficients) {
     const Index harmonics = coefficients.rows() / 2;
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(coefficients.rows(), coefficients.cols());

@@ -215,7 +215,7 @@ class CycleSearch {
 
   End end_of_flow() const { return ended_ == FlowStatus::grows ? End::grows : End::lost; }
 
-  // Continuation of the motion.
+  // Follows the motion until its outcome is known.
   End watched() {
     constexpr double resting = 1e-7, near = 0.02;
     if (cancelled()) return End::goes_on;

@@ -106,9 +106,9 @@ bool has_about_the_length(const PathPoint& found, const Interval& interval, doub
 }
 
 // Points with the interval from one of them towards grazing, each with half of its length, until slope and
-// stability are those of grazing. The parameter differs by the square of the length, so that if none is
-// found then, it equals grazing to ten digits. Where the contact is so stiff that rounding stops Newton's
-// method before, it is one to six; nothing where it stops earlier.
+// stability equal the values at grazing. The parameter differs by the square of the length, so that if none
+// is found then, it equals grazing to ten digits. Where the contact is so stiff that rounding stops
+// Newton's method before, it is one to six; nothing where it stops earlier.
 std::optional<std::vector<PathPoint>> towards(const PathModel& model, const PathPoint& grazing,
                                               const WithInterval& from) {
   constexpr double shortest = 1e-5, one = 1e-6;

@@ -23,10 +23,10 @@ struct ContactPattern {
   bool slips = false;         ///< whether a contact with friction slips or opens
   bool operator==(const ContactPattern&) const = default;
 };
-/// Of the last period of a flow.
+/// The pattern of the last period of a flow.
 ContactPattern pattern_of(const ContactFlow& flow);
 
-/// In states and parameter, the direction of the parameter.
+/// The unit vector of the parameter, after the states.
 inline Eigen::VectorXd along_parameter(Eigen::Index states) {
   return Eigen::VectorXd::Unit(states + 1, states);
 }

@@ -24,13 +24,13 @@ struct Period {
   bool returns() const { return contacts == last_contacts; }
 };
 
-// Scale of a state, and of the length of an unknown period.
+// A step of the state and of an unknown period.
 struct PeriodStep {
   Eigen::VectorXd state;
   double length = 0.0;
 };
 
-// Displacements perpendicular to the motion, by states.
+// The normal of the plane across the motion, in displacements.
 Eigen::VectorXd across_motion(const Eigen::VectorXd& rate, const Eigen::VectorXd& weights) {
   const Eigen::VectorXd moved = weights.cwiseProduct(rate);
   return weights.cwiseProduct(moved) / std::max(moved.norm(), 1e-300);

@@ -50,7 +50,7 @@ struct FreeForces {
   FreeForces(const Contacts& contacts, const std::vector<int>& states, bool all);
 
   Index count() const { return Index(rows.size() + moving.size()); }
-  /// Of equation e; equations of the free forces come first.
+  /// The contact of equation e; equations of the free forces come first.
   Index contact(std::size_t e) const {
     return e < rows.size() ? rows[e].first : moving[e - rows.size()].first;
   }

@@ -28,8 +28,8 @@ struct SegmentStart {
 // How a curve has a motion between two of its points, to first order.
 enum class Passing { never, along, against };
 
-// Its correlation with the direction of a start, which near a fold selects one branch. A static deflection
-// does not make motions more alike.
+// Whether and how a curve passes a start: along or against its direction, which near a fold selects one
+// branch. A static deflection does not make motions more alike.
 Passing passing(const ExactCurve& curve, const SegmentStart& start) {
   constexpr double near = 0.1;
   if (!start.exists()) return Passing::never;
@@ -89,7 +89,7 @@ void add_events(std::vector<ExactEvent> more, bool from_behind, std::vector<Exac
   std::move(more.begin(), more.end(), std::back_inserter(events));
 }
 
-// Options for following the exact curve along one segment.
+// Follows the exact curve along one segment.
 struct StructureCurve {
   ContactProblem& problem;
   const FrequencySweep& curve;

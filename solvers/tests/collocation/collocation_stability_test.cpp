@@ -56,8 +56,8 @@ TEST(CollocationMultipliers, OfAForceThatPullsAreThoseOfTheFlow) {
   expect_same(monodromy(dynamics, contact_stiffness(motion), 0.2), expected, 2e-8);
 }
 
-// A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. The
-// panels of the motion alone gave spurious multipliers.
+// A contact that stays closed moves slowly with the load, and a perturbation of it 200 rad a period. Only
+// the panels of the motion gave spurious multipliers.
 TEST(CollocationMultipliers, OfAContactThatStaysClosedAreExponentialsHoweverFastItIs) {
   const LinearStructure structure = testing::unit_oscillator(0.1, 0.1);
   for (const double damping : {0.0, 3.0, 30.0}) {

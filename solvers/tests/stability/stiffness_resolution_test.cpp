@@ -1,5 +1,5 @@
-// Multipliers of contacts whose stiffness changes much within a small part of the period. References are
-// those of an independent event-driven integration of the variational equations, to 1e-4.
+// Multipliers of contacts whose stiffness changes much within a small part of the period. References come
+// from an independent event-driven integration of the variational equations, to 1e-4.
 
 #include "support/oscillator.hpp"
 #include "support/small_problems.hpp"

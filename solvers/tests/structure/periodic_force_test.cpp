@@ -46,7 +46,7 @@ TEST(PeriodicForce, OnesThatDoNotFitAreRefused) {
             "LinearStructure: forces[0] has the derivative -1; it must be at least 0");
 }
 
-// Each method must give for every load the result of that load alone.
+// Each method must give for every load the result without the other loads.
 TEST(Condensation, OfSeveralLoadsIsThatOfEachAlone) {
   std::mt19937 generator(7);
   const LinearStructure chain = testing::random_chain(9, generator);

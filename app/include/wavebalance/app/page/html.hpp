@@ -8,7 +8,7 @@
 /// Building blocks of HTML pages, shared by the report on the papers and by the command. A page without
 /// network and without scripts still shows all of its text and pictures.
 ///
-///     // beside the pictures response.svg, response.png and response.figure.js = figure_script(figure,
+///     // with the pictures response.svg, response.png and response.figure.js = figure_script(figure,
 ///     "response") PageParts page; page.title = "Response"; page.assets = "";  // the page holds its style
 ///     and scripts itself page.libraries = {Library::d3}; page.body = "<main>\n<h1>Response</h1>\n" +
 ///                 figure_html({"response", ".svg", "The tip over a period", "caption", has_curves(figure)})

@@ -92,7 +92,7 @@ class ContactSystem {
   /// The pieces of laws over a period, as ContactForces has them.
   const Eigen::ArrayXi& period_pieces() const { return forces_.pieces; }
   const Eigen::VectorXd& residual() const { return residual_; }  ///< R, m
-  /// ||R|| / (||u0|| + ||K f||), 1 where R alone is not zero; infinity when not finite.
+  /// ||R|| / (||u0|| + ||K f||), 1 where only R is not zero; infinity when not finite.
   double relative_residual() const { return relative_residual_; }
 
   /// Adds a motion to the linear response in the residual, m, samples() values; empty for none. A curve

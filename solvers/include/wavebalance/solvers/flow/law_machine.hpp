@@ -45,7 +45,7 @@ struct StateExit {
 struct Sliding {
   double speed = 0.0;  ///< m/s, of the slider over its surface
   double wear = 0.0;   ///< W, the normal force times that speed [Archard]
-  double power = 0.0;  ///< W, power of the tangential force on the surface
+  double power = 0.0;  ///< W, dissipated by the tangential force over the surface
 };
 
 /// A contact law as a machine of states. A state says which forces are free and the equations that determine
