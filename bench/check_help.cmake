@@ -1,5 +1,5 @@
-# cmake -D program=FILE -P check_help.cmake: the program says with --help how it is called and what it measures, and
-# names an option that it does not know.
+# cmake -D program=FILE -P check_help.cmake: --help shows the usage and the measurements, and unknown options are
+# named.
 execute_process(COMMAND ${program} --help RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
 foreach(part "usage: wavebalance_bench" "Writes [a-z_]+\\.csv" "--output DIR" "--quick")
   if(NOT code EQUAL 0 OR NOT out MATCHES "${part}")

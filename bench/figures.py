@@ -1,7 +1,8 @@
 """The lines and sentences with figures that README.md and bench/README.md have of a run of `make bench`.
 
-    figures.py measure RESULTS prints what the files of a run say: name, value figures.py check MEASURED ROOT fails
-    where a line of a README differs from these values figures.py lines MEASURED prints these lines
+    figures.py measure RESULTS        prints the values of the files of a run: name, value
+    figures.py check MEASURED ROOT    fails where a line of a README differs from these values
+    figures.py lines MEASURED         prints these lines
 
 measured.csv next to this script has the values of the run that the READMEs cite. After a new run write it again by
 `measure` and put the lines that `check` names into the READMEs.
@@ -267,12 +268,13 @@ def lines_of(v: dict[str, Any]) -> dict[str, list[str]]:
 
     return {
         "README.md": [
-            f"One frequency of a bar against a stop takes {both('point')} in two load cases with 63 functions; "
-            f"a dense LU of all unknowns takes {both('dense')}.",
+            f"One frequency of a bar against a stop takes {both('point')} in two load cases with 63 functions. "
+            f"A dense LU of all unknowns takes {both('dense')}.",
             f"In the first, harmonic balance has an error of {error_text(v['fourier_127_error'])} in {time_text(v['fourier_127_ms'])}, "
             f"the exact solution 1e-12 in {time_text(v['phases_1_12_ms'])}, and time stepping {error_text(v['stepping_error'])} in "
             f"{time_text(v['stepping_ms'])}.",
-            f"Solves to a tolerance had at most {max(v['tolerance_ratio'], v['tolerance_random_ratio']):.2g} times that error.",
+            f"With a tolerance, the true error was at most {max(v['tolerance_ratio'], v['tolerance_random_ratio']):.2g} "
+            "times the tolerance.",
         ],
         "bench/README.md": [
             f"| response, 63 basis functions, 256 time samples, case 1 / case 2 | {both('point')} | {both('dense')} | "

@@ -1,4 +1,4 @@
-# Writes the man page `output` from what `command`, the built program, says of itself, so that both always agree.
+# Writes the man page `output` from the help of `command`, the built program, so that both always agree.
 function(said result)
   execute_process(COMMAND ${command} ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "{false}" "" text "${text}")

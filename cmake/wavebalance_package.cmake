@@ -1,6 +1,6 @@
 # Installed parts in addition to libraries and headers, the Debian package, and the target that builds all of it.
 
-# wavebalance_install_licence(component): every component says under which licences it is.
+# wavebalance_install_licence(component): every component states its licences.
 function(wavebalance_install_licence component)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/cmake/copyright
     DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${component})

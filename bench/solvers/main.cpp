@@ -34,7 +34,7 @@ void yardstick(benchmark::State& state) {
 }
 BENCHMARK(yardstick)->Unit(benchmark::kMicrosecond);
 
-// A benchmark that does one of many equal parts says how many there are.
+// A benchmark of one of many equal parts reports their number.
 double parts(const benchmark::BenchmarkReporter::Run& run) {
   const auto found = run.counters.find("parts");
   return found == run.counters.end() ? 1.0 : double(found->second);

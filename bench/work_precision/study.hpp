@@ -16,7 +16,7 @@ struct Study {
   std::string name;             ///< of the column "case"
   std::string title;            ///< of the panel
   app::MeasuredScene measured;  ///< the reference has the tip's displacement, m, and force, N
-  app::Reference reference;     ///< errors below its own say nothing
+  app::Reference reference;     ///< errors below its own are not significant
 
   const app::Scene& scene() const { return measured.scene; }
 };

@@ -57,7 +57,7 @@ ForceAndTangent ExponentialLaw::resolvent(double v, double flexibility) const {
     x = std::max(x - step, 0.0);
     if (!(step > 1e-15 * x)) break;
   }
-  // The softer of law and spring says the force without cancellation.
+  // The softer of law and spring gives the force without cancellation.
   const double spring = detail::saturate((v - gap_ - x / exponent_) / flexibility);
   const ForceAndTangent law = at_argument(x);
   return {2.0 * x > y ? law.force : spring, 1.0 / (1.0 / law.tangent + flexibility)};

@@ -28,7 +28,7 @@ struct ReturnResult {
   Pair by_first_limit{}, by_last_limit{};
 };
 
-/// The return mapping of a step of one or two tangents. Derivatives are made where they are asked for.
+/// The return mapping of a step of one or two tangents. Derivatives are computed on request.
 ReturnResult return_mapping(const ReturnStep& step, int tangents, bool with_slopes);
 
 /// The derivative of a tangential force by displacements, as a list of those that count.
@@ -53,7 +53,7 @@ class Memory {
   std::vector<Entry> entries_;
 };
 
-/// Goes over the samples of a period, as often as asked, with the tangential force that it has.
+/// Goes over the samples of a period, as often as requested, with the present tangential force.
 class FrictionMarch {
  public:
   FrictionMarch(const CoulombLaw& law, int points, std::span<const double> displacement, bool with_slopes);

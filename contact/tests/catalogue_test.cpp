@@ -58,8 +58,8 @@ class Catalogue : public ::testing::Test {
   std::string table_;
 };
 
-/// Central differences against what the law says, at rest and in motion, away from points where a slope
-/// jumps.
+/// Central differences compared with the law's slopes, at rest and in motion, away from points where a
+/// slope jumps.
 template <class Law>
 void check_derivatives(const Law& law, std::string_view name) {
   constexpr bool moving = requires { law.force(0.0, 0.0); };

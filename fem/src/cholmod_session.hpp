@@ -22,7 +22,7 @@ class CholmodSession {
   CholmodSession& operator=(const CholmodSession&) = delete;
 
   cholmod_common* common() { return &common_; }
-  /// Throws what SymmetricFactor says. A matrix that is not positive definite is no error.
+  /// Throws as SymmetricFactor. A matrix that is not positive definite is no error.
   void check() const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE)

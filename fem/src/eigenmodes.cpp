@@ -49,8 +49,8 @@ void validate(const Sparse& stiffness, const Sparse& mass, int count, const Eige
                           "; a structure that can move freely needs a negative shift");
 }
 
-// The modes above the geometric mean of the lowest and the highest omega^2 that were asked for, from
-// (K - shift M) phi = omega^2 M phi, whose rounding is relative to the highest mode.
+// The modes above the geometric mean of the lowest and the highest requested omega^2, from (K - shift M)
+// phi = omega^2 M phi, whose rounding is relative to the highest mode.
 void replace_high_modes(Modes& modes, const Sparse& shifted, const Sparse& mass, double shift) {
   const Eigen::ArrayXd above = modes.squares.array() - shift;
   const double middle = std::sqrt(above[0] * above.tail(1)[0]);

@@ -6,7 +6,7 @@
 namespace wavebalance::fem {
 
 /// A straight bar along z, width along x, height along y, clamped at z = 0. Without lateral contraction,
-/// which the clamp would hinder over a length that beam theory does not know.
+/// which the clamp would hinder over a length outside beam theory.
 struct Beam {
   double width, height, length;
   SolidMaterial material{210e9, 0.0, 7800.0};

@@ -1,4 +1,4 @@
-"""Without its compiled part the package says so, and what builds it."""
+"""Without its compiled part the package reports what builds it."""
 
 import shutil
 import subprocess

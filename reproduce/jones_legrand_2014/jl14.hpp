@@ -61,7 +61,7 @@ class Case {
   std::vector<app::Response> solve_all(bool whole_structure = false);
   /// The scene that solve() solves.
   app::Scene scene_for(const Pair& pair, int functions);
-  /// The same with further overrides, of which the record says nothing.
+  /// The same with further overrides, which the record does not list.
   app::Scene scene_under(const Pair& pair, int functions, const std::vector<std::string>& overrides) const;
 
  private:

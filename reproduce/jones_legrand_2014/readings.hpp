@@ -11,8 +11,8 @@
 namespace wavebalance::jl14 {
 
 /// One way to compute the inner products. The paper computes them "as discrete inner products using 256
-/// points", and its Fourier functions are 1, cos 2 pi t, sin 2 pi t, ..., so that the last of 64 is a cosine.
-/// It does not say where the points lie.
+/// points", and its Fourier functions are 1, cos 2 pi t, sin 2 pi t, ..., so that the last of 64 is a
+/// cosine. It does not specify the places of the points.
 struct Sums {
   int samples = 256;          ///< uniform, over the period
   double offset = 0.0;        ///< 0: at the left ends of the 1/samples, 0.5: at their middles
@@ -74,7 +74,7 @@ app::Response solved_from_cells(const app::Scene& scene, const Eigen::VectorXd& 
 Eigen::VectorXd cell_values(const app::Response& response, int cells);
 std::string cells_column(const Pair& pair, const Sums& sums);
 
-/// A finding for each of all_sums(); a reading for which `missing` names a pair differs and says so.
+/// A finding for each of all_sums(); a reading for which `missing` names a pair differs and reports it.
 std::vector<report::Reading> judged(const std::function<Finding(std::size_t)>& judge,
                                     const std::function<std::string(std::size_t)>& missing);
 /// The same of solutions of `needed` pairs of Table 2.

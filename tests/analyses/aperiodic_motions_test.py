@@ -55,7 +55,7 @@ def test_statistics_of_a_chaotic_hammer_are_those_of_a_long_motion_by_flights(ru
         assert found[name + unit] == pytest.approx(mean, abs=found[f"{name}_error{unit}"] + error), name
     mean, error = mean_with_error(long_motion["impulses"])
     assert found["mean_contact_force_N"] == pytest.approx(mean * LOAD, abs=found["mean_contact_force_error_N"] + error * LOAD)
-    # An error that says something: none is above 5 % of its value, and none vanishes.
+    # A significant error: none is above 5 % of its value, and none vanishes.
     assert 0.0 < found["impacts_error"] < 0.05 * found["impacts"]
     assert found["max_displacement_m"] == pytest.approx(GAP, rel=1e-3)
 

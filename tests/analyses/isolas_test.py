@@ -100,7 +100,7 @@ def test_check_announces_isolas_with_what_they_take():
 
 
 def other(kind, *sections):
-    """The oscillator with another analysis that asks for isolas."""
+    """The oscillator with another analysis and isolas."""
     return {**{section: STOP[section] for section in sections}, "analysis": {"type": kind, "isolas": True}}
 
 

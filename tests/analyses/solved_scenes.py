@@ -100,7 +100,7 @@ _records, _folders = {}, {}
 
 
 def solved(scene, overrides=None, unset=(), start_from=None):
-    """The record of a scene; tests that ask for the same scene share it."""
+    """The record of a scene; tests of the same scene share it."""
     key = repr((scene, overrides, unset, start_from))
     if key not in _records:
         _records[key] = wavebalance.run(scene, overrides, unset=unset, start_from=start_from)

@@ -46,7 +46,7 @@ class Running:
         return part
 
     def wait_until(self, done, seconds=60):
-        """Waits until `done` says so, which it must before the time is over."""
+        """Waits until `done` holds, within the time."""
         end = time.monotonic() + seconds
         while not done():
             assert time.monotonic() < end, self.errors()

@@ -1,4 +1,4 @@
-"""Pictures of records and the curves of their pages show what the record holds, and no more than was asked."""
+"""Pictures of records and the curves of their pages show the content of the record, and no more."""
 
 import re
 import shutil

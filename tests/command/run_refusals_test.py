@@ -51,7 +51,7 @@ def test_a_full_disk_is_two_and_leaves_nothing(bar, tmp_path):
 
 
 def catches(process, sent):
-    """Whether a process has a handler for the signal, as /proc says."""
+    """Whether a process has a handler for the signal, from /proc."""
     with open(f"/proc/{process.pid}/status", encoding="utf-8") as status:
         caught = next(line.split()[1] for line in status if line.startswith("SigCgt:"))
     return bool(int(caught, 16) >> (sent - 1) & 1)

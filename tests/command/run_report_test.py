@@ -1,4 +1,4 @@
-"""Pages of runs: what was asked, what came out, and the motion that moves there."""
+"""Pages of runs: the problem, the results, and the moving motion."""
 
 import numpy as np
 import pytest

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ("limits", "coming_from", "did_not_converge", "glossary")
+PAGES = ("limits", "coming_from", "did_not_converge", "faq", "glossary")
 OF_OTHERS = re.compile(r"^\.\. code-block::.*\n(?:[ \t]+\S.*\n|\n)*|^     - .*\n(?:       \S.*\n)*", re.MULTILINE)
 
 

@@ -60,7 +60,7 @@ def test_a_run_that_does_not_converge_is_three_and_the_page_names_the_command_th
     record = study('scene = "case.toml"\n[[parameters]]\nkey = "time.functions"\nvalues = [15, 0, 31]\n')
     assert record.code == 3, record.errors
     assert "refused               1" in record.text
-    assert "\nconverged" not in record.text  # the line before says it
+    assert "\nconverged" not in record.text  # set by the previous line
     assert '--set</span> time.functions=0 <span class="whole">--output</span> run2' in record.page
 
 

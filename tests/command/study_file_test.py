@@ -1,4 +1,4 @@
-"""Runs that a study's file asks for, and what is wrong in it."""
+"""Runs of a study's file, and errors in it."""
 
 import pytest
 import wavebalance as wb

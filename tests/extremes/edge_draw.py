@@ -9,7 +9,7 @@ PAIRS = (("fourier", "fourier"), ("fourier", "fourier"), ("bspline", "bspline"),
 
 
 def campaign_seeds(usual, full):
-    """The first seeds, or all of them where the environment asks for full campaigns."""
+    """The first seeds, or all of them if the environment requests full campaigns."""
     extent = os.environ.get("WAVEBALANCE_CAMPAIGN")
     assert extent in (None, "full"), extent
     return range(1, (full if extent else usual) + 1)

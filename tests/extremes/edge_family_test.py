@@ -1,4 +1,4 @@
-"""Inputs at the edge: each solves with residuals checked apart from the solver, or says what is wrong with it."""
+"""Inputs at the edge: each solves with independently checked residuals, or reports its error."""
 
 import pytest
 from edge_family import Case, difference_between_units, family, led_to_what_it_must

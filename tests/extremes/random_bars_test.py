@@ -1,4 +1,4 @@
-"""Bars with numbers of any size: each solves with residuals that hold, or says why it does not."""
+"""Bars with numbers of any size: each solves with residuals that hold, or reports why it does not."""
 
 from edge_draw import campaign_seeds
 from edge_residuals import NOT_CONVERGED, SOLVED, WRONG, check_residuals

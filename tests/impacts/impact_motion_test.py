@@ -1,4 +1,4 @@
-"""Periodic motions with impacts: a table, closed forms, and what impacts say of displacements and energy."""
+"""Periodic motions with impacts: a table, closed forms, and displacements and energy from impacts."""
 
 import math
 

@@ -13,7 +13,7 @@ SHARE = 0.7  # of chains that must have a motion with impacts only
 
 
 def seeds():
-    """The first 40 seeds, or 200 of them where the environment asks for full campaigns."""
+    """The first 40 seeds, or 200 of them if the environment requests full campaigns."""
     extent = os.environ.get("WAVEBALANCE_CAMPAIGN")
     assert extent in (None, "full"), extent
     return range(1, 1 + (200 if extent else 40))

@@ -1,4 +1,4 @@
-"""A rigid law that a pair says itself."""
+"""A rigid law of a pair."""
 
 import copy
 

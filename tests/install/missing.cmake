@@ -1,4 +1,4 @@
-# A project that wants a component that is not installed, or whose own needs are not.
+# A project that needs a component that is not installed, or lacks its dependencies.
 include(${CMAKE_CURRENT_LIST_DIR}/run_command.cmake)
 set(stage ${folder}/stage)
 file(REMOVE_RECURSE ${folder})

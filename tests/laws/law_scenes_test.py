@@ -103,7 +103,7 @@ def test_a_key_of_another_law_is_refused_with_the_keys_of_this_one(refusal, scen
 def test_the_document_of_laws_has_the_table_of_the_catalogue(scenes):
     lines = ["| `law` | force, opposed to u | keys |", "| --- | --- | --- |"]
     for law in wb._core.law_catalogue():
-        keys = [f"`{one['name']}`" for one in law["parameters"] if one["name"] != "tangents"]  # which directions say
+        keys = [f"`{one['name']}`" for one in law["parameters"] if one["name"] != "tangents"]  # defined by directions
         lines.append(f"| `\"{law['name']}\"` | {law['force']} | {', '.join(keys) or 'none'} |")
     assert len(lines) > 12
     document = scenes.parents[1] / "app" / "LAWS.md"

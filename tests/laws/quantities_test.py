@@ -22,7 +22,7 @@ OF_FRICTION = ("friction_work_J", "wear_m3")
 
 
 def label_of(column):
-    """The words and the unit of a column, which its name says."""
+    """The words and the unit of a column from its name."""
     for end, unit in UNITS.items():
         if column.endswith(end):
             return f"{column.removesuffix(end).replace('_', ' ')} ({unit})"

@@ -13,7 +13,7 @@ SHARE = 0.97  # of chains that must be solved
 
 
 def seeds():
-    """The first 10 seeds, or 100 of them where the environment asks for full campaigns."""
+    """The first 10 seeds, or 100 of them if the environment requests full campaigns."""
     extent = os.environ.get("WAVEBALANCE_CAMPAIGN")
     assert extent in (None, "full"), extent
     return range(100 if extent else 10)

@@ -147,5 +147,5 @@ class Look:
 
 @pytest.fixture
 def look(browser):
-    """Opens pages and says whether they are sound."""
+    """Opens pages and checks them."""
     return Look(browser)

@@ -29,7 +29,7 @@ window.look ??= (() => {
       scrollInside: [...document.querySelectorAll(".shown")].filter((one) => one.scrollHeight > one.clientHeight + 1).length };
   }
 
-  // Titles of axes that the edge of their plot cuts, and legends that cannot be told from the page.
+  // Titles of axes that the edge of their plot cuts, and legends that cannot be distinguished from the page.
   const brightness = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, one) => sum + Number(one), 0) / 3;
   function ground(one) {
     for (let at = one; at; at = at.parentElement) {

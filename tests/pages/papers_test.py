@@ -74,7 +74,7 @@ def record(paper, stem, **more):
 
 
 def statement(verdict, quote, readings=()):
-    """One that says all it can."""
+    """A statement with all parts."""
     return {"place": "section 5.1", "quote": quote, "criterion": "x < 1", "measured": "0.5", "verdict": verdict, "because": "x is open",
             "readings": [{"name": name, "verdict": one, "measured": "1", "of_text": True} for name, one in readings], "panel": "(a)",
             "apart": "", "claim": "", "headline": ""}

@@ -1,4 +1,4 @@
-"""Each recipe of the site: its commands run as the page says them, in the order of the page, and its checks hold."""
+"""Each recipe of the site: its commands run as on the page, in the order of the page, and its checks hold."""
 
 import os
 import re

@@ -50,7 +50,7 @@ F                          1             0
 
 @pytest.fixture
 def solved(run, tmp_path):
-    """The record of the scene with its matrices in these texts, under names that say nothing."""
+    """The record of the scene with its matrices in these texts, under neutral names."""
 
     def solve(stiffness, load="load_dofs = [1]", mass=MASS):
         (tmp_path / "mass.mtx").write_text(mass)

@@ -1,4 +1,4 @@
-"""All motions at one frequency: what the search says of those that it finds, and of what it does not solve for."""
+"""All motions at one frequency: the record of motions found, and of unsolved ones."""
 
 import math
 

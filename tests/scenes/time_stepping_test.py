@@ -1,4 +1,4 @@
-"""Time integration converges to periodic motions to the tolerance that was asked for."""
+"""Time integration converges to periodic motions to the requested tolerance."""
 
 import numpy as np
 import pytest

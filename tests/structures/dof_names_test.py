@@ -1,4 +1,4 @@
-"""Names of degrees of freedom, files of other formats than Matrix Market, and what check says of matrices."""
+"""Names of degrees of freedom, files of other formats than Matrix Market, and the output of check for matrices."""
 
 import tomllib
 

@@ -1,4 +1,4 @@
-"""Structures of matrices move as the bars they are the matrices of, and contacts of a chain as time stepping says."""
+"""Structures of matrices move as the corresponding bars, and contacts of a chain as in time stepping."""
 
 import numpy as np
 import pytest

@@ -27,7 +27,7 @@ bool has_motion(const ModePoint& point) { return is_solution(point) && point.amp
 
 bool ends_at_frequency(const Analysis& analysis) { return analysis.last_frequency_ratio > 0.0; }
 
-/// "ended at frequency ratio ..." with what was asked for; the last accepted point is given.
+/// "ended at frequency ratio ..." with the request; the last accepted point is given.
 std::string early_end_text(const ModePoint& last, double linear_omega, double largest_energy,
                            const Analysis& analysis) {
   return fmt::format(

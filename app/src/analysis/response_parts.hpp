@@ -18,7 +18,7 @@ solvers::RefinementResult solve_to_tolerance(const Scene& scene, const Structure
 /// less than a minute for 100. A motion nearby usually needs a thousandth.
 double most_operations_of_exact(int contacts);
 
-/// Copies what a solver says of a response into `result`, which has its motions from elsewhere.
+/// Copies a solver's data of a response into `result`, which has its motions from elsewhere.
 void copy_solution(Response& result, solvers::CondensedProblem& problem,
                    const solvers::PeriodicResponse& found, const Scene& scene, const StructureModel& model);
 
@@ -33,7 +33,7 @@ void copy_phases(solvers::ContactProblem& problem, const solvers::ExactSolution&
                  const Scene& scene, const StructureModel& model, const ResponseOptions& options,
                  Response& result);
 
-/// Sets the contacts' exact motion, and what options ask for of it.
+/// Sets the contacts' exact motion, and its requested parts.
 void copy_motion(solvers::ContactProblem& problem, const solvers::ExactSolution& motion, const Scene& scene,
                  const StructureModel& model, const ResponseOptions& options, Response& result);
 

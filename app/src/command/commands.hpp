@@ -15,8 +15,8 @@ enum ExitCode { solved = 0, bad_input = 2, not_converged = 3, interrupted = 128 
 /// on the standard error. Nothing without one. Throws SceneError.
 void take_analysis(RunArguments& arguments);
 
-/// The scene that the arguments name, with its changes. Throws SceneError, and std::invalid_argument that
-/// says how to begin if there is no such file.
+/// The scene that the arguments name, with its changes. Throws SceneError, and std::invalid_argument with a
+/// hint how to begin if there is no such file.
 Scene given_scene(const RunArguments& arguments);
 
 /// Solves a scene and writes its results. Returns solved, not_converged, or interrupted + signal after a
@@ -69,9 +69,9 @@ struct InitArguments {
 /// "bar", "matrices", "blade", "study".
 std::vector<std::string> starter_kinds();
 
-/// Writes a commented scene, or a study, to start from, with the files that it reads, whose names begin with
-/// the stem of the output, and says what to do next. Returns solved. Throws std::invalid_argument, also if
-/// one of the files exists, and IoError.
+/// Writes a commented scene, or a study, to start from, with the files that it reads, whose names begin
+/// with the stem of the output, and prints the next steps. Returns solved. Throws std::invalid_argument,
+/// also if one of the files exists, and IoError.
 int init_scene(const InitArguments& arguments);
 
 struct ConvertArguments {
@@ -79,9 +79,8 @@ struct ConvertArguments {
   std::filesystem::path output;              ///< folder
 };
 
-/// Writes what files of other codes hold as Matrix Market files and a dof map, which scenes name, and says
-/// what was written. Returns solved. Throws fem::MatrixFileError, std::invalid_argument if a file exists,
-/// IoError.
+/// Writes the content of files of other codes as Matrix Market files and a dof map for scenes, and lists
+/// them. Returns solved. Throws fem::MatrixFileError, std::invalid_argument if a file exists, IoError.
 int convert_files(const ConvertArguments& arguments);
 
 }  // namespace wavebalance::app

@@ -18,7 +18,7 @@ struct NextStep {
 /// the rules of scenes accept; empty if none is known.
 std::vector<NextStep> next_steps(const Scene& scene, const std::string& status);
 
-/// The statuses for which there are steps at all; for tests, which ask for each of them.
+/// The statuses for which there are steps at all; for tests of each of them.
 std::vector<std::string> statuses_with_next_steps(AnalysisType type);
 
 }  // namespace wavebalance::app

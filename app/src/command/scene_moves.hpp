@@ -6,8 +6,8 @@
 
 #include "command/next_steps.hpp"
 
-/// Changes of a scene that may lead on where it was not solved. Each is made for the scene that is given, or
-/// is none where it cannot help there; whether the rules of scenes accept it is asked by next_steps().
+/// Changes of a scene that may lead on where it was not solved. Each is made for the scene that is given,
+/// or is none where it cannot help there; next_steps() checks whether the rules of scenes accept it.
 namespace wavebalance::app::moves {
 
 using Move = std::function<std::optional<NextStep>(const Scene&)>;

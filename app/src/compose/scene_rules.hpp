@@ -27,10 +27,10 @@ void check_loads(const Document& document, const Scene& scene);
 /// Checks functions, quadrature and the pair of bases of a balance. Throws SceneError.
 void check_time(const Document& document, const Scene& scene);
 
-/// Checks what a nonlinear mode asks for. Throws SceneError.
+/// Checks the keys of a nonlinear mode. Throws SceneError.
 void check_mode(const Document& document, const Scene& scene);
 
-/// Checks what a limit cycle asks for. Throws SceneError.
+/// Checks the keys of a limit cycle. Throws SceneError.
 void check_without_load(const Document& document, const Scene& scene);
 
 /// Checks the rules between the keys of a scene, each of which is valid by itself: sizes of wavelet bases,

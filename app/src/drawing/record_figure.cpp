@@ -300,7 +300,7 @@ Figure sweep_figure(const Scene& scene, const Sweep& sweep, const SweepOutputs& 
   const std::string unit = displacement_unit(scene);
   if (output || about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, output, unit));
   if (output && about_a_mean) figure.panels.push_back(vibration_panel(sweep, outputs, std::nullopt, unit));
-  // A rigid obstacle leaves a line at its gap, and without gaps the vibration of the contacts says it all.
+  // A rigid obstacle leaves a line at its gap, and without gaps the vibration of the contacts is enough.
   const bool is_shown = !about_a_mean || has_gaps(scene);
   if (is_shown && !is_rigid(scene.contact.law)) add_displacements_along(figure, scene, sweep);
   if (!sweep.impacts.empty()) {

@@ -98,7 +98,7 @@ std::string array_of(const Table& table, std::size_t column) {
 }
 
 /// Common part of a file's two headers in an archive: version 2.0, no flags but names in UTF-8, no
-/// compression, and the first day that the format knows.
+/// compression, and the first day of the format.
 std::string zip_fields(const std::string& name, const std::string& contents) {
   std::string fields;
   for (const std::uint16_t field : {20, 0x800, 0, 0, 0x21}) append_number(fields, field);

@@ -235,7 +235,7 @@ std::string read_file(const fs::path& file, std::size_t max_bytes) {
     return IoError(file, "cannot be read: it has more than " + std::to_string(max_bytes) + " bytes");
   };
   struct ::stat status {};
-  // A size that is known says so without reading. Files of the system say 0, and others may grow meanwhile.
+  // A known size is checked without reading. Files of the system report 0, and others may grow meanwhile.
   if (::fstat(descriptor.get(), &status) == 0 && std::size_t(status.st_size) > max_bytes) throw too_large();
   std::string text;
   for (;;) {

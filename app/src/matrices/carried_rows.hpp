@@ -16,7 +16,7 @@ Eigen::MatrixXd carried_rows(const Scene& scene, const StructureFiles& files);
 Eigen::VectorXd carried_by(const ForcingTerm& term, const Eigen::MatrixXd& carried,
                            const StructureFiles& files);
 
-/// Refuses what would have to know of S: modal damping, loss factors, matrices that turn, and motions of the
+/// Refuses analyses that would need S: modal damping, loss factors, matrices that turn, and motions of the
 /// whole structure. Throws StructureFault.
 void check_carried(const Scene& scene, const StructureFiles& files);
 

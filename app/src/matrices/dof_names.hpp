@@ -24,7 +24,7 @@ std::vector<int> rows_of(const fem::DofMap& map, const NamedDof& named);
 std::string absent_text(const fem::DofMap& map, const fem::NodeDof& dof, const std::string& path);
 
 /// The document with rows of the matrices, counted from 1, instead of names such as "node 1042 z" or "-node
-/// 1042 z" in its lists of degrees of freedom. structure.dof_map says which row a name is. A name of
+/// 1042 z" in its lists of degrees of freedom. structure.dof_map defines the row of a name. A name of
 /// several rows is their mean: in contacts and forces its coefficient is shared equally by all of them, so
 /// that a force does work with the mean. Throws SceneError at a name that is none or is not in the map, or
 /// if there is no map.

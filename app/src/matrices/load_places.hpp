@@ -9,8 +9,8 @@
 
 namespace wavebalance::app {
 
-/// Holds what a scene says of its loads to its files: rows, directions, and whether a force that is needed
-/// has a place. Throws StructureFault.
+/// Compares the loads of a scene with its files: rows, directions, and whether a force that is needed has a
+/// place. Throws StructureFault.
 void check_loads(const Scene& scene, const StructureFiles& files);
 
 /// Rows counted from 1 with a sign are in 1..size, none twice; none of them moves with a base displacement or

@@ -65,7 +65,7 @@ class PeakSolver {
   }
 
   /// The curve is followed again from the point before with short steps, and the polynomial through the
-  /// heights of its points has the maximum; that through two more says how far it is.
+  /// heights of its points has the maximum; the polynomial through two more points estimates its error.
   OutputPeak between_exact(const OutputPeak& sampled, std::size_t index, std::size_t output, bool vibration) {
     if (dynamics_ == nullptr) return sampled;
     if (!traced_.contains(index)) traced_[index] = followed_again(index, output, vibration);

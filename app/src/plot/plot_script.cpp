@@ -64,7 +64,7 @@ std::string map_block(const HeatMap& map, const std::string& name) {
   return text + "END\n";
 }
 
-/// The ends of the bar say so where values lie beyond them.
+/// The ends of the bar mark values beyond them.
 std::string map_text(const HeatMap& map) {
   const std::string end = number_text(map.largest);
   std::string text;

@@ -95,7 +95,7 @@ void require_same_axis(const Scene& first, const Scene& scene, const fs::path& p
                     place.string(), other.quantity, other.unit, axis.quantity, axis.unit));
 }
 
-/// The names of folders where they tell them apart, else the paths.
+/// The names of folders if they differ, else the paths.
 std::vector<std::string> labels_of(std::span<const fs::path> folders) {
   std::vector<std::string> names;
   for (const fs::path& folder : folders) {

@@ -126,7 +126,7 @@ std::string motion_in_space(const std::vector<RecordFile>& files) {
 }
 
 /// The lines of describe_scene() as a list of names, which fill so many columns, and what they are. A line
-/// that begins with blanks goes on with what the one before says.
+/// that begins with blanks continues the previous one.
 std::string facts_html(const std::string& description) {
   std::string html;
   std::istringstream lines(description);

@@ -197,8 +197,8 @@ std::vector<std::string> vibration_errors(const Summary& summary, bool curve) {
   return errors;
 }
 
-/// How far what was solved lies from the exact periodic solution that was found near it, where the record
-/// says it. An exact curve lies nowhere else.
+/// Error of the solution against the exact periodic solution near it, if the record has it. An exact curve
+/// lies nowhere else.
 void append_exact(std::vector<std::string>& sentences, const Summary& summary, bool curve) {
   if (curve && text_in(summary, quantities::solved_by) == name_of(TimeMethod::exact)) return;
   const std::string status = text_in(summary, quantities::phases_status);
@@ -260,7 +260,7 @@ void append_curve(std::vector<std::string>& sentences, const Summary& summary, d
         " The largest vibration of a contact is {}.",
         peak_text(vibration, unit, value_resolution,
                   number_in(summary, quantities::vibration_place(axis.unit)), place_resolution, axis));
-  // Without a gap the vibration says it all, and a rigid obstacle holds the displacement at its gap.
+  // Without a gap the vibration is enough, and a rigid obstacle holds the displacement at its gap.
   constexpr double rounding = 1e-9;
   if (!std::isfinite(highest) || !std::isfinite(gap) ||
       std::abs(highest - gap) <= rounding * std::max(std::abs(gap), vibration))

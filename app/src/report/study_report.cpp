@@ -109,7 +109,7 @@ std::string extremes_html(const Study& study, const StudyRecord& record) {
          "</p>\n" + code_html(command_of_row(study, record.table, *largest));
 }
 
-/// Whether a quantity says how a run was solved and not what came out.
+/// Whether a quantity describes the solution process, not the result.
 bool is_of_the_solver(const std::string& quantity) {
   static const std::set<std::string> names{"residual",
                                            "iterations",

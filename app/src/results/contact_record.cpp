@@ -50,7 +50,7 @@ Table loops_of(const std::vector<FrictionMeasures>& contacts, const solvers::Mot
   return table;
 }
 
-// In time rigid friction begins where the structure is, whatever slider says.
+// In time integration rigid friction begins at the structure's position, whatever `slider` is.
 void warn_of_history(Record& record, const std::vector<FrictionMeasures>& contacts, bool in_time) {
   std::vector<std::string> stuck;
   bool elastic = true;

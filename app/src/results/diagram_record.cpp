@@ -111,8 +111,8 @@ double distance_of(const DiagramValue& a, const DiagramValue& b, int place) {
   return least;
 }
 
-/// Whether both ways lead to different motions at a value; two aperiodic ones are not told apart, nor is what
-/// is transient from what it may come to.
+/// Whether both ways lead to different motions at a value; two aperiodic ones are not distinguished, nor a
+/// transient from its attractor.
 bool differ(const DiagramValue& there, const DiagramValue& back, int place, double alike) {
   if (there.settles || back.settles) return false;
   if (!there.failure.empty() || !back.failure.empty()) return false;

@@ -252,7 +252,7 @@ Record curve_record(const ModeStudy& study, const Observer& observer) {
   return record;
 }
 
-/// Whether a point is a motion of the energy asked for, on an internal resonance or not.
+/// Whether a point is a motion of the requested energy, on an internal resonance or not.
 bool is_motion_of(const ModePoint& point, double energy_ratio) {
   constexpr double same = 1e-8;
   return point.accepted() || (point.status == ModeStatus::internal_resonance &&

@@ -45,8 +45,8 @@ void warn_of_scene(Record& record, const Scene& scene);
 /// stays from it; NaN where contacts differ.
 void warn_of_open_contacts(Record& record, double distance, double gap, const std::string& unit);
 
-/// Why a structure that is free to move has no periodic motion, and along what it moves. A response that was
-/// not found for another reason says nothing of its load.
+/// Why a structure that is free to move has no periodic motion, and along what it moves. A response that
+/// failed for another reason gives no information on its load.
 void warn_of_unbalanced_load(Record& record, const StructureModel& model);
 
 /// Where the solution started, and what to do if that led nowhere.

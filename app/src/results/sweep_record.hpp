@@ -13,8 +13,8 @@ namespace wavebalance::app {
 Record sweep_record(const Scene& scene, const StructureModel& model, const Sweep& sweep,
                     const SweepOutputs& outputs, const std::vector<CurveMotion>& motions);
 
-/// Leaves the share of the period out at all points where a spring acts everywhere: it is never open, so that
-/// the share says nothing.
+/// Leaves the share of the period out at all points where a spring acts everywhere: it is never open, so
+/// that the fraction is 1.
 void leave_out_contact_fractions(const Scene& scene, Sweep& sweep);
 
 /// The errors of a point and the status of its phases.

@@ -19,8 +19,8 @@
 namespace wavebalance::app {
 namespace {
 
-/// Results of a run that did not converge are missing, but not statistics of a motion that does not repeat. A
-/// row has members for what the heading says.
+/// Results of a run that did not converge are missing, but not statistics of a motion that does not repeat.
+/// A row has members for the entries of the heading.
 Summary scalars_of(const Summary& summary, bool converged) {
   Summary scalars;
   for (const Entry& one : summary) {

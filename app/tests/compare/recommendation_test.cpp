@@ -222,7 +222,7 @@ TEST(Recommendation, NamesContactPhasesWhereNoPairReachesTheError) {
   EXPECT_NE(found.sentences.find(" The exact solution reaches it: 10 ms from harmonic balance"),
             std::string::npos)
       << found.sentences;
-  // Not known where the reference does not know it.
+  // Not known if the reference lacks it.
   EXPECT_FALSE(recommended({by_phases(1e-2, 1e-8)}, 1e-6, 1e-6).phases);
 }
 

@@ -1,5 +1,6 @@
-"""`.. capabilities:: contact` and `.. capabilities:: structure` list which analysis supports what, as the command answers:
-`wavebalance check` for two masses of each kind, and for responses and curves a run, which says whether they have a stability."""
+"""`.. capabilities:: contact` and `.. capabilities:: structure` list which analysis supports what, as the command
+answers: `wavebalance check` for two masses of each kind, and for responses and curves a run, which shows whether they
+have a stability."""
 
 import json
 import re

@@ -134,7 +134,7 @@ class File(Directive):
 
 
 class Picture(Directive):
-    """`.. picture:: file` shows a picture from the folder of the page; `:alt:` says what it shows, the content is its
+    """`.. picture:: file` shows a picture from the folder of the page; `:alt:` describes it, the content is its
     caption. `:page:` shows the picture of that name of another page, and leads there."""
 
     required_arguments = 1

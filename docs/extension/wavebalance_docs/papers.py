@@ -1,5 +1,5 @@
-"""`.. paper-results:: folder` lists what `make reproduce` wrote for a paper: pictures, and how many statements of the paper
-have which verdict. Where nothing was written it says how to write it."""
+"""`.. paper-results:: folder` lists what `make reproduce` wrote for a paper: pictures, and how many statements of the
+paper have which verdict. Without results it shows how to write them."""
 
 import json
 from collections import Counter

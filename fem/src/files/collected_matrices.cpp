@@ -14,7 +14,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr std::string_view stiffness_role = "stiffness", load_role = "load";
 
-/// A text that says what a matrix is, in lower case.
+/// A text with the role of a matrix, in lower case.
 struct Word {
   std::string_view text, role;
 };

@@ -10,8 +10,8 @@ namespace wavebalance::fem::detail {
 /// The requested part of a file.
 enum class MatrixPart { all, matrix, load };
 
-/// The matrix of a Harwell-Boeing file, named by its title, and its right-hand side: of all, where the header
-/// says that there is one. Throws MatrixFileError as read_harwell_boeing() and read_right_hand_side() do.
+/// The matrix of a Harwell-Boeing file, named by its title, and its right-hand side: of all, if the header
+/// declares one. Throws MatrixFileError as read_harwell_boeing() and read_right_hand_side() do.
 std::vector<NamedMatrix> read_harwell_boeing_parts(std::istream& input, const std::string& name,
                                                    MatrixPart part);
 

@@ -16,7 +16,7 @@ using detail::FoundFormat;
 using detail::lower;
 using LowerWords = std::vector<std::string>;
 
-/// A format, what errors call it and which ends of names say it.
+/// A format, its name in errors and its ends of file names.
 struct KnownFormat {
   MatrixFormat format;
   std::string_view name;

@@ -12,7 +12,7 @@ struct FoundFormat {
   bool by_content;  ///< otherwise by the name of the file
 };
 
-/// The format of a file, or none if neither its content nor its name says one. Throws MatrixFileError if it
+/// The format of a file, or none if neither its content nor its name decides. Throws MatrixFileError if it
 /// cannot be read.
 std::optional<FoundFormat> format_if_known(const std::filesystem::path& file);
 

@@ -36,7 +36,7 @@ std::string_view trimmed(std::string_view text);
 /// The words that any of `separators` separate, none of them empty.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);
 
-/// Lines of a file with their numbers, for errors that say where. Errors are MatrixFileError.
+/// Lines of a file with their numbers, for errors with places. Errors are MatrixFileError.
 class Lines {
  public:
   Lines(std::istream& input, std::string name) : input_(input), name_(std::move(name)) {}

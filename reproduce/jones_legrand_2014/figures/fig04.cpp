@@ -21,7 +21,7 @@ double dilation_error(int level) {
   return (fine.head(points) - coarse).cwiseAbs().maxCoeff();
 }
 
-/// Periodisation says so, whatever the functions.
+/// This follows from periodisation for any functions.
 void check_levels(report::Artefact& artefact) {
   std::string text;
   double low = 1.0, high = 0.0;

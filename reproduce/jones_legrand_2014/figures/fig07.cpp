@@ -112,7 +112,7 @@ void state_penetration(report::Artefact& artefact) {
   artefact.statement(statement);
 }
 
-/// Section 5.4 says it of Fig. 7 (c).
+/// Section 5.4 states it for Fig. 7 (c).
 void state_no_plateau(report::Artefact& artefact, const Case& here) {
   const double varies = unevenness(here);
   report::Statement statement{

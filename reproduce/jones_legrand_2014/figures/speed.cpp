@@ -16,7 +16,7 @@ namespace wavebalance::jl14 {
 namespace {
 
 constexpr double elastic_budget = 2.0, rigid_budget = 5.0;  // s of each scene, wall time
-constexpr int per_decade = 4, decades = 9;                  // errors asked, from 1e-1 to 1e-10
+constexpr int per_decade = 4, decades = 9;                  // requested errors, from 1e-1 to 1e-10
 constexpr double beyond = std::numeric_limits<double>::infinity();
 using Error = double app::SolvePoint::*;
 
@@ -218,7 +218,7 @@ Table choices_table(const std::vector<Costs>& all) {
   return table;
 }
 
-/// The least and the largest of a figure in the scenes of one kind of contact, over the errors asked.
+/// The least and the largest of a figure in the scenes of one kind of contact, over the requested errors.
 std::string span(const std::vector<Costs>& all, bool rigid,
                  const std::function<double(const Costs&, int)>& figure) {
   double least = beyond, most = 0.0;

@@ -16,7 +16,7 @@ class Perturbation {
  public:
   explicit Perturbation(ContactFlow& flow) : flow_(flow), weights_(flow.amplitudes_by_state()) {
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(weights_.size(), 1);
-    // A slider that never moves keeps a change of its position, which says nothing of the motion.
+    // A slider that never moves keeps a change of its position, which does not describe the motion.
     const Index states = weights_.size() - memories_of(flow);
     for (Index i = 0; i < states; ++i)
       if (weights_[i] > 0.0) column(i, 0) = (i % 3 == 0 ? 1.0 : -0.7) / weights_[i];

@@ -79,7 +79,7 @@ ForceSlope AnyContactLaw::solve_resolvent(const Interface& law, double v, double
     r = u + flexibility * now.force - v;
     (r * outward < 0.0 ? near : far) = u;
   }
-  // The softer of law and spring says the force without cancellation.
+  // The softer of law and spring gives the force without cancellation.
   const bool soft = std::abs(v - u) < 0.5 * std::abs(v - law.gap());
   return {soft ? now.force : (v - u) / flexibility, slope(now.tangent)};
 }

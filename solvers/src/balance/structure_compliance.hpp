@@ -27,7 +27,7 @@ class StructureCompliance final : public HarmonicCompliance {
   int threads() const override { return condensation_.threads(); }
 
  private:
-  // The held structure at rest, with springs of the size that the last frequency asks for.
+  // The held structure at rest, with springs for the last frequency.
   struct Rest {
     HeldStructure held;
     double stiffness = 0.0;

@@ -24,8 +24,9 @@ struct CollocationSolution {
 
   /// Whether Newton's method has converged and the motion has the phases of the equations.
   bool agrees() const;
-  /// Whether the motion says nothing about its phases: the residual is about as large as the forces, or
-  /// Newton's method has not converged and the motion has many times the phases of the equations.
+  /// Whether the motion does not determine its contact intervals: the residual is about as large as the
+  /// forces, or Newton's method has not converged and the motion has many times the phases of the
+  /// equations.
   bool is_lost() const;
 };
 

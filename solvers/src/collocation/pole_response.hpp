@@ -67,14 +67,14 @@ struct PeriodCells;
 /// 1 N times a period at the marks.
 struct Influence {
   Eigen::MatrixXd displacement;   ///< (n + m) x (n + m)
-  Eigen::MatrixXd node_velocity;  ///< n x (n + m); empty where not asked for
+  Eigen::MatrixXd node_velocity;  ///< n x (n + m); empty if not requested
   Eigen::MatrixXd mark_velocity;  ///< m x n
 };
 
 /// The same for given forces.
 struct ForcedMotion {
   Eigen::VectorXd displacement;   ///< n + m, m
-  Eigen::VectorXd node_velocity;  ///< n, m per period; empty where not asked for
+  Eigen::VectorXd node_velocity;  ///< n, m per period; empty if not requested
   Eigen::VectorXd mark_velocity;  ///< m, m per period
 };
 

@@ -179,8 +179,8 @@ bool ArcLength::is_ahead(const CurvePoint& candidate, double max_turn) const {
          inner(point_, way) >= std::cos(options_.max_angle) * std::sqrt(inner(way, way));
 }
 
-// Where contacts begin to slip the curve has a corner that no sample says beforehand: a short step passes it,
-// to a point that is not behind.
+// Where contacts begin to slip the curve has a corner that no sample predicts: a short step passes it, to a
+// point that is not behind.
 bool ArcLength::is_beyond_corner(const CurvePoint& candidate) const {
   constexpr double short_steps = 10.0, longest_chord = 3.0;  // over min_step, over the step
   if (!system_.laws().act_over_period() || step_ > short_steps * options_.min_step) return false;

@@ -2,7 +2,7 @@
 
 namespace wavebalance::solvers::detail {
 
-// Slip for a shorter time is not told from rest: it begins with the root of the distance from where it does.
+// Slip for a shorter time counts as rest: it begins with the root of the distance from where it does.
 ContactPattern pattern_of(const ContactFlow& flow) {
   constexpr double shortest = 1e-4;  // periods
   ContactPattern pattern;

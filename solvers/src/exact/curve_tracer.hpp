@@ -43,7 +43,7 @@ class CurveTracer {
   void end_before(const CurvePoint& next);
   /// Half the step; the curve is lost where that is too short.
   void shorten_step();
-  /// Whether the last points lie so near to each other that their polynomial tells of the next one.
+  /// Whether the last points are near enough for their polynomial to predict the next one.
   bool is_smooth() const;
   /// Whether a solution is the next point of the curve: so far off what was expected, so far from the last
   /// point, and with this cosine of the angle between the way and its direction. Then it gets its place and

@@ -63,14 +63,13 @@ class IntervalTracer : public detail::CurveTracer {
   // The next point, if it lies where it is expected.
   std::optional<PathPoint> corrected() {
     const PathPoint& last = this->last();
-    // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
+    // Where the curve has become sharper than its last steps are long, their polynomial predicts nothing.
     if (is_smooth()) {
       Prediction expected = detail::through(neighbours(), last.place + step_);
       if (last.passages() == 0 || model_.cosine(last, expected) > least_cosine)
         return near(std::move(expected));
     }
-    // A tangent says how forces, instants and the parameter change, and not by how much the displacement
-    // does.
+    // A tangent has the changes of forces, instants and the parameter, not of the displacement.
     const double speed = model_.speed(last);
     std::optional<PathPoint> next = near(detail::along_tangent(last, step_, speed));
     if (!next && arc_ > step_) next = near(detail::along_tangent(last, step_ * step_ / arc_, speed));
@@ -88,7 +87,7 @@ class IntervalTracer : public detail::CurveTracer {
         model_.solve(expected.value, expected.iterate, held, model_.sign_of(last, held));
     if (!next) return std::nullopt;
     arc_ = model_.arc_length(last, *next);
-    // The unknown held says the direction where it changes all the way. The way itself says it always.
+    // The fixed unknown gives the direction if it changes monotonically. The secant always does.
     const double ahead = next->passages() > 0 ? model_.cosine(last, *next) : 1.0;
     if (!fits(*next, model_.distance(expected, *next), arc_, ahead)) return std::nullopt;
     return next;

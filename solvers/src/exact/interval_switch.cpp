@@ -56,7 +56,7 @@ std::optional<PathPoint> slightly_beyond(const PathModel& model, const PathPoint
   return model.solve(expected.value, std::move(expected.iterate), held, forwards);
 }
 
-// Passages that the equations have are known far better than samples of the motion tell.
+// Passages in the equations are known far better than from samples of the motion.
 void keep_passages(const Layout& known, Layout& layout) {
   constexpr double same = 1e-4;  // periods
   for (Passage& passage : layout.passages)

@@ -121,7 +121,7 @@ class MapTracer : public CurveTracer {
 
   // The next point, if it lies where it is expected.
   std::shared_ptr<MapPoint> corrected() {
-    // Where the curve has become sharper than its last steps are long, their polynomial says nothing.
+    // Where the curve has become sharper than its last steps are long, their polynomial predicts nothing.
     if (is_smooth())
       if (std::shared_ptr<MapPoint> next = near(through_last())) return next;
     return near({moved_by(last().direction), last().displacement + step_ * last().displacement_direction});
@@ -198,7 +198,7 @@ class MapTracer : public CurveTracer {
                                                            : stick;
     // A motion in which all contacts stick is smooth up to the first slip.
     const PointOnCurve at = type == slip && before.slips ? change.behind : change.before;
-    // Contacts of a symmetric structure touch together, which rounding tells apart.
+    // Contacts of a symmetric structure touch together, which rounding separates.
     constexpr double together = 1e-8;
     if (!events.empty() && events.back().type == type &&
         std::abs(events.back().value - change.value) <= together * std::abs(change.value))

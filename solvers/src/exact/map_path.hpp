@@ -76,7 +76,7 @@ class MapPath : public CurvePath {
     return motion.displacement(times()).reshaped();
   }
   double arc_scale(const CurvePoint& at) const { return std::max(vibration(), at.vibration); }
-  /// About so many floating-point operations since this was asked for the last time.
+  /// Estimated floating-point operations since the last call.
   double take_operations() const;
 
  private:

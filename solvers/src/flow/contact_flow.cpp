@@ -35,7 +35,7 @@ double moving_length(const ExactProblem& problem) {
 }
 
 // Where almost nothing holds a structure it rests on its contacts, and its static deflection without them
-// says nothing but how large rounding is.
+// is only rounding.
 double length_of(const ExactProblem& problem, const FlowOptions& options) {
   constexpr double rounding = 1e-4;
   if (options.length > 0.0) return options.length;

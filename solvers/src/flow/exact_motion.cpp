@@ -88,7 +88,7 @@ class MotionSearch {
         problem_(begun_at(problem, from_.begin)),
         options_(options),
         times_(Eigen::VectorXd::LinSpaced(points, 0.0, 1.0 - 1.0 / double(points))) {
-    if (free_period)  // no load tells how long displacements are
+    if (free_period)  // no load defines the size of displacements
       length_ = ContactFlow(problem_).displacements_by_state().cwiseProduct(from_.state).norm();
   }
 
@@ -155,8 +155,8 @@ class MotionSearch {
                         flow, {begin, closed.state, closed.contacts});
     const Eigen::MatrixXd now = motion_.displacement(times_);
     const double rounded = rounding_of(problem_, now);
-    // The solution before is farther off. Both may have the same panels, so that their distance says nothing
-    // of what these leave out of the forces, of which displacements have less than a tenth.
+    // The solution before is farther off. Both may have the same panels, so that their distance does not
+    // include the truncation of the forces, of which displacements have less than a tenth.
     const double left_out = 0.1 * flow.unresolved();
     if (found_.found)
       error_ = std::max({(now - displacement_).norm() / now.norm(), left_out, rounded, least});

@@ -108,7 +108,7 @@ std::optional<double> ContactFlow::Engine::root_of(const Solved& panel, const Gu
 }
 
 // Where a guard first goes below zero between two points at which it is positive, if it does: a touch that
-// the points miss. Its cubic tells whether it comes near.
+// the points miss. Its cubic shows whether it comes near.
 std::optional<double> ContactFlow::Engine::touch(const Solved& panel, const Guard& guard,
                                                  const GuardSamples& samples, std::size_t k) const {
   const double low = dense_.at[Index(k)], width = dense_.at[Index(k) + 1] - low, a = samples.value[k],

@@ -40,8 +40,8 @@ ContactFlow::Engine::Moving ContactFlow::Engine::moving() const {
 // which the force that turns them vanishes: there the unresolved impulse on perturbations counts.
 ContactFlow::Engine::Fit ContactFlow::Engine::fit_of(const detail::PanelShape& panel,
                                                      const detail::SolvedPanel& found) const {
-  // The coefficients of forces by sliders that move fall slowly where these turn sharply: the last ones say
-  // less.
+  // The coefficients of forces by sliders that move fall slowly where these turn sharply: the last ones are
+  // less significant.
   constexpr double most_rounding = 1e-3, of_moving = 1e-3;
   const Eigen::MatrixXd& force = found.values.force;
   const Moving memories = moving();

@@ -42,7 +42,7 @@ class PanelShape {
   Eigen::VectorXd at_begin() const;
   /// Integrals from the beginning to points by values at the nodes, N x q, s.
   Eigen::MatrixXd integrals(const Eigen::VectorXd& points) const;
-  /// The share of the two last Legendre coefficients in the largest force, which tells whether the nodes
+  /// The share of the two last Legendre coefficients in the largest force, which shows whether the nodes
   /// resolve it; `size` (N) is the least that counts.
   double unresolved(const Eigen::MatrixXd& force, double size) const;
 

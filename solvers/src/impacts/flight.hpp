@@ -11,7 +11,7 @@ struct Touch {
   enum class Kind {
     none,       ///< no contact passes its gap
     touches,    ///< the first contact to pass it does so at `time` with a positive velocity
-    unresolved  ///< at `time` it cannot be told
+    unresolved  ///< undecided at `time`
   };
   Kind kind = Kind::none;
   int contact = -1;

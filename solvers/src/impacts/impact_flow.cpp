@@ -63,8 +63,8 @@ bool ImpactFlow::rebound(int contact) {
   return false;
 }
 
-// Whether a contact has rebounded shortly before a time at which it cannot be told whether it touches: it
-// rests there, or is about to. Sets where and when.
+// Whether a contact has rebounded shortly before a time at which touching is undecided: it rests there, or
+// is about to. Sets where and when.
 bool ImpactFlow::comes_to_rest(double time) {
   constexpr double shortly = 1e-3, slow = 1e-2;  // periods, of the fastest impact
   if (events_.empty() || time - events_.back().time > shortly) return false;

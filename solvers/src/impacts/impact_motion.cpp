@@ -286,7 +286,7 @@ ExactSolution motion_of(std::shared_ptr<const ImpactSolution> solution) {
   if (!motion.impacts.empty())
     grid.begin = {grid.cells() - 1, parts.model.response.states(solution->states.rightCols(1))};
   parts.iterate.forces = PanelForces(std::move(grid), parts.nodes, {});
-  if (!motion.impacts.empty())  // once they are asked for
+  if (!motion.impacts.empty())  // once they are requested
     parts.multipliers = [known = std::async(std::launch::deferred, [solution] {
                                    return multipliers_of(*solution);
                                  }).share()] { return known.get(); };

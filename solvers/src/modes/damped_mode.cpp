@@ -77,8 +77,8 @@ class DampedFollower : private CurveCorrector<DampedMotions> {
     });
   }
 
-  // Where contacts begin to slip the curve turns within a step, so that its chord does not say which way
-  // leads on. The last part of the way does, which is halved until the tangent lies along it.
+  // Where contacts begin to slip the curve turns within a step, so that its chord does not give the
+  // direction. The last part of the way does, which is halved until the tangent lies along it.
   bool orient(CurvePoint& next) {
     constexpr double along = 0.7;
     constexpr int halvings = 12;

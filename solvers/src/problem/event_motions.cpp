@@ -179,7 +179,7 @@ class EventMotions {
   std::optional<std::size_t> add(const ImpactResponse& found, MotionSource source) {
     if (!found.motion.converged()) return std::nullopt;
     MotionSamples samples = samples_of(found.motion, found.load_periods);
-    if (problem_.dynamics.holding() > 0.0)  // where a body that is free is says nothing
+    if (problem_.dynamics.holding() > 0.0)  // the position of a free body is arbitrary
       samples.contacts.displacement.colwise() -= samples.contacts.displacement.rowwise().mean().eval();
     if (const auto known = find_among(samples_, samples)) return known;
     CoexistingMotion& one = result_.motions.emplace_back();

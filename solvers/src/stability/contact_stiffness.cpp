@@ -25,7 +25,7 @@ using detail::crossing;
 using detail::InstantAlong;
 
 // Whether a curve, value(sample), rises above the level between samples about l that are all below it: the
-// vertex of the parabola through three samples says whether to look, the curve itself decides.
+// vertex of the parabola through three samples is a candidate, the curve decides.
 template <class Value>
 bool passes_between_samples(const Eigen::VectorXd& samples, const Value& value, double level, Index l) {
   const Index count = samples.size();
@@ -273,8 +273,8 @@ bool add_friction(const AnyTimeBasis& trial, const ContactLaws& laws, const Cont
 
 using AllContacts = std::vector<ContactAlong>;
 
-// Adds the intervals of one contact, of which it returns the number, and its cuts. Where another one holds no
-// sample the status says so.
+// Adds the intervals of one contact, of which it returns the number, and its cuts. The status reports other
+// intervals without a sample.
 int add_intervals(const ContactAlong& along, int contact, PeriodicStiffness& stiffness) {
   const auto [intervals, complete] = find_intervals(along, contact);
   stiffness.intervals.insert(stiffness.intervals.end(), intervals.begin(), intervals.end());

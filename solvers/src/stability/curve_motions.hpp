@@ -27,7 +27,7 @@ class CurveMotions {
   CurvePoint at(const SweepPoint& point) const { return curve_point(point.unknown, value_of(point)); }
   PeriodicResponse response(const CurvePoint& point);
   /// The share of the chord between two points at which the number of contact intervals first changes, by
-  /// linear interpolation of samples; 0.5 where no sample tells.
+  /// linear interpolation of samples; 0.5 if no sample determines it.
   double share_of_grazing(const CurvePoint& a, const CurvePoint& b) const;
   /// A bifurcation or grazing point between two others, in the middle of which its parameter is, with the
   /// displacements and the unknown of the first. `next` is the index of the point of the curve behind it.

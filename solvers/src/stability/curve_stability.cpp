@@ -73,7 +73,7 @@ double distance_from(SpecialPointType type, Complex multiplier) {
   return std::abs(multiplier - 1.0);
 }
 
-/// Whether a complex multiplier is on the unit circle, as far as samples tell.
+/// Whether a complex multiplier is on the unit circle, within the accuracy of the samples.
 bool is_on_circle(Complex multiplier) {
   constexpr double near = 1e-3, real = 1e-6;
   return std::abs(std::abs(multiplier) - 1.0) <= near && multiplier.imag() > real;

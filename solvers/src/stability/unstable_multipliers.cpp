@@ -44,9 +44,9 @@ int affordable_evaluations(const FloquetDeterminant& determinant, const Stabilit
   return static_cast<int>(std::min<double>(options.max_evaluations, affordable));
 }
 
-// The multipliers by modes up to four times the highest harmonic, or twice as far up to 16 times, the others
-// being springs at the contacts. Nothing where half as many harmonics never show that this tells on which
-// side of the circle they lie, or where a period leaves much of the other modes.
+// The multipliers by modes up to four times the highest harmonic, or twice as far up to 16 times, the
+// others being springs at the contacts. Nothing if half as many harmonics never confirm the side of the
+// circle, or where a period leaves much of the other modes.
 std::optional<Eigen::VectorXcd> by_slow_modes(const ContactDynamics& dynamics,
                                               const PeriodicStiffness& stiffness, double frequency,
                                               const StabilityOptions& options) {

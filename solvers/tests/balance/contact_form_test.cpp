@@ -32,7 +32,7 @@ struct TwoSided {
   }
   double gap() const { return start; }
 };
-// It does not say that it acts on both sides.
+// It does not declare that it acts on both sides.
 struct Cubic {
   double stiffness = 1e11, begin = 0.0;
 

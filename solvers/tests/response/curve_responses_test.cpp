@@ -1,4 +1,4 @@
-// Motions of a curve at asked frequencies, against the closed form of a Duffing oscillator.
+// Motions of a curve at given frequencies, compared with the closed form of a Duffing oscillator.
 #include "wavebalance/solvers/response/curve_responses.hpp"
 
 #include "support/duffing_spring.hpp"

@@ -33,7 +33,7 @@ TEST(LinearStructure, SelectsADegreeOfFreedomByACoefficientOfOneAlone) {
   rows(2, 2) = -1.0;
   rows(3, 2) = 2.0;
   structure.contact_directions = rows.sparseView();
-  structure.contact_directions.coeffRef(0, 2) = 0.0;  // an entry that says nothing
+  structure.contact_directions.coeffRef(0, 2) = 0.0;  // an entry without effect
   EXPECT_EQ(structure.selected_dof(0), 1);
   for (const int other : {1, 2, 3}) EXPECT_EQ(structure.selected_dof(other), -1) << other;
 }

@@ -6,7 +6,7 @@ namespace wavebalance::solvers::testing {
 /// A spring that acts everywhere, of the force linear u + cubic u^3 at a displacement u.
 struct DuffingSpring {
   double cubic = 1.0, linear = 0.0;
-  double start = std::numeric_limits<double>::infinity();  ///< what it says its gap is
+  double start = std::numeric_limits<double>::infinity();  ///< its declared gap
 
   double force(double u) const { return u * (linear + cubic * u * u); }
   double tangent(double u) const { return linear + 3.0 * cubic * u * u; }

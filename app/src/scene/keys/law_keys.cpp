@@ -30,7 +30,7 @@ std::vector<SharedParameter> all_parameters() {
   std::vector<SharedParameter> all;
   for (const LawEntry& law : contact::law_catalogue())
     for (const LawParameter& parameter : law.parameters)
-      if (parameter.name != "tangents") add(all, law, parameter);  // a scene says it by its directions
+      if (parameter.name != "tangents") add(all, law, parameter);  // a scene defines it by its directions
   std::stable_partition(all.begin(), all.end(),
                         [](const SharedParameter& one) { return one.first.name != "gap"; });
   return all;

@@ -22,8 +22,8 @@
 
 namespace wavebalance::contact {
 
-/// The catalogue: one row for each law that a scene and a Python program can name, in the order of the help.
-/// Each type says what it is with `static LawDescription description()` and is made of complete values by
+/// The catalogue: one row for each law that a scene and a Python program can name, in the order of the
+/// help. Each type is described by `static LawDescription description()` and is made of complete values by
 /// `static Law of(const LawValues&)`. Nothing else in the toolkit names the laws one by one.
 using AnyLaw = std::variant<NoContact,        //
                             ExponentialLaw,   //

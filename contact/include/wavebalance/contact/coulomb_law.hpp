@@ -37,7 +37,7 @@ struct FrictionPeriod {
   std::vector<double> force;         ///< N, rows x N
   std::vector<FrictionState> state;  ///< N
   std::vector<double> slip;          ///< N, m: the distance that the slider moves up to each sample
-  std::vector<Slope> slopes;         ///< empty where they were not asked for
+  std::vector<Slope> slopes;         ///< empty if not requested
   double work = 0.0;                 ///< J, dissipated by friction in the period
   double normal_work = 0.0;          ///< J, the normal force times the distance of slip, for wear [Archard]
   /// Whether the force depends on the past beyond the period: the contact neither slips nor opens.

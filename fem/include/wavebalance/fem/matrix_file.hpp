@@ -18,17 +18,17 @@ class MatrixFileError : public std::runtime_error {
 /// Largest file that is read, in bytes.
 constexpr std::uintmax_t largest_matrix_file = 8'000'000'000;
 
-/// Formats of matrix files that read_matrix() knows.
+/// Formats of matrix files of read_matrix().
 enum class MatrixFormat { matrix_market, calculix, harwell_boeing, abaqus, substructure, dmig, output4 };
 std::string_view to_string(MatrixFormat format);
 
-/// The format of a file by its content: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file has
-/// the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth, CalculiX
-/// and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) have lines of row, column and value, Abaqus otherwise of
-/// node, dof, node, dof and value or a user element, and Nastran DMIG entries or OUTPUT4, text or binary.
-/// Comments of Abaqus and Nastran may come first. Where the content fits none, the end of the name says the
-/// format: .mtx Matrix Market, .sti and .mas CalculiX, .rsa and .rua Harwell-Boeing, .pch, .bdf and .dmig
-/// DMIG, .op4 OUTPUT4. Throws MatrixFileError if neither says anything or the file cannot be read.
+/// The format of a file by its content: Matrix Market opens with "%%MatrixMarket", a Harwell-Boeing file
+/// has the type of its matrix (RSA, RUA, ..) in the third line and formats in parentheses in the fourth,
+/// CalculiX and Abaqus (*MATRIX OUTPUT, FORMAT=COORDINATE) have lines of row, column and value, Abaqus
+/// otherwise of node, dof, node, dof and value or a user element, and Nastran DMIG entries or OUTPUT4, text
+/// or binary. Comments of Abaqus and Nastran may come first. If the content fits none, the end of the name
+/// decides: .mtx Matrix Market, .sti and .mas CalculiX, .rsa and .rua Harwell-Boeing, .pch, .bdf and .dmig
+/// DMIG, .op4 OUTPUT4. Throws MatrixFileError if neither decides or the file cannot be read.
 MatrixFormat matrix_format(const std::filesystem::path& file);
 
 /// Reads a sparse matrix in any of these formats; the result is compressed and has both triangles.

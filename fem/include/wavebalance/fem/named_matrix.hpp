@@ -71,7 +71,7 @@ std::vector<NamedMatrix> read_dmig(std::istream& input, const std::string& name,
 std::vector<NamedMatrix> read_output4(std::istream& input, const std::string& name,
                                       std::string_view wanted = {});
 
-/// A matrix under the name that says what it is.
+/// A matrix under the name of its role.
 struct CollectedMatrix {
   std::string role;  ///< mass, stiffness, damping, structural_damping, load, or else the name in its file
   std::string name;  ///< in its file, or empty

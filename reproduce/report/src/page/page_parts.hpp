@@ -37,7 +37,7 @@ std::string short_number(const Record& record, const Paper& paper);
 std::string tally_text(const Tally& tally);
 /// `text` cut at a blank after at most `length` bytes, with an ellipsis if something is left out.
 std::string shortened(const std::string& text, std::size_t length);
-/// Records whose stems begin as `order` says come first, in that order.
+/// Records whose stems begin as in `order` come first, in that order.
 std::vector<Record> ordered(std::vector<Record> records, const std::vector<std::string>& order);
 
 /// A table with these heads, and one below a summary that unfolds it. `attributes` of the element begin with

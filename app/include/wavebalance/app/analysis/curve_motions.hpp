@@ -14,7 +14,7 @@ struct CurveMotion {
   std::string name;    ///< "motion_peak", "motion_fold_1", "motion_150Hz_2": its files without their ending
   std::string at;      ///< "peak", the solvers::SpecialPointType, "frequency" or "amplitude"
   double place = 0.0;  ///< of the load: its frequency (Hz), or its amplitude in an amplitude sweep
-  bool converged = true;        ///< of one at a place asked for: whether Newton's method solved for it
+  bool converged = true;        ///< of one at a requested place: whether Newton's method solved for it
   double residual = 0.0;        ///< relative
   solvers::Motion contacts;     ///< of all contacts, analysis.output_points points
   int contact = 0;              ///< the leading one, see leading_contact()

@@ -13,7 +13,7 @@ namespace wavebalance::app {
 /// a hundred times as long as the curve, and require analysis.phases.
 bool seeks_exact_points(const Scene& scene);
 
-/// How many bifurcation points of a curve have exact solutions unless analysis.phases asks for all points.
+/// How many bifurcation points of a curve have exact solutions unless analysis.phases requests all points.
 inline constexpr std::size_t most_special_points_with_exact = 24;
 
 /// The exact periodic solutions near a curve. Empty if not requested.
@@ -31,7 +31,7 @@ std::string phases_status(const ExactAlongSweep::Point& point);
 /// Whether the search found none nearby.
 bool was_not_found(const ExactAlongSweep::Point& point);
 
-/// The stability along a curve that its record tells.
+/// The stability along a curve in its record.
 struct StabilityAlong {
   std::vector<solvers::PointStability> points;
   /// Per point: "phases" if the count belongs to the exact motion, "balance", or "none" if no exact motion

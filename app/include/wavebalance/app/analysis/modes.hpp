@@ -31,7 +31,7 @@ struct Backbone {
   double wall_seconds = 0.0;
   /// Where and why the curve ends before the energy that it was to reach; empty where it does not.
   std::string early_end;
-  bool complete = true;  ///< it goes to that energy or to the last frequency asked for
+  bool complete = true;  ///< it goes to that energy or to the last requested frequency
 
   int count(solvers::ModeStatus status) const;
   /// The branch is complete, and each interruption is on a named internal resonance.

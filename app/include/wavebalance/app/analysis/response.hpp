@@ -51,7 +51,7 @@ struct Response {
   /// Whether `contacts` hold a motion of the structure: a response, one that misses time.tolerance, or the
   /// last period of time stepping. Otherwise they hold the last iterate, which means nothing.
   bool moves = false;
-  /// Whether it is time stepping that has not repeated and a RecordedMotion says what it does.
+  /// Whether it is time stepping without a repeating motion, which a RecordedMotion describes.
   bool recorded = false;
   std::string status;  ///< "converged" or why not
   double residual =
@@ -79,7 +79,7 @@ struct Response {
   /// one is singular to working precision, NaN where no such system was solved (time stepping, phases).
   double condition = std::numeric_limits<double>::quiet_NaN();
   /// solvers::PeriodicResponse::rounding_error; NaN as above. Above largest_rounding_error the response has
-  /// not converged, and the status says `inaccurate`.
+  /// not converged, and the status is `inaccurate`.
   double rounding_error = std::numeric_limits<double>::quiet_NaN();
   double wall_seconds = 0.0;             ///< composition, solution and samples
   double phases_seconds = 0.0;           ///< of the exact motion near a harmonic balance response

@@ -50,7 +50,7 @@ struct Comparison {
   bool from_reference = false;
   ErrorMeasure measure = ErrorMeasure::displacement;  ///< which error decides
   std::string
-      without_force;  ///< why the force is left out, a phrase; empty where it decides or was not asked for
+      without_force;  ///< why the force is left out, a phrase; empty if it decides or was not requested
   bool force_asked = false;        ///< by ComparisonOptions::measure, and not by default
   std::vector<SolvePoint> points;  ///< those solved, with on_front, phases first
   std::vector<PairResult> pairs;   ///< phases after the admissible ones, the inadmissible ones last
@@ -67,10 +67,10 @@ struct Comparison {
   }
 };
 
-/// Throws std::invalid_argument, which says why, if one of the pairs named is not admissible in the scene,
+/// Throws std::invalid_argument with the reason if one of the pairs named is not admissible in the scene,
 /// the budget is not positive, the threads are negative, an error is named for a sweep, the scene cannot
-/// begin with the start, or it is none to be compared: forced responses, frequency and amplitude sweeps over
-/// one period of the load are. O(pairs).
+/// begin with the start, or it is none to be compared: forced responses, frequency and amplitude sweeps
+/// over one period of the load are. O(pairs).
 void check_comparison(const Scene& scene, const ComparisonOptions& options);
 
 /// Compares the pairs of the options in a forced response. The scene's own pair, functions, points and

@@ -18,7 +18,7 @@ struct ComparisonRecord {
   std::vector<std::string> warnings;  ///< also in the summary
   Summary summary;
   Reference reference;                          ///< of responses
-  std::vector<Recommendation> recommendations;  ///< of responses, for each error that was asked for
+  std::vector<Recommendation> recommendations;  ///< of responses, for each requested error
   std::string peak_column, peak_unit;  ///< of sweeps: the table's column of where a peak is, and its unit
   Table table;                         ///< comparison.csv: a row for each solve or curve
   std::vector<RecordPicture> pictures;
@@ -45,7 +45,7 @@ Table recommendations_table(const std::vector<Recommendation>& recommendations);
 /// comparison.peak_column, turning_points, distance_from_finest, distance_from_exact, status.
 Table curves_table(const SweepComparison& comparison);
 
-/// Compares the scene's responses or sweeps, as its analysis says, and returns the record. Throws as
+/// Compares the scene's responses or sweeps, by its analysis, and returns the record. Throws as
 /// check_comparison().
 ComparisonRecord compare_bases(const Scene& scene, const ComparisonOptions& options,
                                const solvers::Observer& observer = {});

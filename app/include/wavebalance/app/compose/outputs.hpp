@@ -30,8 +30,8 @@ struct Output {
   double size = 1.0;           ///< of the unit in SI units: values are divided by it
   int contact = -1;            ///< the direction of contact, from 0; -1 of a degree of freedom
   std::string number = {};     ///< of a contact "contact 2", whatever its name
-  /// The direction whose force tells whether that contact is closed, the normal one where it has tangents; -1
-  /// where it never opens.
+  /// The direction whose force shows whether that contact is closed, the normal one where it has tangents;
+  /// -1 where it never opens.
   int closed_by = -1;
   std::vector<SupportMotion> added = {};  ///< motions added to obtain its frame of reference
   std::vector<SupportMotion> over = {};   ///< over whose half peak-to-peak value it is a ratio; or none
@@ -62,7 +62,7 @@ std::string column_of(const std::string& name);
 /// std::invalid_argument for words that are none.
 std::vector<Output> outputs_of(const Scene& scene);
 
-/// The output of analysis.peak_of by the name that it has; empty where none is asked for.
+/// The output of analysis.peak_of by the name that it has; empty if none is requested.
 std::string peak_name(const Scene& scene);
 
 /// Index of the first output: analysis.peak_of, else the first of analysis.outputs; none if only contacts are

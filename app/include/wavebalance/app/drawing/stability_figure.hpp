@@ -18,8 +18,8 @@ struct StabilityParts {
   Series dashed;  ///< its label ends in ", unstable"; without points where all is stable
 };
 
-/// A curve of at least two points, of which `unstable` says which are, cut at its bifurcation and grazing
-/// points: a line is dashed if one of its ends is unstable; see draw_by_stability().
+/// A curve of at least two points, some marked by `unstable`, cut at its bifurcation and grazing points: a
+/// line is dashed if one of its ends is unstable; see draw_by_stability().
 StabilityParts parts_by_stability(const Series& curve, const std::vector<bool>& unstable,
                                   const std::vector<PlacedPoint>& special = {});
 

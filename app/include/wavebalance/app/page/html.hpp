@@ -38,7 +38,7 @@ struct FigureBlock {
 };
 
 /// Width and height of the picture that begins with `bytes`, SVG or PNG, as attributes: ` width="800"
-/// height="540"`; empty where they are not told.
+/// height="540"`; empty if not known.
 std::string picture_size(std::string_view bytes);
 
 /// A `figure` element: the picture, linked to its file, and the caption. With `curves` a button draws the

@@ -6,7 +6,7 @@
 namespace wavebalance::app {
 
 /// Whether `figure` has curves that a page can zoom: every panel is a diagram with axes in two dimensions,
-/// and a series has a point, or a heat map tells its values. Other heat maps, drawings, perspectives and
+/// and a series has a point, or a heat map shows its values. Other heat maps, drawings, perspectives and
 /// sketches without axes remain pictures.
 bool has_curves(const Figure& figure);
 

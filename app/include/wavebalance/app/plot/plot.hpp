@@ -62,7 +62,7 @@ struct Series {
   std::string label;  ///< in the legend; none when empty
   std::vector<double> x;
   std::vector<double> y;       ///< as many as x
-  std::vector<double> told_x;  ///< empty, or the abscissae that a page tells of points shifted for sight
+  std::vector<double> told_x;  ///< empty, or the true abscissae of points shifted for sight
   std::vector<double> z;       ///< as many as x in a panel of three dimensions, empty otherwise
   SeriesStyle style = SeriesStyle::line;
   Colour colour = Colour::automatic;
@@ -96,7 +96,8 @@ struct HeatMap {
   std::string label;           ///< what the colours show
   bool from_zero = false;      ///< for values >= 0: white for `least`, dark blue for the largest
   double least = 0.0;
-  std::vector<std::string> told_heads = {};         ///< empty, or names of what a page tells of a value
+  std::vector<std::string> told_heads = {};         ///< empty, or names of the numbers that a page shows
+                                                    ///< for a value
   std::vector<std::vector<double>> told_rows = {};  ///< as many as values; empty: no text under the pointer
 };
 

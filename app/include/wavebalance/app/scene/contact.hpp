@@ -40,8 +40,8 @@ struct ContactPair {
   bool operator==(const ContactPair&) const = default;
 };
 
-/// The force at a contact as a function of its displacement u towards the obstacle, and how it is solved for.
-/// contacts_of() lists the contacts that these keys and MatricesStructure::contact_dofs say together.
+/// The force at a contact as a function of its displacement u towards the obstacle, and how it is solved
+/// for. contacts_of() lists the contacts of these keys and MatricesStructure::contact_dofs.
 struct Contact {
   std::string law{no_law};  ///< a name of contact::law_catalogue()
   /// The law's parameters other than the gap, as far as they differ from their defaults.

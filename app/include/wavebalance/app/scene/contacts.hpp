@@ -9,7 +9,7 @@
 
 namespace wavebalance::app {
 
-/// One direction of contact of a scene, whichever keys say it: where it is, and its law. A contact with
+/// One contact degree of freedom of a scene, from any keys: where it is, and its law. A contact with
 /// friction has its normal direction, where there is one, and then its tangents; one in a ring has two.
 struct SceneContact {
   std::vector<int> dofs = {};  ///< rows of matrices, from 1; empty at a bar's tip and along a blade's

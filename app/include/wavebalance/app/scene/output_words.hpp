@@ -18,16 +18,16 @@ struct OutputWords {
   std::string unit;   ///< one of output_units(); empty: the SI unit
 };
 
-/// A unit that an output may be asked in.
+/// A unit of outputs.
 struct OutputUnit {
   std::string_view name;    ///< "m/s^2"
   std::string_view suffix;  ///< at the end of names of columns: "m_per_s2"
   double size = 1.0;        ///< in the SI unit, or in rad
 };
 
-/// The unit of an output; the SI unit, or that with rad, where the words name none. Whether the place rotates
-/// is not known without a value: a unit then says so. Throws std::invalid_argument with what is expected for
-/// one of another quantity.
+/// The unit of an output; the SI unit, or that with rad, where the words name none. Whether the place
+/// rotates is not known without a value: a unit then decides. Throws std::invalid_argument with what is
+/// expected for one of another quantity.
 const OutputUnit& output_unit(const OutputWords& words, std::optional<bool> rotation);
 
 /// The unit at the end of a column's name, after an underscore; null for columns that end with none.

@@ -91,7 +91,7 @@ bool solves_by_impacts(const Scene& scene);
 
 /// Whether coexisting motions are searched for by event-driven integration.
 bool seeks_by_events(const Scene& scene);
-/// Whether analysis and method, which are read before contacts, ask for exact motions of other laws than
+/// Whether analysis and method, which are read before contacts, request exact motions of other laws than
 /// impacts.
 bool names_exact_method(const Scene& scene);
 /// Whether its motion is solved for exactly, without basis functions: time.method, its alias analysis.type

@@ -39,7 +39,7 @@ struct Origin {
   std::string machine = "unknown";   ///< "the processor's name, 2 cores"; see this_machine()
 };
 
-/// Name of the processor and number of its cores, "unknown" where the system does not say.
+/// Name of the processor and number of its cores, "unknown" if the system does not report it.
 std::string this_machine();
 
 /// results/index.html: what holds in brief, a matrix of verdicts, the rule, and the sections with figures

@@ -23,8 +23,8 @@ struct Reading {
   std::string name;  ///< "512 samples at the left ends"
   Verdict verdict = Verdict::differs;
   std::string measured;  ///< what was found under it
-  /// Whether the paper's text allows it. Only such readings decide; the others show what would be found if
-  /// something were done otherwise than the paper says.
+  /// Whether the paper's text allows it. Only such readings decide; the others show the findings if
+  /// something were done differently from the paper.
   bool of_text = true;
 };
 

@@ -28,7 +28,7 @@ struct ForceSlopes {
 /// Any contact law behind one value type, so that the solvers are compiled once. Calls are per array, which
 /// makes the indirection free; copies share the (immutable) law and may be used from several threads.
 ///
-/// A PeriodLaw has forces over a period only: what asks for its force at one displacement throws
+/// A PeriodLaw has forces over a period only: functions that need its force at one displacement throw
 /// std::invalid_argument. It has no gap (0) and no kinks, and the form of the force where it
 /// OffersPeriodResolvent. A CoupledLaw is one, too, with its gap.
 class AnyContactLaw {

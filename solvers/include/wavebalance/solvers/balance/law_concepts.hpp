@@ -55,28 +55,29 @@ concept SaysWhereItActs = requires(const Law& law) {
   { law.unilateral() } -> std::convertible_to<bool>;
 };
 
-/// A law that says at which displacements its slope jumps, ascending, m. One that does not say has one at
+/// A law that lists the displacements at which its slope jumps, ascending, m. Without a list it has one at
 /// its gap where it is unilateral, and otherwise where its slope jumps at its gap or at the opposite of it.
 template <class Law>
 concept SaysItsKinks = requires(const Law& law) {
   { law.kinks() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// A law that says at which displacements its slope or the slope's slope jumps, ascending, m: the knots of a
-/// table. Rules that integrate the slope over time are cut there. One that does not say has its kinks.
+/// A law that lists the displacements at which its slope or the slope's slope jumps, ascending, m: the
+/// knots of a table. Rules that integrate the slope over time are cut there. Without a list these are its
+/// kinks.
 template <class Law>
 concept SaysItsBreakpoints = requires(const Law& law) {
   { law.breakpoints() } -> std::convertible_to<std::vector<double>>;
 };
 
-/// A rigid law that says with which share of its velocity a contact with mass leaves the obstacle after an
-/// impact, 0..1; nothing of a contact without mass, which has no impacts.
+/// A rigid law that defines the fraction of its velocity with which a contact with mass leaves the obstacle
+/// after an impact, 0..1; nothing of a contact without mass, which has no impacts.
 template <class Law>
 concept SaysItsRestitution = requires(const Law& law) {
   { law.restitution() } -> std::convertible_to<std::optional<double>>;
 };
 
-/// A law that says whether its force falls nowhere, so that its resolvent is one force for every v.
+/// A law that declares whether its force decreases nowhere, so that its resolvent is one force for every v.
 template <class Law>
 concept SaysWhetherItRises = requires(const Law& law) {
   { law.monotone() } -> std::convertible_to<bool>;

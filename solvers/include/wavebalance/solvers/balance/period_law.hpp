@@ -54,16 +54,16 @@ concept AdvancesInSteps = PeriodLaw<Law> &&
   law.start(rows, rows, force);          // v, flexibility, force
 };
 
-/// A law over a period that the force form may solve for: it says whether it is rigid, so that no force
-/// follows from displacements, and offers the law in series with springs, which is not, of displacements u +
-/// flexibility f along its rows.
+/// A law over a period that the force form may solve for: it declares whether it is rigid, so that no force
+/// follows from displacements, and offers the law in series with springs, which is not, of displacements u
+/// + flexibility f along its rows.
 template <class Law>
 concept OffersPeriodResolvent = PeriodLaw<Law> && requires(const Law& law, std::span<const double> rows) {
   { law.rigid() } -> std::convertible_to<bool>;
   { law.resolvent(rows) } -> PeriodLaw;
 };
 
-/// A law over a period whose forces follow from displacements and, where it says so, velocities of the same
+/// A law over a period whose forces follow from displacements and, if declared, velocities of the same
 /// instant: it may be evaluated at single instants.
 template <class Law>
 concept ActsAtInstants = PeriodLaw<Law> && requires(const Law& law) {
@@ -85,7 +85,7 @@ struct FrictionConstants {
   bool needs_states = false;  ///< whether its force follows from a machine of states, and not from steps
 };
 
-/// A law of elastic Coulomb friction, which says its constants. `piece` of its tangents is 0 where the
+/// A law of elastic Coulomb friction, which lists its constants. `piece` of its tangents is 0 where the
 /// contact is open, 1 where it sticks, 2 and 3 where it slips, with one tangent under a positive and a
 /// negative force.
 template <class Law>

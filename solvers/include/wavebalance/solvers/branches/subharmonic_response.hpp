@@ -17,8 +17,8 @@ struct SubharmonicOptions {
 
 /// A response of a problem whose load repeats load_periods() = n times within its period, as
 /// forced_response() with its start and options, that repeats after no fewer than n periods of the load if
-/// such a motion is found. A motion of fewer periods satisfies the same equations, so that motion_periods()
-/// of the result says which it is. In this order Newton's method starts from
+/// such a motion is found. A motion of fewer periods satisfies the same equations, so motion_periods() of
+/// the result identifies it. In this order Newton's method starts from
 ///
 /// - what forced_response() starts from;
 /// - the attractor found by settle(), if that has no fewer periods;

@@ -57,7 +57,7 @@ enum class ExactStatus {
   wrong_order,           ///< the equations have a solution in which impacts have passed each other
   pulling,               ///< their solution has an impulse that would pull
   penetrating,           ///< their solution passes an obstacle between impacts
-  grazing,               ///< it cannot be told whether the solution passes an obstacle
+  grazing,               ///< it cannot be decided whether the solution passes an obstacle
   chattering,            ///< infinitely many impacts in a finite time, then contact that lasts
   lasting_contact,       ///< contact lasts from an impact without rebound on, as load or motion press it
   grows,                 ///< the motion leaves every bound

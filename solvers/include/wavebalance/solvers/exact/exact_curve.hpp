@@ -37,7 +37,7 @@ struct ExactPoint {
   double value = 0.0;  ///< Hz or load scale
   ExactSolution motion;
   double slope = 0.0;            ///< of the parameter by arc length: its sign is that in which the curve goes
-  Eigen::VectorXcd multipliers;  ///< ExactSolution::multipliers(); empty unless asked for, or not found
+  Eigen::VectorXcd multipliers;  ///< ExactSolution::multipliers(); empty unless requested and found
   int unstable = -1;             ///< multipliers outside the unit circle; -1 where not known
 };
 

@@ -32,7 +32,7 @@ struct FlowOptions {
   bool margins = false;  ///< whether off_center() is known
   /// Whether contacts stay in the states in which they begin, whatever ends these.
   bool keeps_states = false;
-  /// m, that the motion of the contacts has where neither loads nor gaps tell; 0: as length() says.
+  /// m, of the motion of the contacts if neither loads nor gaps determine it; 0: see length().
   double length = 0.0;
 
   /// Throws std::invalid_argument for a number out of its range.

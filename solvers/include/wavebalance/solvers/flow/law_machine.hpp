@@ -35,7 +35,7 @@ struct Impulse {
   double restitution = 0.0;  ///< 0..1
 };
 
-/// A way out of a state: the states that it may lead to, the first one unless choose() says otherwise.
+/// A way out of a state: the states that it may lead to, the first one unless choose() selects another.
 struct StateExit {
   std::vector<int> targets;
   std::optional<Impulse> impulse{};
@@ -48,9 +48,9 @@ struct Sliding {
   double power = 0.0;  ///< W, dissipated by the tangential force over the surface
 };
 
-/// A contact law as a machine of states. A state says which forces are free and the equations that determine
-/// them, and the exits by which it ends: each has a guard, positive within the state and zero at the instant,
-/// and sets the memories of the next state. A law of the user derives from this class. Immutable.
+/// A contact law as a state machine. A state defines the free forces, the equations that determine them,
+/// and the exits by which it ends: each has a guard, positive within the state and zero at the instant, and
+/// sets the memories of the next state. A law of the user derives from this class. Immutable.
 class LawMachine {
  public:
   virtual ~LawMachine() = default;
@@ -62,8 +62,8 @@ class LawMachine {
   virtual bool remembers(int /*state*/) const { return false; }
   /// Whether its memories move in a state, by rates().
   virtual bool moves(int /*state*/) const { return false; }
-  /// 1/s, at which memories that move come to rest by themselves, which a panel has to resolve; nothing where
-  /// they turn as fast as the forces tell.
+  /// 1/s, at which memories that move come to rest by themselves, which a panel has to resolve; nothing if
+  /// they change at once with the forces.
   virtual std::optional<double> settling_rate(int /*state*/) const { return std::nullopt; }
   virtual ContactState kind(int state) const = 0;
   /// One per row.

@@ -24,7 +24,7 @@ struct ImpactResponseOptions {
 /// A forced response with impacts.
 struct ImpactResponse {
   /// Over load_periods periods of the load; where a contact rests with phases, too. Without a motion its
-  /// status says what the structure does: `chattering`, `lasting_contact`, `grazing`, `not_settled`,
+  /// status describes the structure: `chattering`, `lasting_contact`, `grazing`, `not_settled`,
   /// `too_many_impacts` or `cancelled`.
   ExactSolution motion;
   int load_periods = 1;          ///< after which it repeats

@@ -41,7 +41,7 @@ std::string_view to_string(DampedBackboneStatus status);
 
 /// A motion of a damped mode.
 struct DampedPoint {
-  double amplitude = 0.0;        ///< m, as DampedMode says
+  double amplitude = 0.0;        ///< m, see DampedMode
   double omega = 0.0;            ///< rad/s
   double xi = 0.0;               ///< 1/s: C - xi M leaves the motion periodic
   double residual = 0.0;         ///< relative, of the balance

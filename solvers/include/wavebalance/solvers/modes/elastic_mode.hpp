@@ -100,10 +100,10 @@ class ElasticMode {
   ModePoint linear_mode(double energy_ratio) const;
   /// The curve from the linear mode on. Throws as the options' validate() does.
   ElasticBackbone backbone(const ElasticBackboneOptions& options = {}) const;
-  /// The motion of an energy ratio: the linear mode up to 1 if there is contact beyond it only, else a point
-  /// of the curve that backbone() follows up to there. Status no_contact where the curve ends before;
+  /// The motion of an energy ratio: the linear mode up to 1 if there is contact beyond it only, else a
+  /// point of the curve that backbone() follows up to there. Status no_contact where the curve ends before;
   /// internal_resonance on a resonance along which the curve goes and, with another energy, where the curve
-  /// passes the one asked for between two points across a resonance.
+  /// passes the requested one between two points across a resonance.
   ModePoint at_energy(double energy_ratio, ElasticBackboneOptions options = {},
                       double tolerance = 1e-10) const;
 

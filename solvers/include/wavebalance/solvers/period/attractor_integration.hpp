@@ -32,12 +32,12 @@ struct AttractorOptions {
 struct AttractorMotion {
   static constexpr int unknown = -1;
   /// Periods of the load after which the motion repeats: 1 for a motion of the load's period, 2, 3, ... for
-  /// subharmonic ones, 0 for none within the options' limits, in at least a hundred periods of each accuracy.
-  /// -1 where it is not known: nothing could be integrated, the operations ran out before, or integrations of
-  /// different accuracy say different numbers.
+  /// subharmonic ones, 0 for none within the options' limits, in at least a hundred periods of each
+  /// accuracy. -1 where it is not known: nothing could be integrated, the operations ran out before, or
+  /// integrations of different accuracy disagree.
   int attractor_periods = unknown;
   int periods = 0;         ///< integrated
-  bool cancelled = false;  ///< the observer asked to stop
+  bool cancelled = false;  ///< the observer stopped it
   bool grows = false;      ///< the motion leaves every bound
   double start = 0.0;      ///< periods of the problem after t = 0 at which the columns begin
   /// The contacts in the last period of the problem, C x steps load_periods(); without columns where nothing

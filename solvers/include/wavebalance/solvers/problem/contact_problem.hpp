@@ -131,11 +131,11 @@ class ContactProblem {
   /// interval; without points without modes.
   ExactCurve exact_curve_from(double frequency, const ExactSolution& motion,
                               const ExactCurveOptions& options);
-  /// The stability along a curve that was traced with keep_unknowns, and, if asked for, its bifurcation and
+  /// The stability along a curve that was traced with keep_unknowns, and, if requested, its bifurcation and
   /// grazing points with its slip_points(); without points where the structure has no modes.
   CurveStability stability(const FrequencySweep& curve, int output_points = 1024,
                            const Observer& observer = {}, bool special_points = true);
-  /// Makes the pair for motions of so many periods of the curve's, as BranchProblems says.
+  /// Makes the pair for motions of so many periods of the curve's, see BranchProblems.
   using PairOfPeriods = std::function<TimePair(int periods)>;
   /// follow_branches() of a curve and its stability.
   std::vector<Branch> branches(const FrequencySweep& curve, const CurveStability& stability,

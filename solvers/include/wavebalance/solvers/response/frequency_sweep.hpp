@@ -57,7 +57,7 @@ Vibration largest_vibration(const Eigen::MatrixXd& displacements);
 /// The arc length's parameter of that kind.
 const CurveParameter& curve_parameter(SweepParameter parameter);
 
-/// The unit in which a curve of the problem tells it: Hz, or CondensedProblem::load_unit().
+/// The unit of a curve of the problem: Hz, or CondensedProblem::load_unit().
 std::string_view unit_of(const CondensedProblem& problem, SweepParameter parameter);
 
 /// The frequency (Hz) or load scale of a point or turning point, whichever varies.

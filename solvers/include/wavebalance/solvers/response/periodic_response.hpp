@@ -61,8 +61,8 @@ struct PeriodicResponse {
   bool converged() const { return status == SolveStatus::converged; }
 };
 
-/// The response at `unknown`, a solution of the system at the frequency and in the form of its problem, as a
-/// point of a curve is. Its status is converged; what tells how it was found keeps its defaults. O(C N log
+/// The response at `unknown`, a solution of the system at the frequency and in the form of its problem, as
+/// a point of a curve is. Its status is converged; members about the search keep their defaults. O(C N log
 /// N).
 PeriodicResponse response_at(ContactSystem& system, Eigen::VectorXd unknown);
 

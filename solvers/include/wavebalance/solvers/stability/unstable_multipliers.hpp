@@ -37,8 +37,7 @@ struct UnstableMultipliers {
   int harmonics = 0;     ///< H taken
   int evaluations = 0;   ///< of the determinant; two real ones count as two
   double winding = 0.0;  ///< the unrounded count; differs from an integer only by rounding
-  /// The largest multiplier in modulus, Im >= 0, where it was asked for and the monodromy was taken, NaN
-  /// elsewhere.
+  /// The largest multiplier in modulus, Im >= 0, if requested and the monodromy was used, otherwise NaN.
   std::complex<double> leading{missing, missing};
 };
 
@@ -60,9 +59,9 @@ struct UnstableMultipliers {
 /// Two real maps of the period have the multipliers of Delta, exact at z = 1 and at z = -1. Where their
 /// distances leave no doubt on which side of the circle these lie, they are counted: two evaluations. Else
 /// the argument is followed. Times prod (1 - exp((lambda_j - sigma) T)) it is a polynomial in 1 / z, taken
-/// from its values on the circle. Where few powers do not represent these, the argument of the determinant is
-/// followed from points around the natural frequencies, folded into that range, and steps are halved until it
-/// changes by less than a third of pi and as its derivative says.
+/// from its values on the circle. Where few powers do not represent these, the argument of the determinant
+/// is followed from points around the natural frequencies, folded into that range, and steps are halved
+/// until it changes by less than a third of pi and agrees with its derivative.
 ///
 /// If following it needs more than 1e9 operations, as for many long contacts, and the monodromy of at most
 /// `options.max_states` states is known, its eigenvalues are counted, or powers of it that vanish show that
