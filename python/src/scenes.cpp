@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "report/run_record.hpp"
+#include "report/reports.hpp"
 #include "tables.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"

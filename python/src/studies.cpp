@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "report/study_report.hpp"
+#include "report/reports.hpp"
 #include "scenes.hpp"
 #include "tables.hpp"
 #include "unlocked.hpp"

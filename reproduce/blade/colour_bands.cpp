@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "files/number_text.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 
 namespace wavebalance::blade {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "colour_bands.hpp"
 #include "files/number_text.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 
 namespace wavebalance::blade {
 namespace {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-#include "analysis/response_parts.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/exact_along_sweep.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

@@ -1,4 +1,4 @@
-#include "analysis/exact_response.hpp"
+#include "analysis/analysis_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "analysis/exact_parts.hpp"
-#include "analysis/response_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/exact_parts.hpp"
-#include "analysis/response_parts.hpp"
-#include "analysis/sweep_options.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/exact_parts.hpp"
-#include "analysis/exact_response.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/exact_response.hpp"
-#include "analysis/response_parts.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

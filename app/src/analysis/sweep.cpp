@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/response_parts.hpp"
-#include "analysis/sweep_options.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

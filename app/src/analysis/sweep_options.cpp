@@ -1,4 +1,4 @@
-#include "analysis/sweep_options.hpp"
+#include "analysis/analysis_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/exact_response.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/collocation/exact_near_response.hpp"

@@ -2,9 +2,7 @@
 
 #include <utility>
 
-#include "analysis/exact_parts.hpp"
-#include "analysis/exact_response.hpp"
-#include "analysis/response_parts.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
 

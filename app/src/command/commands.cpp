@@ -8,11 +8,9 @@
 #include <cstring>
 #include <span>
 
-#include "command/command_parts.hpp"
-#include "command/next_steps.hpp"
 #include "files/contains.hpp"
-#include "report/run_record.hpp"
-#include "report/run_words.hpp"
+#include "report/reports.hpp"
+#include "report/words.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"

@@ -1,12 +1,86 @@
 #pragma once
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "report/arguments.hpp"
+#include "report/reports.hpp"
+#include "wavebalance/app/analysis/response.hpp"
+#include "wavebalance/app/compose/other_analysis.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
 
+/// Common parts of commands.
 namespace wavebalance::app {
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP end the program with status 128 + signal (130 for Ctrl-C), or,
+/// if the first is to be noted, only the second does. A signal that the parent process ignores (nohup) stays
+/// ignored. There can be one guard at a time.
+class InterruptGuard {
+ public:
+  explicit InterruptGuard(bool note_first);
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  /// The number of the signal that was noted, or 0.
+  int signal() const;
+  /// From now on signals wait until the guard ends.
+  void defer();
+  /// Ends the program as a second signal does. No file may have been begun.
+  [[noreturn]] void end_program() const;
+
+ private:
+  sigset_t watched_;
+  sigset_t previous_;
+};
+
+/// Shows progress on standard error: one line that is overwritten on a terminal, a line at intervals
+/// elsewhere. Work that is done within half a second shows nothing.
+class ProgressBar {
+ public:
+  ProgressBar();
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(const Progress& progress);
+  /// Clears the line.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool terminal_;
+  bool visible_ = false;
+  Clock::time_point next_;
+};
+
+/// Throws std::invalid_argument where no folder of results is named.
+void require_output(const std::filesystem::path& output);
+/// "summary.json, report.html", what a command has written, but for the frames of a motion.
+std::string names_of(const std::vector<RecordFile>& files);
+/// Says on the standard error what warnings a record has, and why it has no picture, if it has none.
+void say_warnings(const std::vector<std::string>& warnings);
+void say_no_picture(const std::string& reason);
+
+/// Does `work` with an observer that shows progress, unless `quiet`, and stops it after a signal. Ends the
+/// program if that was before anything was solved.
+template <class Work>
+auto until_signal(const InterruptGuard& guard, bool quiet, const Work& work) {
+  ProgressBar bar;
+  try {
+    return work([&](const Progress& progress) {
+      if (!quiet) bar.show(progress);
+      return guard.signal() == 0;
+    });
+  } catch (const ReductionCancelled&) {
+    bar.finish();
+    guard.end_program();
+  }
+}
 
 /// Exit codes of the command.
 enum ExitCode { solved = 0, bad_input = 2, not_converged = 3, interrupted = 128 };  // + number of the signal
@@ -82,5 +156,19 @@ struct ConvertArguments {
 /// Writes the content of files of other codes as Matrix Market files and a dof map for scenes, and lists
 /// them. Returns solved. Throws fem::MatrixFileError, std::invalid_argument if a file exists, IoError.
 int convert_files(const ConvertArguments& arguments);
+
+/// A way on for a scene that was not solved: in words, and as the change of keys that the words name. Words
+/// that name no key have an empty change.
+struct NextStep {
+  std::string text;
+  SceneChange change;
+};
+
+/// Remedies for a scene whose analysis ended with `status`, the most promising first. Each is a change that
+/// the rules of scenes accept; empty if none is known.
+std::vector<NextStep> next_steps(const Scene& scene, const std::string& status);
+
+/// The statuses for which there are steps at all; for tests of each of them.
+std::vector<std::string> statuses_with_next_steps(AnalysisType type);
 
 }  // namespace wavebalance::app

@@ -5,10 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "command/command_parts.hpp"
-#include "report/compare_report.hpp"
-#include "report/report_parts.hpp"
-#include "report/run_record.hpp"
+#include "report/page_parts.hpp"
+#include "report/reports.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"

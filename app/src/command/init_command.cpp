@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "command/starter_texts.hpp"
-#include "report/run_report.hpp"
+#include "report/reports.hpp"
 #include "scene/spelling.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/fem/matrix_market.hpp"

@@ -1,4 +1,4 @@
-#include "command/interrupt_guard.hpp"
+#include "command/commands.hpp"
 
 #include <pthread.h>
 #include <unistd.h>

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "command/command_parts.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "report/overlay.hpp"
-#include "report/report_parts.hpp"
-#include "report/run_report.hpp"
+#include "report/page_parts.hpp"
+#include "report/reports.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/files/summary.hpp"

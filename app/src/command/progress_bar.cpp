@@ -1,4 +1,4 @@
-#include "command/progress_bar.hpp"
+#include "command/commands.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "command/next_steps.hpp"
+#include "command/commands.hpp"
 
 /// Changes of a scene that may lead on where it was not solved. Each is made for the scene that is given,
 /// or is none where it cannot help there; next_steps() checks whether the rules of scenes accept it.

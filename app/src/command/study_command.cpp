@@ -10,9 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "command/command_parts.hpp"
-#include "report/run_record.hpp"
-#include "report/study_report.hpp"
+#include "report/reports.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/study/journal.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "analysis/response_parts.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 

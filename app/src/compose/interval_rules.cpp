@@ -1,4 +1,4 @@
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"

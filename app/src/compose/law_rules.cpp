@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "files/frequency_table.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"

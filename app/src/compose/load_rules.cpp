@@ -1,4 +1,4 @@
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "matrices/loads.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"

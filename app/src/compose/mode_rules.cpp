@@ -1,5 +1,5 @@
 // Rules between the keys of a nonlinear mode.
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "scene/scene_reader.hpp"

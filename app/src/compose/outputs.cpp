@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "compose/scene_rules.hpp"
-#include "compose/support_motion.hpp"
+#include "compose/compose_parts.hpp"
 #include "files/contains.hpp"
 #include "matrices/carried_rows.hpp"
 #include "matrices/dof_names.hpp"

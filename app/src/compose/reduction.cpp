@@ -1,4 +1,4 @@
-#include "compose/reduction.hpp"
+#include "compose/compose_parts.hpp"
 
 #include <optional>
 #include <stdexcept>

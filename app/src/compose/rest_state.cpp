@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "compose/signals.hpp"
+#include "compose/compose_parts.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"
 #include "matrices/structure_files.hpp"

@@ -1,6 +1,6 @@
 #include "wavebalance/app/compose/scene_loader.hpp"
 
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "matrices/dof_names.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/scene_reader.hpp"

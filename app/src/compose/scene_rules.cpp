@@ -1,4 +1,4 @@
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "compose/signals.hpp"
+#include "compose/compose_parts.hpp"
 
 #include <cmath>
 #include <complex>

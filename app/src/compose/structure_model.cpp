@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "compose/reduction.hpp"
-#include "compose/signals.hpp"
+#include "compose/compose_parts.hpp"
 #include "matrices/boundary.hpp"
 #include "matrices/carried_rows.hpp"
 #include "matrices/load_places.hpp"

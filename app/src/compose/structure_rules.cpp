@@ -2,7 +2,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "compose/scene_rules.hpp"
+#include "compose/compose_parts.hpp"
 #include "matrices/structure_files.hpp"
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"

@@ -1,4 +1,4 @@
-#include "compose/support_motion.hpp"
+#include "compose/compose_parts.hpp"
 
 #include <algorithm>
 #include <complex>

@@ -1,4 +1,4 @@
-#include "drawing/campbell_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <array>

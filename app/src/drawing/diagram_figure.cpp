@@ -1,4 +1,4 @@
-#include "drawing/diagram_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drawing/motion_panels.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drawing/mode_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "drawing/output_figure.hpp"
-#include "drawing/record_figure.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

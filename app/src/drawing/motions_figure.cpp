@@ -1,9 +1,8 @@
-#include "drawing/motions_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <string>
 
-#include "drawing/period_window.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

@@ -1,4 +1,4 @@
-#include "drawing/orbit_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "drawing/output_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "drawing/sweep_lines.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {

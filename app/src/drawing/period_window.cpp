@@ -1,4 +1,4 @@
-#include "drawing/period_window.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>

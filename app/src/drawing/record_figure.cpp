@@ -1,4 +1,4 @@
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "analysis/response_parts.hpp"
-#include "drawing/motion_panels.hpp"
-#include "drawing/output_figure.hpp"
-#include "drawing/period_window.hpp"
-#include "drawing/sweep_lines.hpp"
-#include "plot/thin_curve.hpp"
+#include "analysis/analysis_parts.hpp"
+#include "plot/plot_parts.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

@@ -1,4 +1,4 @@
-#include "drawing/sweep_lines.hpp"
+#include "drawing/figures.hpp"
 
 #include <algorithm>
 #include <array>

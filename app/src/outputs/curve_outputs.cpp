@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "analysis/exact_parts.hpp"
-#include "analysis/response_parts.hpp"
-#include "outputs/output_peaks.hpp"
+#include "analysis/analysis_parts.hpp"
+#include "outputs/peaks.hpp"
 #include "outputs/point_measurer.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"

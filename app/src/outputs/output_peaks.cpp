@@ -1,4 +1,4 @@
-#include "outputs/output_peaks.hpp"
+#include "outputs/peaks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "outputs/point_measurer.hpp"
-#include "outputs/polynomial_peak.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 
 namespace wavebalance::app {

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/exact_parts.hpp"
+#include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/outputs/output_measures.hpp"

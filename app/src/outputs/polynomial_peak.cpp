@@ -1,4 +1,4 @@
-#include "outputs/polynomial_peak.hpp"
+#include "outputs/peaks.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "plot/axis_ticks.hpp"
+#include "plot/plot_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "plot/figure_layout.hpp"
+#include "plot/plot_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "files/number_text.hpp"
-#include "plot/plot_text.hpp"
 
 namespace wavebalance::app {
 namespace {

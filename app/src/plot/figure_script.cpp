@@ -9,8 +9,7 @@
 #include <numeric>
 
 #include "files/number_text.hpp"
-#include "plot/plot_text.hpp"
-#include "plot/thin_curve.hpp"
+#include "plot/plot_parts.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "plot/gnuplot_process.hpp"
+#include "plot/plot_parts.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>

@@ -7,8 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "plot/figure_layout.hpp"
-#include "plot/gnuplot_process.hpp"
+#include "plot/plot_parts.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "files/number_text.hpp"
-#include "plot/axis_ticks.hpp"
-#include "plot/figure_layout.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "wavebalance/app/plot/plot.hpp"
 
 namespace wavebalance::app {

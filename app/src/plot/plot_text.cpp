@@ -1,4 +1,4 @@
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 
 #include <array>
 #include <cctype>

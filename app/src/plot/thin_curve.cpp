@@ -1,4 +1,4 @@
-#include "plot/thin_curve.hpp"
+#include "plot/plot_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

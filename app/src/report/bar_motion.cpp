@@ -1,4 +1,4 @@
-#include "report/bar_motion.hpp"
+#include "report/page_parts.hpp"
 
 #include <fmt/format.h>
 

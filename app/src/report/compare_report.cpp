@@ -1,11 +1,11 @@
-#include "report/compare_report.hpp"
+#include "report/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/report_parts.hpp"
+#include "report/page_parts.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/html.hpp"

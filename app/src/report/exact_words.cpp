@@ -1,4 +1,4 @@
-#include "report/exact_words.hpp"
+#include "report/words.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "report/other_motions.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 
 #include "files/contains.hpp"
 #include "files/missing.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "files/missing.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "report/overlay.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

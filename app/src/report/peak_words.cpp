@@ -1,4 +1,4 @@
-#include "report/peak_words.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 

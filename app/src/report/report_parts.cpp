@@ -1,4 +1,4 @@
-#include "report/report_parts.hpp"
+#include "report/page_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "report/run_record.hpp"
+#include "report/reports.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "report/bar_motion.hpp"
-#include "report/report_parts.hpp"
+#include "report/page_parts.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"
 #include "wavebalance/app/scene/scene_writer.hpp"

@@ -1,13 +1,13 @@
-#include "report/run_report.hpp"
+#include "report/reports.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "report/report_parts.hpp"
-#include "report/run_words.hpp"
-#include "results/rest_record.hpp"
+#include "report/page_parts.hpp"
+#include "report/words.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

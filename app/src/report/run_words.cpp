@@ -1,4 +1,4 @@
-#include "report/run_words.hpp"
+#include "report/words.hpp"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,7 @@
 #include <cmath>
 
 #include "files/number_text.hpp"
-#include "plot/plot_text.hpp"
-#include "report/exact_words.hpp"
-#include "report/other_motions.hpp"
-#include "report/peak_words.hpp"
+#include "plot/plot_parts.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

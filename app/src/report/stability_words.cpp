@@ -7,7 +7,7 @@
 #include <span>
 
 #include "files/number_text.hpp"
-#include "report/run_words.hpp"
+#include "report/words.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

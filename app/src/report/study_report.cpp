@@ -1,4 +1,4 @@
-#include "report/study_report.hpp"
+#include "report/reports.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "files/number_text.hpp"
-#include "report/report_parts.hpp"
+#include "report/page_parts.hpp"
 #include "wavebalance/app/files/npz.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

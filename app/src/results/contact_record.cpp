@@ -1,4 +1,4 @@
-#include "results/contact_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

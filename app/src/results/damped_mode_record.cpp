@@ -4,16 +4,10 @@
 
 #include <numbers>
 
-#include "drawing/mode_figure.hpp"
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "results/contact_record.hpp"
-#include "results/extremes.hpp"
-#include "results/mode_output_record.hpp"
-#include "results/motion_files.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/damped_modes.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/elastic_modes.hpp"

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "drawing/diagram_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/attractors/bifurcation.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/outputs.hpp"

@@ -6,7 +6,7 @@
 
 #include "attractors/limit_cycle.hpp"
 #include "results/quantities.hpp"
-#include "results/response_record.hpp"
+#include "results/record_parts.hpp"
 
 namespace wavebalance::app {
 namespace {

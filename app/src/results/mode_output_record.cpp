@@ -1,11 +1,10 @@
-#include "results/mode_output_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "files/missing.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
 
 namespace wavebalance::app {

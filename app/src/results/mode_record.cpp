@@ -5,15 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drawing/mode_figure.hpp"
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "results/mode_output_record.hpp"
-#include "results/motion_files.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
-#include "results/stability.hpp"
-#include "results/summary_parts.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
 #include "wavebalance/app/compose/compose.hpp"

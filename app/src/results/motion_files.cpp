@@ -1,4 +1,4 @@
-#include "results/motion_files.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,10 @@
 #include <span>
 #include <utility>
 
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
-#include "results/curve_motion_files.hpp"
-#include "results/orbit_record.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
-#include "results/sweep_record.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/page/assets.hpp"
 #include "wavebalance/app/page/body.hpp"

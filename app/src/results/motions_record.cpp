@@ -4,14 +4,11 @@
 
 #include <algorithm>
 
-#include "drawing/motions_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
-#include "results/contact_record.hpp"
-#include "results/extremes.hpp"
-#include "results/motion_files.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/motions.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

@@ -1,11 +1,11 @@
-#include "results/orbit_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "drawing/orbit_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "matrices/structure_files.hpp"

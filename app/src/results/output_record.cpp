@@ -1,4 +1,4 @@
-#include "results/output_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "drawing/output_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "plot/plot_text.hpp"
+#include "plot/plot_parts.hpp"
 #include "results/quantities.hpp"
-#include "results/sweep_record.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 
 namespace wavebalance::app {

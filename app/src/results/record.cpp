@@ -4,10 +4,7 @@
 
 #include "files/number_text.hpp"
 #include "results/analyses.hpp"
-#include "results/recorded_record.hpp"
-#include "results/response_record.hpp"
-#include "results/summary_parts.hpp"
-#include "results/sweep_record.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

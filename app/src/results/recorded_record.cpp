@@ -1,15 +1,13 @@
-#include "results/recorded_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "drawing/diagram_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

@@ -1,20 +1,13 @@
-#include "results/response_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "analysis/response_parts.hpp"
-#include "drawing/record_figure.hpp"
+#include "analysis/analysis_parts.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
-#include "results/contact_record.hpp"
-#include "results/motion_files.hpp"
-#include "results/orbit_record.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
-#include "results/rest_record.hpp"
-#include "results/stability.hpp"
-#include "results/summary_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"

@@ -1,4 +1,4 @@
-#include "results/rest_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "results/stability.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,7 @@
 #include <optional>
 
 #include "files/missing.hpp"
-#include "results/extremes.hpp"
 #include "results/quantities.hpp"
-#include "results/structure_points.hpp"
-#include "results/summary_parts.hpp"
-#include "results/sweep_record.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 

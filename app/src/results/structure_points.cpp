@@ -1,4 +1,4 @@
-#include "results/structure_points.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "results/summary_parts.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {

@@ -1,11 +1,10 @@
-#include "results/summary_parts.hpp"
+#include "results/record_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "files/missing.hpp"
-#include "results/contact_record.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"

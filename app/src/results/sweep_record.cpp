@@ -1,19 +1,12 @@
-#include "results/sweep_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
-#include "results/curve_motion_files.hpp"
-#include "results/extremes.hpp"
-#include "results/output_record.hpp"
 #include "results/quantities.hpp"
-#include "results/rest_record.hpp"
-#include "results/stability.hpp"
-#include "results/summary_parts.hpp"
-#include "results/whirl_record.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/results/tables.hpp"

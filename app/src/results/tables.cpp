@@ -6,7 +6,7 @@
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
-#include "results/sweep_record.hpp"
+#include "results/record_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

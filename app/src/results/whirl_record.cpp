@@ -1,4 +1,4 @@
-#include "results/whirl_record.hpp"
+#include "results/record_parts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "drawing/campbell_figure.hpp"
-#include "results/summary_parts.hpp"
+#include "drawing/figures.hpp"
 #include "wavebalance/app/analysis/whirl.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "command/next_steps.hpp"
+#include "command/commands.hpp"
 
 #include <gtest/gtest.h>
 

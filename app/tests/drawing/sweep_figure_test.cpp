@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "drawing/mode_figure.hpp"
-#include "drawing/record_figure.hpp"
+#include "drawing/figures.hpp"
 #include "support/bar_scene.hpp"
 #include "support/scene_texts.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "plot/thin_curve.hpp"
+#include "plot/plot_parts.hpp"
 
 namespace wavebalance::app {
 namespace {

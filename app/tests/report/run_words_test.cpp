@@ -1,4 +1,4 @@
-#include "report/run_words.hpp"
+#include "report/words.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "labelled_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace {

@@ -1,8 +1,6 @@
-#include "bulk_fields.hpp"
+#include "text_parts.hpp"
 
 #include <algorithm>
-
-#include "text_lines.hpp"
 
 namespace wavebalance::fem::detail {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "matrix_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/matrix_file.hpp"
 
 namespace wavebalance::fem {

@@ -2,8 +2,8 @@
 #include <array>
 #include <set>
 
-#include "matrix_formats.hpp"
-#include "text_lines.hpp"
+#include "formats.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/named_matrix.hpp"
 
 namespace wavebalance::fem {

@@ -6,7 +6,7 @@
 #include <istream>
 #include <stdexcept>
 
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace {

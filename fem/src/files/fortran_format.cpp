@@ -1,10 +1,8 @@
-#include "fortran_format.hpp"
+#include "text_parts.hpp"
 
 #include <charconv>
 #include <cmath>
 #include <system_error>
-
-#include "text_lines.hpp"
 
 namespace wavebalance::fem::detail {
 namespace {

@@ -1,11 +1,10 @@
-#include "harwell_boeing.hpp"
+#include "formats.hpp"
 
 #include <optional>
 #include <vector>
 
-#include "fortran_format.hpp"
-#include "matrix_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/matrix_file.hpp"
 
 namespace wavebalance::fem {

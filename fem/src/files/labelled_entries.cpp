@@ -1,4 +1,4 @@
-#include "labelled_entries.hpp"
+#include "entries.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "matrix_entries.hpp"
+#include "entries.hpp"
 
 #include <algorithm>
 #include <array>

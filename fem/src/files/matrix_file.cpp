@@ -5,9 +5,9 @@
 #include <array>
 #include <vector>
 
-#include "matrix_formats.hpp"
+#include "formats.hpp"
 #include "output4.hpp"
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace {

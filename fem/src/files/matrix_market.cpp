@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "matrix_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace {

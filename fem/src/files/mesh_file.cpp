@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/mesh.hpp"
 
 namespace wavebalance::fem {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <charconv>
 
-#include "harwell_boeing.hpp"
-#include "matrix_entries.hpp"
-#include "matrix_formats.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "formats.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/matrix_market.hpp"
 
 namespace wavebalance::fem {

@@ -2,10 +2,8 @@
 #include <map>
 #include <span>
 
-#include "bulk_fields.hpp"
-#include "fortran_format.hpp"
-#include "labelled_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace {

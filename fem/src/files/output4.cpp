@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "matrix_entries.hpp"
-#include "text_lines.hpp"
+#include "entries.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace detail {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fortran_format.hpp"
 #include "require.hpp"
+#include "text_parts.hpp"
 #include "wavebalance/fem/named_matrix.hpp"
 
 namespace wavebalance::fem::detail {

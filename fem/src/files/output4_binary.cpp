@@ -6,7 +6,7 @@
 #include <istream>
 
 #include "output4.hpp"
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem::detail {
 namespace {

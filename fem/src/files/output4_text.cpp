@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "output4.hpp"
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 
 namespace wavebalance::fem::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "text_lines.hpp"
+#include "text_parts.hpp"
 
 #include <algorithm>
 #include <cmath>

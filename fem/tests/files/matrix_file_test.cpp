@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "expect_error.hpp"
-#include "files/fortran_format.hpp"
+#include "files/text_parts.hpp"
 #include "temporary_folder.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/matrix_market.hpp"

@@ -2,11 +2,34 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/scene_document.hpp"
+#include "wavebalance/app/compose/outputs.hpp"
+#include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/fem/matrices.hpp"
 
 namespace wavebalance::app {
+
+/// Loads and contacts of a structure before its reduction: see solvers::LinearStructure.
+struct Loads {
+  Eigen::VectorXd load;
+  std::vector<solvers::PeriodicForce> forces;
+};
+
+/// Coordinates that a reduction keeps in addition to its modes.
+struct Kept {
+  std::vector<int> boundary;
+  Eigen::SparseMatrix<double> merging = {};  ///< merging() of coordinates of several unknowns, or 0 x 0
+};
+
+/// Sets the structure of a model from matrices, reduced to the boundary and so many modes. Modes and static
+/// deflections follow from the symmetric parts of the matrices. Their skew parts, gyroscopic and
+/// circulatory forces, are projected on them.
+void reduce(StructureModel& model, const fem::Matrices& matrices, const Loads& loads,
+            const solvers::ContactDirections& directions, const Kept& kept, int kept_modes,
+            const solvers::Observer& observer, const solvers::TurningParts& turning = {});
 
 /// Throws SceneError at the first of `names` that the scene holds; if there is none, at the first one's
 /// section.
@@ -45,5 +68,16 @@ void check_outputs(const Document& document, const Scene& scene);
 void check_sweep(const Document& document, const Scene& scene);
 /// Records of time stepping and of diagrams.
 void check_records(const Document& document, const Scene& scene);
+
+/// Appends a degree of freedom for each periodic stiffness: a spring without mass, whose load makes it the
+/// signal that the second row of the law is. O(entries).
+void append_signals(solvers::LinearStructure& structure, const Scene& scene);
+/// The same, and that it moves nothing of the whole structure.
+void append_signals(StructureModel& model, const Scene& scene);
+
+/// Sets the motions of supports that are added to an output for its frame of reference, and the support
+/// motion that a transmissibility divides by, with its derivative. Throws std::invalid_argument where the
+/// loads of the scene have no such frame.
+void set_frame(Output& output, const OutputWords& words, const Scene& scene);
 
 }  // namespace wavebalance::app

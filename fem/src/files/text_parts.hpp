@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -14,13 +16,46 @@
 
 namespace wavebalance::fem::detail {
 
+/// A line of bulk data of Nastran: its first field, and the four large or eight small ones after it.
+struct BulkLine {
+  std::string_view name;  ///< without the star of large fields
+  std::array<std::string_view, 8> fields;
+  int count = 8;
+  bool continues = false;  ///< whether it belongs to the entry before it
+};
+
+/// Splits a line with small fields of 8 characters, large ones of 16, or free ones with commas. Blanks around
+/// fields do not count, and fields that are missing are empty. The views are into `text`.
+BulkLine bulk_line(std::string_view text);
+
+/// A Fortran format of numbers that all have the same field, such as (1P,3E26.18) or (10I8).
+struct FortranFormat {
+  char letter = 'i';    ///< i, or for reals one of e, d, f, g
+  int repeat = 1;       ///< fields per line
+  int width = 0;        ///< characters per field
+  int decimals = 0;     ///< digits after the point of a real that is written without one
+  int scale_power = 0;  ///< k of kP: a real that is written without an exponent is divided by 10^k
+
+  bool real() const { return letter != 'i'; }
+};
+
+/// The format that a text in parentheses is, or none if it is another one.
+std::optional<FortranFormat> fortran_format(std::string_view text);
+
+/// The real number in a field, as Fortran reads it: with the exponent letter E or D, with only a sign
+/// (1.5-101), or without an exponent. None if it is no finite number. Blanks around it do not count.
+std::optional<double> fortran_real(std::string_view field, const FortranFormat& format);
+
+/// The first text in parentheses of a line, which is taken from it; empty if there is none.
+std::string_view next_parentheses(std::string_view& line);
+
 /// Bounds the memory that an index or a size can claim.
 constexpr int largest_side = 100'000'000;
 
 /// Opens a regular file of at most largest_matrix_file bytes. Throws MatrixFileError.
 std::ifstream open_matrix_file(const std::filesystem::path& file);
 
-/// Result of `read(input, name)` for a file.
+/// What `read(input, name)` makes of a file.
 template <class Read>
 auto from_file(const std::filesystem::path& file, Read read) {
   std::ifstream input = open_matrix_file(file);
@@ -36,7 +71,7 @@ std::string_view trimmed(std::string_view text);
 /// The words that any of `separators` separate, none of them empty.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);
 
-/// Lines of a file with their numbers, for errors with places. Errors are MatrixFileError.
+/// Lines of a file with their numbers, for errors that say where. Errors are MatrixFileError.
 class Lines {
  public:
   Lines(std::istream& input, std::string name) : input_(input), name_(std::move(name)) {}

@@ -4,11 +4,26 @@
 #include <vector>
 
 #include "report/arguments.hpp"
-#include "report/run_report.hpp"
+#include "wavebalance/app/compare/comparison_record.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/results/record.hpp"
+#include "wavebalance/app/scene/scene.hpp"
+#include "wavebalance/app/study/study_record.hpp"
 
 namespace wavebalance::app {
+
+/// report.html: the problem, results in sentences, warnings, stability, the picture with curves that zoom,
+/// the motion of a bar, all values and files. It holds all that it shows; without scripts the pictures
+/// stay. `scene_text` is the scene as the record has it.
+std::string report_text(const RunArguments& arguments, const Scene& scene, const std::string& scene_text,
+                        const Record& record, const Summary& summary, const std::vector<RecordFile>& files);
+
+/// report.html of a comparison: recommendation with [time] tables to paste, pictures with curves that zoom,
+/// results and failures of each pair, reference with its stability, warnings, command, all values and
+/// files. The page is self-contained.
+std::string comparison_report(const CompareArguments& arguments, const Scene& scene,
+                              const ComparisonRecord& record, const Summary& summary,
+                              const std::vector<RecordFile>& files);
 
 /// The files of a run, ready to be written.
 struct RunFiles {
@@ -46,5 +61,18 @@ void check_run_output(const RunArguments& arguments, const Scene& scene);
 /// Writes all files at once and replaces the files of an earlier record. The summary is last, so that it
 /// exists only if the others do. Throws IoError, also where require_replaceable() does.
 void write_run_files(OutputFiles& output, const RunFiles& files, const InputFiles& inputs);
+
+/// The files of a study. Its page has the numbers of runs by status, quantiles of all quantities, and the
+/// runs that did not converge with the command that repeats one. Without gnuplot there is no picture.
+RunFiles study_files(const StudyArguments& arguments, const Study& study, const StudyRecord& record);
+
+/// The files that a study reads: its own, the scene, and those that the first run names.
+InputFiles inputs_of(const StudyArguments& arguments, const Study& study, const StudyRuns& runs);
+
+/// require_replaceable() for the files of a study, before anything is solved.
+void check_study_output(const StudyArguments& arguments, const InputFiles& inputs);
+
+/// The same outcome in a few lines for a terminal.
+std::string study_outcome(const StudyRecord& record);
 
 }  // namespace wavebalance::app
