@@ -1,7 +1,5 @@
 #include "wavebalance/fem/bar.hpp"
 
-#include <cmath>
-
 #include "require.hpp"
 
 namespace wavebalance::fem {

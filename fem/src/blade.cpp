@@ -1,6 +1,5 @@
 #include "wavebalance/fem/blade.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include "require.hpp"

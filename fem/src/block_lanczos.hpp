@@ -1,6 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <functional>
 
 #include "symmetric_factor.hpp"

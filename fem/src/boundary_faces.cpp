@@ -1,7 +1,6 @@
 #include "wavebalance/fem/boundary_faces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <tuple>

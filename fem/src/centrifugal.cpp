@@ -1,8 +1,5 @@
 #include "wavebalance/fem/centrifugal.hpp"
 
-#include <cmath>
-#include <stdexcept>
-
 #include "dense.hpp"
 #include "hexahedron.hpp"
 #include "require.hpp"

@@ -1,9 +1,7 @@
 #include "wavebalance/fem/check_structure.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include "require.hpp"

@@ -1,8 +1,5 @@
 #include "wavebalance/fem/craig_bampton.hpp"
 
-#include <stdexcept>
-#include <string>
-
 #include "dense.hpp"
 #include "require.hpp"
 #include "shift_invert.hpp"

@@ -1,10 +1,7 @@
 #include "wavebalance/fem/eigenmodes.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 #include "block_lanczos.hpp"
 #include "dense.hpp"

@@ -2,9 +2,6 @@
 
 #include <Eigen/LU>
 
-#include <cmath>
-#include <string>
-
 #include "dense.hpp"
 #include "require.hpp"
 

@@ -1,9 +1,5 @@
 #include "wavebalance/fem/solid.hpp"
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
-
 #include "dense.hpp"
 #include "hexahedron.hpp"
 #include "require.hpp"

@@ -1,7 +1,5 @@
 #include "wavebalance/fem/static_displacements.hpp"
 
-#include <stdexcept>
-
 #include "require.hpp"
 #include "symmetric_factor.hpp"
 

@@ -1,5 +1,4 @@
 #include <limits>
-#include <string>
 
 #include "hexahedron.hpp"
 #include "require.hpp"

@@ -1,13 +1,9 @@
 #include "wavebalance/fem/vtu.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <string>
-#include <string_view>
 
 #include "require.hpp"
 

@@ -4,11 +4,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <memory>
-#include <span>
-#include <stdexcept>
-
 #include "bindings.hpp"
 #include "problem.hpp"
 #include "wavebalance/contact/catalogue.hpp"

@@ -1,12 +1,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -14,9 +9,7 @@
 #include "problem.hpp"
 #include "unlocked.hpp"
 #include "wavebalance/app/analysis/modes.hpp"
-#include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/solvers/modes/damped_mode.hpp"
-#include "wavebalance/solvers/modes/elastic_mode.hpp"
 #include "wavebalance/solvers/modes/mode_stability.hpp"
 
 namespace wavebalance::python {

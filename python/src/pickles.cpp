@@ -2,8 +2,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <concepts>
-#include <cstddef>
 #include <tuple>
 #include <type_traits>
 

@@ -4,10 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <stdexcept>
-#include <string>
 #include <tuple>
-#include <utility>
 
 #include "arrays.hpp"
 #include "bindings.hpp"

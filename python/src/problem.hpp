@@ -1,9 +1,4 @@
 #pragma once
-#include <memory>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/solvers/problem/contact_problem.hpp"

@@ -3,8 +3,6 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <optional>
-
 #include "bindings.hpp"
 #include "report/reports.hpp"
 #include "tables.hpp"

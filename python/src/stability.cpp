@@ -1,9 +1,6 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
-#include <complex>
-#include <string>
-
 #include "bindings.hpp"
 #include "response.hpp"
 #include "unlocked.hpp"

@@ -1,8 +1,5 @@
 #include <pybind11/stl.h>
 
-#include <memory>
-#include <optional>
-
 #include "bindings.hpp"
 #include "report/reports.hpp"
 #include "scenes.hpp"

@@ -1,9 +1,6 @@
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
-#include <cmath>
-#include <string>
-
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "laws.hpp"

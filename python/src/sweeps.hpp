@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 
 #include "problem.hpp"
 #include "wavebalance/solvers/balance/contact_laws.hpp"

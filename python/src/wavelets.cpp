@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include <bit>
-#include <stdexcept>
 
 #include "bindings.hpp"
 #include "wavebalance/app/compose/compose.hpp"

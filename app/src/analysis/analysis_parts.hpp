@@ -1,6 +1,4 @@
 #pragma once
-#include <optional>
-#include <string>
 
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"

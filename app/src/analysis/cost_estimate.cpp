@@ -5,10 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <limits>
 #include <numeric>
 
 #include "analysis/analysis_parts.hpp"

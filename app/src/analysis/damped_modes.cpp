@@ -1,9 +1,6 @@
 #include "wavebalance/app/analysis/damped_modes.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/analysis/modes.hpp"

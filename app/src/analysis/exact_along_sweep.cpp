@@ -1,8 +1,5 @@
 #include "wavebalance/app/analysis/exact_along_sweep.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"

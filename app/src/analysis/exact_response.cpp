@@ -1,10 +1,6 @@
 #include "analysis/analysis_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <string>
-#include <utility>
 
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

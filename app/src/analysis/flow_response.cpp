@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

@@ -1,11 +1,7 @@
 #include "wavebalance/app/analysis/friction_measures.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <span>
-#include <variant>
 
-#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"
 
 namespace wavebalance::app {

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <utility>
 
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

@@ -1,8 +1,5 @@
 #include "wavebalance/solvers/problem/isolated_curves.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/solvers/response/response_motion.hpp"

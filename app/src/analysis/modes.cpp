@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
 
 #include "files/missing.hpp"

@@ -1,8 +1,5 @@
 #include "wavebalance/app/analysis/motions.hpp"
 
-#include <cmath>
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <vector>
 
 #include "files/number_text.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

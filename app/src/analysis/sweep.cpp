@@ -1,7 +1,5 @@
 #include "wavebalance/app/analysis/sweep.hpp"
 
-#include <algorithm>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

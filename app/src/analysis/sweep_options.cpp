@@ -1,8 +1,5 @@
 #include "analysis/analysis_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace wavebalance::app {
 
 solvers::FrequencySweepOptions sweep_options(const Scene& scene) {

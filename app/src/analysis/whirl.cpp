@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <stdexcept>
-#include <utility>
 
 #include "files/missing.hpp"
 

@@ -1,10 +1,5 @@
 #include "wavebalance/app/attractors/bifurcation.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
-
 #include "attractors/flow_rows.hpp"
 #include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

@@ -1,9 +1,5 @@
 #include "attractors/flow_rows.hpp"
 
-#include <algorithm>
-#include <string>
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

@@ -1,6 +1,4 @@
 #pragma once
-#include <string>
-#include <vector>
 
 #include "wavebalance/app/attractors/recorded_motion.hpp"
 #include "wavebalance/app/compose/outputs.hpp"

@@ -1,7 +1,5 @@
 #include "attractors/limit_cycle.hpp"
 
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"

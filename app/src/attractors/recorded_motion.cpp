@@ -1,10 +1,6 @@
 #include "wavebalance/app/attractors/recorded_motion.hpp"
 #include "wavebalance/app/compose/outputs.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 

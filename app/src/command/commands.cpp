@@ -2,17 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <span>
 
 #include "files/contains.hpp"
-#include "report/reports.hpp"
 #include "report/words.hpp"
 #include "wavebalance/app/analysis/cost_estimate.hpp"
-#include "wavebalance/app/compose/other_analysis.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

@@ -1,9 +1,5 @@
 #pragma once
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "report/arguments.hpp"
 #include "report/reports.hpp"

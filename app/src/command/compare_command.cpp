@@ -1,9 +1,6 @@
 #include "command/commands.hpp"
 
-#include <cstdint>
 #include <cstdio>
-#include <utility>
-#include <vector>
 
 #include "report/page_parts.hpp"
 #include "report/reports.hpp"

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cctype>
-#include <stdexcept>
 
 #include "command/commands.hpp"
 #include "wavebalance/app/files/output.hpp"

@@ -1,7 +1,5 @@
 #include "command/commands.hpp"
 
-#include <stdexcept>
-
 #include "command/starter_texts.hpp"
 #include "report/reports.hpp"
 #include "scene/spelling.hpp"

@@ -3,9 +3,7 @@
 #include <pthread.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
-#include <string_view>
 
 namespace wavebalance::app {
 namespace {

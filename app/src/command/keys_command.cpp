@@ -1,10 +1,5 @@
 #include "command/commands.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <stdexcept>
-#include <utility>
-
 #include "files/contains.hpp"
 #include "scene/scene_keys_text.hpp"
 #include "scene/spelling.hpp"

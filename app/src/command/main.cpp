@@ -2,11 +2,9 @@
 // command.
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <stdexcept>
 
 #include "command/commands.hpp"
 #include "files/contains.hpp"

@@ -1,7 +1,5 @@
 #include "command/commands.hpp"
 
-#include <map>
-
 #include "command/scene_moves.hpp"
 
 namespace wavebalance::app {

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <stdexcept>
-
 #include "plot/plot_parts.hpp"
 #include "report/overlay.hpp"
 #include "report/page_parts.hpp"

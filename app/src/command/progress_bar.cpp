@@ -4,10 +4,7 @@
 
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <string>
 
 namespace wavebalance::app {
 namespace {

@@ -1,8 +1,5 @@
 #include "command/scene_moves.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "files/contains.hpp"
 #include "files/number_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

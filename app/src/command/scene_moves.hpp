@@ -1,8 +1,4 @@
 #pragma once
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
 
 #include "command/commands.hpp"
 

@@ -7,8 +7,6 @@
 #endif
 
 #include <cstdio>
-#include <memory>
-#include <utility>
 
 #include "report/reports.hpp"
 #include "wavebalance/app/files/output.hpp"

@@ -1,10 +1,5 @@
 #include "wavebalance/app/compare/basis_pair.hpp"
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <utility>
-
 #include "files/contains.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-
 #include "wavebalance/app/analysis/response.hpp"
 #include "wavebalance/app/compare/exact_study.hpp"
 #include "wavebalance/app/compare/size_study.hpp"

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-#include <map>
 #include <set>
-#include <utility>
 
 namespace wavebalance::app {
 namespace {

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-
 #include "wavebalance/app/compare/comparison_figure.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

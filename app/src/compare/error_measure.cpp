@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/solvers/linalg/missing.hpp"

@@ -1,9 +1,5 @@
 #include "compare/exact_reference.hpp"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/compare/size_study.hpp"
 #include "wavebalance/app/compose/compose.hpp"

@@ -1,6 +1,4 @@
 #pragma once
-#include <optional>
-#include <string>
 
 #include "wavebalance/app/analysis/start_motion.hpp"
 #include "wavebalance/app/compose/structure_model.hpp"

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <utility>
-
 #include "compare/exact_reference.hpp"
 #include "wavebalance/app/compose/compose.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

@@ -1,10 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <span>
-
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/comparison.hpp"
 

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <tuple>
-#include <utility>
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/app/compose/compose.hpp"

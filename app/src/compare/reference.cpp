@@ -1,14 +1,5 @@
 #include "wavebalance/app/compare/reference.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "compare/exact_reference.hpp"
 #include "wavebalance/app/analysis/measures.hpp"
 #include "wavebalance/app/compare/size_study.hpp"

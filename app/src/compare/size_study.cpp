@@ -1,13 +1,6 @@
 #include "wavebalance/app/compare/size_study.hpp"
 
-#include <algorithm>
 #include <iterator>
-#include <limits>
-#include <map>
-#include <mutex>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

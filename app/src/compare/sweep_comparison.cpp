@@ -1,13 +1,6 @@
 #include "wavebalance/app/compare/sweep_comparison.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <bit>
-#include <cmath>
-#include <complex>
-#include <mutex>
-#include <stdexcept>
-#include <utility>
 
 #include "compare/shared_observer.hpp"
 #include "wavebalance/app/analysis/sweep.hpp"

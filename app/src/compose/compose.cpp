@@ -1,12 +1,7 @@
 #include "wavebalance/app/compose/compose.hpp"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/catalogue.hpp"

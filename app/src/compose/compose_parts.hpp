@@ -1,8 +1,5 @@
 #pragma once
 #include <initializer_list>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/compose/outputs.hpp"

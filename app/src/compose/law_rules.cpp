@@ -1,7 +1,3 @@
-#include <array>
-#include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "compose/compose_parts.hpp"
 #include "files/frequency_table.hpp"

@@ -1,8 +1,6 @@
 #include "wavebalance/app/compose/massless_contacts.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <utility>
 
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"

@@ -1,9 +1,5 @@
 #include "wavebalance/app/compose/other_analysis.hpp"
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 #include "files/contains.hpp"
 #include "scene/scene_document.hpp"
 #include "scene/term_reader.hpp"

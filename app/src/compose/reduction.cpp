@@ -1,10 +1,5 @@
 #include "compose/compose_parts.hpp"
 
-#include <optional>
-#include <stdexcept>
-#include <string_view>
-#include <utility>
-
 #include "matrices/boundary.hpp"
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/fem/check_structure.hpp"

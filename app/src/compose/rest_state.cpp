@@ -1,8 +1,5 @@
 #include "wavebalance/app/compose/rest_state.hpp"
 
-#include <stdexcept>
-#include <utility>
-
 #include "compose/compose_parts.hpp"
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"

@@ -1,9 +1,6 @@
 #include "compose/compose_parts.hpp"
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <initializer_list>
 
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_keys_text.hpp"

@@ -1,9 +1,7 @@
 #include "compose/compose_parts.hpp"
 
 #include <cmath>
-#include <complex>
 #include <numbers>
-#include <vector>
 
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/contact/periodic_stiffness_law.hpp"

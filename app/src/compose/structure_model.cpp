@@ -1,7 +1,6 @@
 #include "wavebalance/app/compose/structure_model.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "compose/compose_parts.hpp"
 #include "matrices/boundary.hpp"
@@ -12,7 +11,6 @@
 #include "matrices/symmetric_part.hpp"
 #include "wavebalance/app/compose/massless_contacts.hpp"
 #include "wavebalance/app/files/wall_clock.hpp"
-#include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/bar.hpp"
 #include "wavebalance/fem/centrifugal.hpp"
 #include "wavebalance/fem/eigenmodes.hpp"

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "compose/compose_parts.hpp"
 #include "matrices/structure_files.hpp"

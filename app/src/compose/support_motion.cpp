@@ -1,12 +1,9 @@
 #include "compose/compose_parts.hpp"
 
 #include <algorithm>
-#include <complex>
 #include <cstdlib>
-#include <memory>
 #include <numbers>
 #include <set>
-#include <stdexcept>
 
 #include "matrices/load_places.hpp"
 #include "matrices/loads.hpp"

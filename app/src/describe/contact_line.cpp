@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "files/number_text.hpp"
 #include "wavebalance/app/compose/outputs.hpp"

@@ -1,10 +1,6 @@
-#include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numbers>
-#include <vector>
 
 #include "describe/contact_line.hpp"
 #include "files/number_text.hpp"

@@ -1,7 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <array>
 #include <numbers>
 
 #include "files/missing.hpp"

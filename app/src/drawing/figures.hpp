@@ -1,13 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-
-#include <cstddef>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "wavebalance/app/analysis/motions.hpp"
 #include "wavebalance/app/analysis/response.hpp"

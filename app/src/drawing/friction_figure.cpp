@@ -1,10 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
 #include "wavebalance/app/analysis/friction_measures.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

@@ -1,9 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "wavebalance/app/files/quantity_text.hpp"
 
 namespace wavebalance::app {

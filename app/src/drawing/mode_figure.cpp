@@ -1,11 +1,7 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <string>
 #include <tuple>
-#include <utility>
 
 #include "plot/plot_parts.hpp"
 #include "wavebalance/app/drawing/stability_figure.hpp"

@@ -1,8 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <string>
-
 #include "wavebalance/app/compose/outputs.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

@@ -1,7 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "wavebalance/app/files/quantity_text.hpp"

@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-
 #include "plot/plot_parts.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

@@ -1,9 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "wavebalance/app/scene/contacts.hpp"
 
 namespace wavebalance::app {

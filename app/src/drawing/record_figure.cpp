@@ -1,12 +1,8 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
-#include <optional>
 #include <sstream>
 #include <tuple>
-#include <utility>
 
 #include "analysis/analysis_parts.hpp"
 #include "plot/plot_parts.hpp"

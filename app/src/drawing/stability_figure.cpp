@@ -1,10 +1,5 @@
 #include "wavebalance/app/drawing/stability_figure.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
-
 namespace wavebalance::app {
 namespace {
 

@@ -1,9 +1,5 @@
 #include "drawing/figures.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace wavebalance::app {
 
 bool SweepLine::is_unstable() const {

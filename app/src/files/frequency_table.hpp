@@ -1,7 +1,4 @@
 #pragma once
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "wavebalance/app/files/table.hpp"
 

@@ -1,7 +1,5 @@
 #pragma once
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "wavebalance/app/files/summary.hpp"
 

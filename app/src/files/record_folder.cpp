@@ -1,7 +1,5 @@
 #include "wavebalance/app/files/record_folder.hpp"
 
-#include <algorithm>
-
 #include "files/contains.hpp"
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/summary.hpp"

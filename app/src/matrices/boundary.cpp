@@ -1,9 +1,5 @@
 #include "matrices/boundary.hpp"
 
-#include <limits>
-#include <optional>
-#include <utility>
-
 #include "matrices/load_places.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"
 

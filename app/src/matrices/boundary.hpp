@@ -1,6 +1,4 @@
 #pragma once
-#include <Eigen/SparseCore>
-#include <vector>
 
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 
 #include "wavebalance/app/scene/contacts.hpp"
 #include "wavebalance/fem/craig_bampton.hpp"

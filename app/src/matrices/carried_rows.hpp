@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Core>
 
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"

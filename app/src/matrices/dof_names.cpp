@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <sstream>
 
 #include "matrices/structure_inputs.hpp"
@@ -14,7 +13,6 @@
 #include "scene/term_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"
-#include "wavebalance/fem/dof_map.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,7 +1,4 @@
 #pragma once
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "scene/scene_document.hpp"
 #include "wavebalance/fem/dof_map.hpp"

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <string>
 
 #include "files/contains.hpp"
 #include "wavebalance/app/scene/contacts.hpp"

@@ -1,8 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-#include <cstddef>
-#include <string_view>
-#include <vector>
 
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"

@@ -1,8 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-#include <stdexcept>
-#include <vector>
 
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/scene/scene.hpp"

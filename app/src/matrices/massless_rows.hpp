@@ -1,7 +1,4 @@
 #pragma once
-#include <Eigen/SparseCore>
-#include <string>
-#include <vector>
 
 #include "matrices/structure_files.hpp"
 

@@ -1,6 +1,4 @@
 #pragma once
-#include <memory>
-#include <string>
 
 #include "matrices/structure_files.hpp"
 #include "wavebalance/app/matrices/moved_mesh.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "matrices/structure_files.hpp"
 #include "matrices/symmetric_part.hpp"

@@ -1,7 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-#include <string>
-#include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 

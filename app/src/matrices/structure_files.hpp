@@ -1,12 +1,4 @@
 #pragma once
-#include <Eigen/Core>
-#include <array>
-#include <memory>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/fem/dof_map.hpp"

@@ -1,8 +1,4 @@
 #pragma once
-#include <Eigen/SparseCore>
-#include <optional>
-#include <string>
-#include <string_view>
 
 #include "wavebalance/fem/named_matrix.hpp"
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/SparseCore>
 #include <optional>
 
 #include "wavebalance/fem/matrices.hpp"

@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
 
 #include "analysis/analysis_parts.hpp"
 #include "outputs/peaks.hpp"

@@ -1,7 +1,6 @@
 #include "wavebalance/app/outputs/mode_outputs.hpp"
 
 #include <numbers>
-#include <utility>
 
 namespace wavebalance::app {
 namespace {

@@ -1,10 +1,6 @@
 #include "wavebalance/app/outputs/output_measures.hpp"
 
-#include <cmath>
-#include <complex>
 #include <numbers>
-#include <span>
-#include <utility>
 
 #include "files/missing.hpp"
 #include "wavebalance/spectral/fft.hpp"

@@ -1,10 +1,5 @@
 #include "outputs/peaks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include "outputs/point_measurer.hpp"
 #include "wavebalance/solvers/exact/exact_curve.hpp"
 

@@ -1,8 +1,4 @@
 #pragma once
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <vector>
 
 #include "wavebalance/app/outputs/output_measures.hpp"
 

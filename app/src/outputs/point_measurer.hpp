@@ -1,6 +1,4 @@
 #pragma once
-#include <utility>
-#include <vector>
 
 #include "analysis/analysis_parts.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

@@ -1,9 +1,5 @@
 #include "outputs/peaks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "wavebalance/solvers/response/curve_peak.hpp"
 
 namespace wavebalance::app {

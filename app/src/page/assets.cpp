@@ -2,8 +2,6 @@
 
 #include <array>
 #include <map>
-#include <stdexcept>
-#include <string>
 
 #include "page/library_files.hpp"
 #include "wavebalance/app/files/output.hpp"

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <stdexcept>
 
 #include "files/contains.hpp"
 #include "page/library_files.hpp"

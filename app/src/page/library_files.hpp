@@ -1,6 +1,4 @@
 #pragma once
-#include <filesystem>
-#include <vector>
 
 #include "wavebalance/app/page/assets.hpp"
 

@@ -1,8 +1,5 @@
 #pragma once
 #include <array>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 #include "wavebalance/app/plot/plot.hpp"
 

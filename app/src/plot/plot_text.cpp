@@ -1,6 +1,5 @@
 #include "plot/plot_parts.hpp"
 
-#include <array>
 #include <cctype>
 #include <cmath>
 

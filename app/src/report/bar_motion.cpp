@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Core>
-#include <span>
-#include <vector>
-
 namespace wavebalance::app {
 namespace {
 

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "report/page_parts.hpp"
 #include "wavebalance/app/compare/basis_pair.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

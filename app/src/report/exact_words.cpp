@@ -1,7 +1,5 @@
 #include "report/words.hpp"
 
-#include <map>
-
 namespace wavebalance::app {
 
 std::string exact_sentence(const std::string& status) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 #include "results/quantities.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"
 

@@ -3,13 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 #include <set>
-#include <stdexcept>
-#include <utility>
 
 #include "files/contains.hpp"
 #include "files/missing.hpp"

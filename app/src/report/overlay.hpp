@@ -1,8 +1,4 @@
 #pragma once
-#include <filesystem>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/table.hpp"

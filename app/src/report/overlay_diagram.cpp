@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "files/missing.hpp"
 #include "report/overlay.hpp"

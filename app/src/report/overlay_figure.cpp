@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
 
 #include "files/missing.hpp"
 #include "plot/plot_parts.hpp"

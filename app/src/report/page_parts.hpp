@@ -1,7 +1,4 @@
 #pragma once
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "report/reports.hpp"
 #include "wavebalance/app/files/summary.hpp"

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "files/missing.hpp"
 #include "files/number_text.hpp"
 #include "results/quantities.hpp"

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "wavebalance/app/files/output.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

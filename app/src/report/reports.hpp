@@ -1,7 +1,4 @@
 #pragma once
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "report/arguments.hpp"
 #include "wavebalance/app/compare/comparison_record.hpp"

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-#include <utility>
-
 #include "report/page_parts.hpp"
 #include "wavebalance/app/files/record_folder.hpp"
 #include "wavebalance/app/plot/figure_script.hpp"

@@ -1,8 +1,5 @@
 #include "report/reports.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <sstream>
 
 #include "report/page_parts.hpp"

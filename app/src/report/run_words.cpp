@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "files/number_text.hpp"
 #include "plot/plot_parts.hpp"
 #include "results/quantities.hpp"

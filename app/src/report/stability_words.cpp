@@ -1,11 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <span>
-
 #include "files/number_text.hpp"
 #include "report/words.hpp"
 #include "results/quantities.hpp"

@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 #include <sstream>
-#include <utility>
 
 #include "files/number_text.hpp"
 #include "report/page_parts.hpp"

@@ -1,7 +1,4 @@
 #pragma once
-#include <cstddef>
-#include <string>
-#include <vector>
 
 #include "wavebalance/app/analysis/sweep.hpp"
 #include "wavebalance/app/files/summary.hpp"

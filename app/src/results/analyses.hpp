@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 
 #include "wavebalance/app/compose/structure_model.hpp"
 #include "wavebalance/app/results/record.hpp"

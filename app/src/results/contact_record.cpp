@@ -1,7 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "files/missing.hpp"

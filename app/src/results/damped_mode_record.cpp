@@ -1,7 +1,5 @@
 #include "results/analyses.hpp"
 
-#include <fmt/format.h>
-
 #include <numbers>
 
 #include "drawing/figures.hpp"

@@ -1,16 +1,9 @@
 #include "results/analyses.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"

@@ -1,9 +1,5 @@
 #include "results/analyses.hpp"
 
-#include <fmt/format.h>
-
-#include <complex>
-
 #include "attractors/limit_cycle.hpp"
 #include "results/quantities.hpp"
 #include "results/record_parts.hpp"

@@ -1,9 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 

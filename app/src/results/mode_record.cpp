@@ -1,10 +1,5 @@
 #include "results/analyses.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"

@@ -1,11 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <span>
-#include <utility>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"

@@ -1,9 +1,5 @@
 #include "results/analyses.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"

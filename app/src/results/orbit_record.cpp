@@ -1,8 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cstdlib>
 
 #include "drawing/figures.hpp"

@@ -1,11 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "plot/plot_parts.hpp"

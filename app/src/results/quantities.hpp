@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "wavebalance/app/files/summary.hpp"
 

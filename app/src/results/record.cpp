@@ -1,7 +1,5 @@
 #include "wavebalance/app/results/record.hpp"
 
-#include <algorithm>
-
 #include "files/number_text.hpp"
 #include "results/analyses.hpp"
 #include "results/record_parts.hpp"

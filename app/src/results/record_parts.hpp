@@ -1,16 +1,5 @@
 #pragma once
 #include <fmt/format.h>
-#include <Eigen/Core>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"

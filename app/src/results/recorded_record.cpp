@@ -1,10 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "results/quantities.hpp"

@@ -1,9 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "analysis/analysis_parts.hpp"
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"

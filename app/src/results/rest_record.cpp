@@ -1,9 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "files/missing.hpp"
 #include "matrices/structure_facts.hpp"
 #include "results/quantities.hpp"

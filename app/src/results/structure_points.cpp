@@ -1,9 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/files/quantity_text.hpp"

@@ -1,9 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string_view>
-
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "wavebalance/app/analysis/measures.hpp"

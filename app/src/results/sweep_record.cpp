@@ -1,8 +1,5 @@
 #include "results/record_parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "drawing/figures.hpp"
 #include "files/missing.hpp"
 #include "files/number_text.hpp"

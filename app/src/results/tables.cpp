@@ -1,9 +1,5 @@
 #include "wavebalance/app/results/tables.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <utility>
-
 #include "files/missing.hpp"
 #include "results/quantities.hpp"
 #include "results/record_parts.hpp"

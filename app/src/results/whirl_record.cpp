@@ -1,11 +1,8 @@
 #include "results/record_parts.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <numbers>
-#include <vector>
 
 #include "drawing/figures.hpp"
 #include "wavebalance/app/analysis/whirl.hpp"

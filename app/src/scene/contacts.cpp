@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
-#include <stdexcept>
 
 #include "files/frequency_table.hpp"
 #include "wavebalance/contact/catalogue.hpp"

@@ -1,10 +1,4 @@
 #pragma once
-#include <array>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 

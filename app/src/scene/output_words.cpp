@@ -7,7 +7,6 @@
 #include <span>
 #include <sstream>
 #include <stdexcept>
-#include <vector>
 
 #include "scene/spelling.hpp"
 

@@ -1,8 +1,6 @@
 #include "scene/pair_reader.hpp"
 
-#include <algorithm>
 #include <set>
-#include <string>
 
 #include "files/contains.hpp"
 #include "scene/keys/law_keys.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <numbers>
-#include <stdexcept>
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/contact/catalogue.hpp"

@@ -1,13 +1,10 @@
 #include "scene/scene_document.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
 #include "scene/spelling.hpp"
 #include "scene/toml_text.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {

@@ -1,11 +1,4 @@
 #pragma once
-#include <cstdint>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "wavebalance/app/scene/scene.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"

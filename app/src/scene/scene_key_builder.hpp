@@ -1,14 +1,6 @@
 #pragma once
 #include <algorithm>
-#include <array>
-#include <functional>
-#include <limits>
-#include <string>
-#include <string_view>
 #include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "scene/enum_names.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"

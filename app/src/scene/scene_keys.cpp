@@ -1,9 +1,6 @@
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "files/contains.hpp"
 
-#include <algorithm>
-#include <map>
-
 namespace wavebalance::app {
 
 const SceneKey* find_scene_key(std::string_view full_name) {

@@ -1,13 +1,7 @@
 #include "scene/scene_keys_text.hpp"
 
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <span>
 #include <sstream>
-#include <utility>
 
 #include "files/number_text.hpp"
 #include "scene/keys/law_keys.hpp"

@@ -1,6 +1,4 @@
 #pragma once
-#include <functional>
-#include <string>
 
 #include "wavebalance/app/scene/scene_keys.hpp"
 

@@ -1,10 +1,6 @@
 #include "scene/scene_reader.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <filesystem>
-#include <functional>
 #include <set>
 
 #include "files/contains.hpp"
@@ -13,7 +9,6 @@
 #include "scene/spelling.hpp"
 #include "scene/term_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
-#include "wavebalance/app/scene/scene_keys.hpp"
 
 namespace wavebalance::app {
 namespace {

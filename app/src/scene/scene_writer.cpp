@@ -1,8 +1,5 @@
 #include "wavebalance/app/scene/scene_writer.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "files/contains.hpp"
 #include "scene/keys/law_keys.hpp"
 #include "scene/scene_document.hpp"

@@ -1,7 +1,5 @@
 #include "scene/term_reader.hpp"
 
-#include <string>
-
 #include "scene/scene_reader.hpp"
 #include "wavebalance/app/scene/scene_error.hpp"
 #include "wavebalance/app/scene/scene_keys.hpp"

@@ -1,6 +1,4 @@
 #pragma once
-#include <cstddef>
-#include <string_view>
 
 #include "scene/scene_document.hpp"
 #include "wavebalance/app/scene/scene.hpp"

@@ -6,10 +6,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 
 #include "files/json_line.hpp"
 #include "wavebalance/app/files/output.hpp"

@@ -1,11 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <set>
-#include <utility>
 
 #include "files/contains.hpp"
 #include "files/missing.hpp"

@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numeric>
-#include <utility>
 
 #include "files/missing.hpp"
 #include "results/quantities.hpp"

@@ -1,11 +1,7 @@
 #include "wavebalance/app/study/study_row.hpp"
 
-#include <array>
 #include <exception>
 #include <new>
-#include <optional>
-#include <stdexcept>
-#include <string_view>
 
 #include "files/json_line.hpp"
 #include "files/missing.hpp"

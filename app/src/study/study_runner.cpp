@@ -2,13 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <deque>
-#include <limits>
-#include <map>
 #include <set>
-#include <stdexcept>
-#include <string>
 
 #include "study/study_workers.hpp"
 #include "wavebalance/solvers/linalg/parallel_for.hpp"

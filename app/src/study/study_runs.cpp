@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <numeric>
 #include <random>
-#include <utility>
 
 #include "files/number_text.hpp"
 #include "wavebalance/app/compose/scene_loader.hpp"

@@ -1,7 +1,6 @@
 #include "study/study_workers.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace wavebalance::app {
 

@@ -2,11 +2,8 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <deque>
-#include <mutex>
 #include <thread>
-#include <vector>
 
 #include "wavebalance/app/study/study_row.hpp"
 

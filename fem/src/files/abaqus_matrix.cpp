@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 
 #include "entries.hpp"
 #include "text_parts.hpp"

@@ -1,10 +1,8 @@
 #include "wavebalance/fem/dof_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <istream>
-#include <stdexcept>
 
 #include "text_parts.hpp"
 

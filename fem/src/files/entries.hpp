@@ -1,11 +1,7 @@
 #pragma once
-#include <Eigen/SparseCore>
 
-#include <cstdint>
 #include <functional>
-#include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "wavebalance/fem/named_matrix.hpp"
 

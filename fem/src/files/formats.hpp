@@ -1,9 +1,4 @@
 #pragma once
-#include <filesystem>
-#include <iosfwd>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "wavebalance/fem/matrix_file.hpp"
 #include "wavebalance/fem/named_matrix.hpp"

@@ -1,9 +1,5 @@
 #include "text_parts.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <system_error>
-
 namespace wavebalance::fem::detail {
 namespace {
 

@@ -1,8 +1,5 @@
 #include "formats.hpp"
 
-#include <optional>
-#include <vector>
-
 #include "entries.hpp"
 #include "text_parts.hpp"
 #include "wavebalance/fem/matrix_file.hpp"

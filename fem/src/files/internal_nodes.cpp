@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <vector>
 
 namespace wavebalance::fem {
 namespace {

@@ -4,9 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <span>
 #include <tuple>
-#include <unordered_map>
 
 #include "wavebalance/fem/matrix_file.hpp"
 

@@ -2,8 +2,6 @@
 #include "wavebalance/fem/matrix_file.hpp"
 
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include "formats.hpp"
 #include "output4.hpp"

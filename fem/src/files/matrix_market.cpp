@@ -1,14 +1,8 @@
 #include "wavebalance/fem/matrix_market.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <istream>
 #include <limits>
-#include <sstream>
-#include <string_view>
-#include <utility>
 
 #include "entries.hpp"
 #include "text_parts.hpp"

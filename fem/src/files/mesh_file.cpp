@@ -1,10 +1,7 @@
 // Meshes of CalculiX and Abaqus. Their nodes are in the order of VTK, except a beam's middle.
 #include <algorithm>
-#include <array>
 #include <istream>
 #include <map>
-#include <optional>
-#include <span>
 
 #include "text_parts.hpp"
 #include "wavebalance/fem/mesh.hpp"

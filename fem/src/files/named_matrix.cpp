@@ -1,7 +1,6 @@
 #include "wavebalance/fem/named_matrix.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 #include "entries.hpp"
 #include "formats.hpp"

@@ -1,6 +1,5 @@
 #include <deque>
 #include <map>
-#include <span>
 
 #include "entries.hpp"
 #include "text_parts.hpp"

@@ -1,9 +1,6 @@
 #include "output4.hpp"
 
-#include <cmath>
-
 #include "entries.hpp"
-#include "text_parts.hpp"
 
 namespace wavebalance::fem {
 namespace detail {

@@ -1,8 +1,4 @@
 #pragma once
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "require.hpp"
 #include "text_parts.hpp"

@@ -1,7 +1,6 @@
 #include "text_parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <istream>
 
 namespace wavebalance::fem::detail {

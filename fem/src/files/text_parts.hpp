@@ -1,14 +1,8 @@
 #pragma once
 #include <array>
 #include <charconv>
-#include <filesystem>
 #include <fstream>
-#include <iosfwd>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <vector>
 
 #include "require.hpp"

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cmath>
 
 #include "files/number_text.hpp"
 #include "scene/keys/key_tables.hpp"

@@ -1,4 +1,3 @@
-#include <string>
 
 #include "scene/keys/key_tables.hpp"
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 
 #include "scene/scene_key_builder.hpp"
 

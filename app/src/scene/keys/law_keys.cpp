@@ -1,7 +1,5 @@
 #include "scene/keys/law_keys.hpp"
 
-#include <algorithm>
-
 #include "scene/scene_key_builder.hpp"
 #include "scene/spelling.hpp"
 

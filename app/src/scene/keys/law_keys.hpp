@@ -1,8 +1,4 @@
 #pragma once
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "wavebalance/app/scene/scene_keys.hpp"
 #include "wavebalance/contact/catalogue.hpp"
